@@ -1,0 +1,115 @@
+// Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own
+// struct as const; `parameters()` lists them all once, and the config file, the command line, the errors
+// and the printed config come from that list.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace lacuna {
+
+struct NeighbourhoodConfig {
+  std::int64_t k = 15;        // nearest neighbours before the symmetric closure, >= 1
+  double eps = 0.0;           // radius added to the k neighbours, in units of the scan; 0: off
+  double eps_fraction = 0.0;  // the same as a fraction of the bounding box's diagonal; at most one is set
+};
+
+struct NormalsConfig {
+  double crease_threshold = 0.5;  // angle probability above which an estimated normal is turned, [0, 1]
+  bool orient = false;            // orient consistently, by minimum spanning tree
+};
+
+struct CriteriaConfig {
+  double sigma = 1.0;         // sigma / r_p, > 0
+  double cone = 15.0;         // degrees around the normal line in which directions are not used, [0, 90)
+  double weight_angle = 1.0;  // weights are divided by their sum; >= 0, not all 0
+  double weight_halfdisc = 1.0;
+  double weight_shape = 1.0;
+};
+
+struct CoherenceConfig {
+  double threshold = 0.5;  // points above it are candidates, [0, 1]
+};
+
+struct SpanningConfig {
+  double max_prob_weight = 1.1;   // eligible: w_prob below it
+  double max_total_weight = 3.0;  // eligible: w_total below it
+  std::int64_t e = 0;             // an edge may close a loop of more than e edges; 0: round(2 sqrt(pi K))
+};
+
+struct SelectionConfig {
+  double min_perimeter = 0.0;
+  double max_perimeter = 0.0;  // 0: no limit
+  std::int64_t min_points = 0;
+  bool holes_only = false;
+};
+
+struct InputConfig {
+  std::string columns;  // names of a text file's columns, space separated; empty: from its header line
+};
+
+struct OutputConfig {
+  bool points = false;   // write points.ply
+  bool normals = false;  // with nx ny nz where they were estimated
+};
+
+struct RunConfig {
+  std::int64_t threads = 0;        // 0: one per core
+  std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory
+  std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
+  std::string workspace;           // folder for what does not fit in memory; empty: inside the output folder
+};
+
+struct Config {
+  NeighbourhoodConfig neighbourhood;
+  NormalsConfig normals;
+  CriteriaConfig criteria;
+  CoherenceConfig coherence;
+  SpanningConfig spanning;
+  SelectionConfig selection;
+  InputConfig input;
+  OutputConfig output;
+  RunConfig run;
+};
+
+
+// One line of the list: `[section] key = value`, on the command line `--key` with dashes.
+struct Parameter {
+  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*>;
+  std::string_view section;
+  std::string_view key;
+  Value value;  // points into the Config it was listed from; uint64_t: a size in bytes
+  double min;
+  double max;
+  std::string_view allowed;  // for error messages: "a whole number from 1 to 1000"
+  std::string_view help;
+
+  std::string option() const;  // "--tile-points"
+  std::string print() const;   // as in the config file
+  // Sets the value from text as on the command line. Throws `Error` naming the key and what is allowed.
+  void set(std::string_view text) const;
+};
+
+// Every parameter, in the order of the config file.
+std::vector<Parameter> parameters(Config& config);
+
+// Values of the file over those in `config`. Throws `Error` (file, line, key, what is allowed) for unknown
+// keys, wrong types and impossible values.
+void read_config(const std::filesystem::path& file, Config& config);
+
+// The whole config as TOML, a help comment above each key.
+std::string print_config(const Config& config);
+
+// Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit
+// too small to work in).
+void check_config(const Config& config);
+
+// "512MiB", "2GiB", "1500000" and back. Throws `Error`.
+std::uint64_t parse_bytes(std::string_view text);
+std::string print_bytes(std::uint64_t bytes);
+
+}  // namespace lacuna

@@ -1,0 +1,40 @@
+// Several scan files as one registered scan: the engine's view of the input.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/data/points.hpp"
+#include "io/scan_reader.hpp"
+
+namespace lacuna {
+
+class FileScan : public PointSource {
+ public:
+  // Opens every file once, so that a missing or broken one is an `Error` before any work is done.
+  FileScan(std::vector<std::filesystem::path> files, ReadOptions options);
+
+  void rewind() override;
+  bool next(PointBatch& batch) override;
+  std::optional<std::uint64_t> expected_points() const override;
+  bool has_normals() const override;  // any file has nx ny nz
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  const std::vector<RowLayout>& layouts() const { return layouts_; }  // one per file
+  const ReadOptions& options() const { return options_; }
+  bool single_precision() const;  // x, y and z are 32-bit floats in every file
+
+ private:
+  std::vector<std::filesystem::path> files_;
+  ReadOptions options_;
+  std::vector<RowLayout> layouts_;
+  std::optional<std::uint64_t> expected_points_;
+  // where reading stands
+  std::size_t file_ = 0;
+  std::uint64_t next_id_ = 0;
+  std::unique_ptr<ScanReader> reader_;
+  RowBatch rows_;
+};
+
+}  // namespace lacuna

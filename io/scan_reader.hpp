@@ -1,0 +1,56 @@
+// Reading a scan file: every format delivers rows of scalars in bounded batches.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+enum class Scalar : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+std::size_t size_of(Scalar type);
+const char* ply_name(Scalar type);  // "char", "uchar", ..., "float", "double"
+
+// A scalar of every row, at a fixed byte offset, in the machine's byte order.
+struct Property {
+  std::string name;
+  Scalar type;
+  std::size_t offset;
+};
+
+struct RowLayout {
+  std::vector<Property> properties;  // in file order; lists are skipped
+  std::size_t stride = 0;            // bytes per row, no padding
+
+  const Property* find(std::string_view name) const;
+};
+
+struct RowBatch {
+  std::size_t count = 0;
+  std::vector<std::byte> bytes;  // count * stride
+};
+
+// Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
+// (line or byte) and the reason.
+class ScanReader {
+ public:
+  virtual ~ScanReader() = default;
+  virtual const RowLayout& layout() const = 0;  // has x, y and z
+  virtual std::optional<std::uint64_t> expected_rows() const = 0;
+  // The next rows, at most `max_rows`; false at the end, when the file was found complete.
+  virtual bool next(RowBatch& batch, std::size_t max_rows) = 0;
+};
+
+struct ReadOptions {
+  std::string columns;  // text files: column names, space separated; empty: from the header line
+};
+
+// Opens a file by what it holds, not by its name. Throws `Error`.
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options);
+
+}  // namespace lacuna
