@@ -1,0 +1,27 @@
+// How a run tells how far it is. The engine reports; the terminal decides what to show.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace lacuna {
+
+class Progress {
+ public:
+  virtual ~Progress() = default;
+  // A new phase begins: `total` points (or edges) will pass through it; 0: not known.
+  virtual void begin(std::string_view phase, std::uint64_t total) = 0;
+  // `count` more have passed. May be called from any thread.
+  virtual void advance(std::uint64_t count) = 0;
+  virtual void end() = 0;
+};
+
+// Says nothing.
+class NoProgress final : public Progress {
+ public:
+  void begin(std::string_view, std::uint64_t) override {}
+  void advance(std::uint64_t) override {}
+  void end() override {}
+};
+
+}  // namespace lacuna

@@ -1,0 +1,29 @@
+// The whole method, from a scan to its holes, in bounded memory.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "engine/config.hpp"
+#include "engine/core/progress.hpp"
+#include "engine/data/detection.hpp"
+#include "engine/data/points.hpp"
+
+namespace lacuna {
+
+// Finds the boundary probability of every point and the loops around every hole of `scan`. What does not
+// fit in memory goes to `workspace`, an existing empty folder that must outlive the result. Throws `Error`.
+// The result is the same, bit for bit, for every `config.run`.
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
+                                  const std::filesystem::path& workspace, Progress& progress);
+
+// What a run would take, from one streaming pass.
+struct Estimate {
+  Summary summary;  // points, dropped, bounds, tiles, threads, memory limit, phases
+  std::uint64_t workspace_bytes = 0;
+  double cell_size = 0;
+  std::uint64_t cells = 0;
+};
+Estimate estimate(PointSource& scan, const Config& config, Progress& progress);
+
+}  // namespace lacuna
