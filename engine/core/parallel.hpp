@@ -1,0 +1,44 @@
+// All threading of Lacuna, in oneTBB. A body writes only what its index owns, so that nothing depends on
+// the order in which threads come by.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace lacuna {
+
+// Threads to work with. Bodies of `run` and `for_each` may call each other's results, never each other.
+class Crew {
+ public:
+  explicit Crew(std::size_t threads);  // 0: one per core
+  ~Crew();
+
+  std::size_t threads() const;
+
+  // body(i) for every i in [0, count), in any order. An exception in a body ends the loop and is rethrown.
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& body) const;
+
+  // The same with bounded memory: body i needs `needs[i]` bytes while it runs; bodies are started in
+  // ascending order and those running together never need more than `budget`, save one alone that does.
+  void for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,
+                       const std::function<void(std::size_t)>& body) const;
+
+  // body(begin, end) over blocks of [0, count) of at least `grain` indices.
+  void for_blocks(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) const;
+
+  // Both at once: `consume(value)` for each value that `produce` delivers, in their order, while `produce`
+  // already fetches the next ones. produce: false at the end.
+  void pipeline(const std::function<bool(std::size_t slot)>& produce,
+                const std::function<void(std::size_t slot)>& transform,
+                const std::function<void(std::size_t slot)>& consume, std::size_t slots) const;
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,78 @@
+#include "engine/core/scratch.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "engine/core/error.hpp"
+#include "engine/core/file.hpp"
+
+namespace lacuna {
+
+struct Scratch::Mapping {
+  std::unique_ptr<ScratchFile> file;
+  std::byte* address;
+  std::size_t bytes;
+};
+
+namespace {
+
+// Breaths between two looks at how much is resident. A fault may map a 64 KiB window of pages.
+constexpr std::uint64_t kBreaths = 256;
+
+// Bytes of mapped files that are resident in this process.
+std::uint64_t resident_mapped() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t total = 0, resident = 0, shared = 0;
+  statm >> total >> resident >> shared;
+  return shared * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string unique_name() {
+  static std::atomic<unsigned> count{0};
+  return "scratch-" + std::to_string(count++);
+}
+
+}  // namespace
+
+Scratch::Scratch(std::filesystem::path folder, std::uint64_t budget)
+    : folder_(std::move(folder)), budget_(budget), mapped_before_(resident_mapped()), breaths_left_(kBreaths) {}
+
+Scratch::~Scratch() {
+  for (const Mapping& mapping : mappings_) ::munmap(mapping.address, mapping.bytes);
+}
+
+std::byte* Scratch::allocate(std::size_t bytes) {
+  if (bytes == 0) return nullptr;
+  if (in_memory_ + bytes <= budget_) {
+    in_memory_ += bytes;
+    return blocks_.emplace_back(new std::byte[bytes]()).get();
+  }
+  auto file = std::make_unique<ScratchFile>(folder_ / unique_name());
+  // posix_fallocate rather than a sparse file: a full disk is an error here, not a SIGBUS later.
+  if (const int error = ::posix_fallocate(file->descriptor(), 0, static_cast<off_t>(bytes)); error != 0) {
+    throw Error(file->path().string() + ": cannot reserve " + std::to_string(bytes) +
+                " bytes: " + std::strerror(error));
+  }
+  void* address = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file->descriptor(), 0);
+  if (address == MAP_FAILED) {
+    throw Error(file->path().string() + ": cannot map: " + std::strerror(errno));
+  }
+  ::madvise(address, bytes, MADV_RANDOM);  // no read-around: a fault brings in what was asked for
+  mappings_.push_back({std::move(file), static_cast<std::byte*>(address), bytes});
+  return mappings_.back().address;
+}
+
+void Scratch::release() {
+  breaths_left_ = kBreaths;
+  if (mappings_.empty() || resident_mapped() < mapped_before_ + budget_ - in_memory_) return;
+  for (const Mapping& mapping : mappings_) ::madvise(mapping.address, mapping.bytes, MADV_DONTNEED);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,81 @@
+// Many append-only lists of records that together may be larger than memory.
+//
+// Each list has a buffer in memory. A buffer that reaches its share is written to the end of the one file
+// as an extent of its list; when all buffers together reach the budget, the largest half of them is
+// written. So the file is written in long runs, whatever the order of appends, and memory stays within the
+// budget. Reading a list gathers its extents and what is still in its buffer. The order of records within
+// a list depends on threads and budget: a reader sorts them by what they hold.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "engine/core/file.hpp"
+
+namespace lacuna {
+
+class SpillBytes {
+ public:
+  SpillBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget);
+
+  // May be called from any thread; the bytes of one call stay together.
+  void append(std::size_t list, std::span<const std::byte> bytes);
+  std::uint64_t size(std::size_t list) const;  // bytes appended so far
+  std::size_t lists() const { return lists_.size(); }
+  // Not while others append to the same list.
+  void read(std::size_t list, std::byte* to) const;
+  // Frees the list's buffer; what it held is gone.
+  void drop(std::size_t list);
+
+ private:
+  struct Extent {
+    std::uint64_t offset, size;
+  };
+  struct List {
+    std::vector<std::byte> buffer;
+    std::vector<Extent> extents;
+    std::uint64_t size = 0;
+  };
+  void write_out(List& list);
+  void relieve();
+
+  ScratchFile file_;
+  std::uint64_t budget_;
+  std::uint64_t buffered_ = 0;
+  std::uint64_t end_ = 0;
+  std::vector<List> lists_;
+  mutable std::mutex mutex_;
+};
+
+template <class Record>
+class Spill {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  Spill(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
+      : bytes_(std::move(path), lists, budget) {}
+
+  void append(std::size_t list, std::span<const Record> records) {
+    if (!records.empty()) bytes_.append(list, std::as_bytes(records));
+  }
+  void append(std::size_t list, const Record& record) { append(list, std::span(&record, 1)); }
+  std::uint64_t count(std::size_t list) const { return bytes_.size(list) / sizeof(Record); }
+  std::size_t lists() const { return bytes_.lists(); }
+  std::vector<Record> read(std::size_t list) const {
+    std::vector<Record> records(count(list));
+    bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
+    return records;
+  }
+  void drop(std::size_t list) { bytes_.drop(list); }
+
+ private:
+  SpillBytes bytes_;
+};
+
+}  // namespace lacuna

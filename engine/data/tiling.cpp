@@ -1,0 +1,88 @@
+#include "engine/data/tiling.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace lacuna {
+
+double CellGrid::edge() const { return std::ldexp(1.0, finest + shift); }
+
+CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
+  // By a power of two: exact, so every pass finds the same cell.
+  const double scale = std::ldexp(1.0, -finest);
+  CellCoord cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double index = std::clamp<double>(std::floor(position[axis] * scale), -kLast, kLast);
+    cell[axis] = static_cast<std::int32_t>(index) >> shift;
+  }
+  return cell;
+}
+
+Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) const {
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  Eigen::AlignedBox3d box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min()[axis] = low[axis] == -(kLast >> shift) ? -kEverywhere : std::ldexp(low[axis] * 1.0, finest + shift);
+    box.max()[axis] = high[axis] == kLast >> shift ? kEverywhere : std::ldexp(high[axis] + 1.0, finest + shift);
+  }
+  return box;
+}
+
+TileIndex Tiling::tile_of_cell(std::uint32_t cell) const {
+  const auto after = std::upper_bound(tiles.begin(), tiles.end(), cell,
+                                      [](std::uint32_t c, const Tile& tile) { return c < tile.first_cell; });
+  return static_cast<TileIndex>(after - tiles.begin() - 1);
+}
+
+TileIndex Tiling::tile_of_row(Row row) const {
+  const auto after = std::upper_bound(tiles.begin(), tiles.end(), row,
+                                      [](Row r, const Tile& tile) { return r < tile.first_row; });
+  return static_cast<TileIndex>(after - tiles.begin() - 1);
+}
+
+void Tiling::recount() {
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parent
+    CellNode& node = nodes[i];
+    node.points = 0;
+    if (node.left != 0) {
+      node.points = nodes[node.left].points + nodes[node.right].points;
+    } else {
+      for (std::uint32_t cell = node.first; cell < node.last; ++cell) node.points += cells[cell].points;
+    }
+  }
+}
+
+void Tiling::check() const {
+  std::uint32_t cell = 0;
+  for (const Tile& tile : tiles) {
+    assert(tile.first_cell == cell && tile.last_cell > cell);
+    assert(tile.points <= tile.raw);
+    cell = tile.last_cell;
+  }
+  assert(cell == cells.size());
+  assert(cell_rows.empty() || cell_rows.size() == cells.size());
+}
+
+// Rounded in the same order as the distances of points, so that rounding, being monotone, keeps the bounds.
+namespace {
+
+double squared_length(const Eigen::Array3d& offset) {
+  return (offset.x() * offset.x() + offset.y() * offset.y()) + offset.z() * offset.z();
+}
+
+}  // namespace
+
+double min_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const Eigen::Array3d before = (a.min() - b.max()).array();
+  const Eigen::Array3d after = (b.min() - a.max()).array();
+  return squared_length(before.max(after).max(0.0));
+}
+
+double max_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const Eigen::Array3d down = (a.max() - b.min()).array();
+  const Eigen::Array3d up = (b.max() - a.min()).array();
+  return squared_length(down.max(up));
+}
+
+}  // namespace lacuna

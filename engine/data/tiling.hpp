@@ -1,0 +1,80 @@
+// Where the points are: cells that hold them, a tree over the cells, and tiles cut from it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "engine/data/ids.hpp"
+
+namespace lacuna {
+
+using CellCoord = std::array<std::int32_t, 3>;
+
+// Cells are cubes of edge 2^(finest + shift) aligned to the origin: `shift` doublings of the size that a
+// survey began with. Points beyond the range of indices belong to the last cell on that side, which
+// therefore has no end; that range is counted in finest cells, so a point keeps its cell's ancestor
+// however often cells are merged.
+struct CellGrid {
+  static constexpr std::int32_t kLast = 1 << 30;
+  static constexpr int kMaxShift = 30;
+
+  int finest = 0;
+  int shift = 0;
+
+  double edge() const;
+  CellCoord cell_of(const Eigen::Vector3d& position) const;
+  // Smallest box that holds all points of the cells from `low` to `high`.
+  Eigen::AlignedBox3d box(const CellCoord& low, const CellCoord& high) const;
+};
+
+struct CountedCell {
+  CellCoord coord{};
+  std::uint64_t points = 0;
+};
+
+// A run of cells in store order. A node's children are its two halves; leaves have none.
+struct CellNode {
+  CellCoord low{}, high{};  // tight bounds of its cells
+  std::uint32_t first = 0, last = 0;  // cells [first, last)
+  std::uint32_t left = 0, right = 0;  // nodes; 0: a leaf
+  std::uint64_t points = 0;
+};
+
+// A tile's first row is a multiple of this, so that two tiles never share a word of a bitmap over rows.
+inline constexpr std::uint64_t kRowAlignment = 64;
+
+struct Tile {
+  std::uint32_t first_cell = 0, last_cell = 0;
+  Row first_row{};           // its rows: [first_row, first_row + points)
+  std::uint64_t raw = 0;     // points with duplicates
+  std::uint64_t points = 0;  // distinct points; known after bucketing
+};
+
+using TileIndex = std::uint32_t;
+
+// The index of a scan: boxes, counts and places, never points. Cells and tiles stand in the order of the
+// tree (near in the order: near in space), which is also the order of points in the store.
+struct Tiling {
+  CellGrid grid;
+  std::vector<CountedCell> cells;  // `points`: distinct ones after bucketing
+  std::vector<Row> cell_rows;      // first row of each cell; known after bucketing
+  std::vector<CellNode> nodes;     // nodes[0] is the root, where there are cells
+  std::vector<Tile> tiles;
+
+  TileIndex tile_of_cell(std::uint32_t cell) const;
+  TileIndex tile_of_row(Row row) const;
+  Eigen::AlignedBox3d box(const CellNode& node) const { return grid.box(node.low, node.high); }
+  Eigen::AlignedBox3d cell_box(std::uint32_t cell) const { return grid.box(cells[cell].coord, cells[cell].coord); }
+  void recount();  // nodes' points from the cells'
+  void check() const;
+};
+
+// Lower and upper bound of the squared distance between a point of `a` and a point of `b`.
+double min_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
+double max_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
+
+}  // namespace lacuna

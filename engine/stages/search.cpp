@@ -1,0 +1,127 @@
+#include "engine/stages/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+#include <string>
+
+#include "engine/core/error.hpp"
+
+namespace lacuna {
+namespace {
+
+struct Adaptor {
+  std::span<const Eigen::Vector3d> positions;
+
+  std::size_t kdtree_get_point_count() const { return positions.size(); }
+  double kdtree_get_pt(std::size_t point, std::size_t axis) const { return positions[point][axis]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Metric = nanoflann::L2_Simple_Adaptor<double, Adaptor, double, LocalIndex>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Adaptor, 3, LocalIndex>;
+
+// nanoflann bounds the distance of a branch by sums that are rounded: a branch at the very distance of the
+// worst neighbour is looked into all the same.
+const nanoflann::SearchParams kExact(0, -1e-6f, false);
+
+// nanoflann offers only points strictly nearer than `worstDist`; ties are decided by id here.
+double just_above(double distance) { return std::nextafter(distance, std::numeric_limits<double>::infinity()); }
+
+// The k first neighbours, kept sorted.
+class KNearest {
+ public:
+  using DistanceType = double;
+
+  KNearest(LocalIndex query, std::span<const PointId> ids, std::size_t k, std::vector<Neighbour>& found)
+      : query_(query), ids_(ids), k_(k), found_(found) {
+    found_.clear();
+  }
+
+  bool addPoint(double distance, LocalIndex index) {
+    if (index == query_) return true;
+    const Neighbour candidate{distance, ids_[index], index};
+    if (found_.size() == k_) {
+      if (!(candidate < found_.back())) return true;
+      found_.pop_back();
+    }
+    auto place = found_.end();
+    while (place != found_.begin() && candidate < *(place - 1)) --place;
+    found_.insert(place, candidate);
+    return true;
+  }
+  double worstDist() const {
+    return found_.size() < k_ ? std::numeric_limits<double>::infinity() : just_above(found_.back().squared_distance);
+  }
+  bool full() const { return found_.size() == k_; }
+  std::size_t size() const { return found_.size(); }
+
+ private:
+  LocalIndex query_;
+  std::span<const PointId> ids_;
+  std::size_t k_;
+  std::vector<Neighbour>& found_;
+};
+
+class Ball {
+ public:
+  using DistanceType = double;
+
+  Ball(LocalIndex query, std::span<const PointId> ids, double squared_radius, std::vector<Neighbour>& found)
+      : query_(query), ids_(ids), squared_radius_(squared_radius), found_(found) {
+    found_.clear();
+  }
+
+  bool addPoint(double distance, LocalIndex index) {
+    if (index != query_ && distance <= squared_radius_) found_.push_back({distance, ids_[index], index});
+    return true;
+  }
+  double worstDist() const { return just_above(squared_radius_); }
+  bool full() const { return true; }
+  std::size_t size() const { return found_.size(); }
+
+ private:
+  LocalIndex query_;
+  std::span<const PointId> ids_;
+  double squared_radius_;
+  std::vector<Neighbour>& found_;
+};
+
+}  // namespace
+
+struct PointTree::Index {
+  Adaptor adaptor;
+  Tree tree;
+
+  explicit Index(std::span<const Eigen::Vector3d> positions)
+      : adaptor{positions}, tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(12)) {}
+};
+
+PointTree::PointTree(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
+    : positions_(positions), ids_(ids), index_(std::make_unique<Index>(positions)) {}
+
+PointTree::~PointTree() = default;
+
+void PointTree::nearest(LocalIndex query, std::size_t k, std::vector<Neighbour>& found) const {
+  KNearest result(query, ids_, k, found);
+  index_->tree.findNeighbors(result, positions_[query].data(), kExact);
+  if (!found.empty()) refuse_underflow(found.front().squared_distance, ids_[query], found.front().id);
+}
+
+void PointTree::within(LocalIndex query, double squared_radius, std::vector<Neighbour>& found) const {
+  Ball result(query, ids_, squared_radius, found);
+  index_->tree.findNeighbors(result, positions_[query].data(), kExact);
+  std::sort(found.begin(), found.end());
+}
+
+void refuse_underflow(double squared_distance, PointId a, PointId b) {
+  if (squared_distance >= std::numeric_limits<double>::min()) return;
+  throw Error("points " + std::to_string(value(a)) + " and " + std::to_string(value(b)) +
+              " differ by less than 1.5e-154: their squared distance underflows; scale the scan up");
+}
+
+}  // namespace lacuna
