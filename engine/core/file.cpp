@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 #include "engine/core/error.hpp"
 
@@ -22,7 +23,11 @@ ScratchFile::ScratchFile(std::filesystem::path path) : path_(std::move(path)) {
   if (descriptor_ < 0) fail(path_, "create");
 }
 
+ScratchFile::ScratchFile(ScratchFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
 ScratchFile::~ScratchFile() {
+  if (descriptor_ < 0) return;
   ::close(descriptor_);
   ::unlink(path_.c_str());
 }

@@ -14,8 +14,8 @@ class ScratchFile {
  public:
   explicit ScratchFile(std::filesystem::path path);
   ~ScratchFile();  // removes the file
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
+  ScratchFile(ScratchFile&& other) noexcept;
+  ScratchFile& operator=(ScratchFile&&) = delete;
 
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   // Bytes that were never written read as 0.
@@ -48,6 +48,28 @@ class Column {
 
  private:
   ScratchFile file_;
+};
+
+// Records of rows in ascending order, read in runs: for a few here and there.
+template <class Record>
+class RunReader {
+ public:
+  explicit RunReader(const Column<Record>& column) : column_(column) {}
+
+  const Record& operator[](std::uint64_t row) {
+    constexpr std::size_t kRun = 256;
+    if (run_.empty() || row >= first_ + run_.size()) {
+      first_ = row;
+      run_.resize(kRun);
+      column_.read(row, std::span(run_));
+    }
+    return run_[row - first_];
+  }
+
+ private:
+  const Column<Record>& column_;
+  std::uint64_t first_ = 0;
+  std::vector<Record> run_;
 };
 
 }  // namespace lacuna

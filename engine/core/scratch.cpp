@@ -42,7 +42,7 @@ std::string unique_name() {
 }  // namespace
 
 Scratch::Scratch(std::filesystem::path folder, std::uint64_t budget)
-    : folder_(std::move(folder)), budget_(budget), mapped_before_(resident_mapped()), breaths_left_(kBreaths) {}
+    : folder_(std::move(folder)), budget_(budget), breaths_left_(kBreaths) {}
 
 Scratch::~Scratch() {
   for (const Mapping& mapping : mappings_) ::munmap(mapping.address, mapping.bytes);
@@ -54,6 +54,7 @@ std::byte* Scratch::allocate(std::size_t bytes) {
     in_memory_ += bytes;
     return blocks_.emplace_back(new std::byte[bytes]()).get();
   }
+  if (mappings_.empty()) mapped_before_ = resident_mapped();
   auto file = std::make_unique<ScratchFile>(folder_ / unique_name());
   // posix_fallocate rather than a sparse file: a full disk is an error here, not a SIGBUS later.
   if (const int error = ::posix_fallocate(file->descriptor(), 0, static_cast<off_t>(bytes)); error != 0) {

@@ -41,7 +41,7 @@ class Scratch {
   std::filesystem::path folder_;
   std::uint64_t budget_;
   std::uint64_t in_memory_ = 0;
-  std::uint64_t mapped_before_;
+  std::uint64_t mapped_before_ = 0;  // of other files: the program and its libraries
   std::uint64_t breaths_left_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::vector<Mapping> mappings_;

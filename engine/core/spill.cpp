@@ -8,7 +8,7 @@ SpillBytes::SpillBytes(std::filesystem::path path, std::size_t lists, std::uint6
     : file_(std::move(path)), budget_(std::max<std::uint64_t>(budget, 1 << 16)), lists_(lists) {}
 
 void SpillBytes::append(std::size_t index, std::span<const std::byte> bytes) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(*mutex_);
   List& list = lists_[index];
   const std::size_t before = list.buffer.capacity();
   list.buffer.insert(list.buffer.end(), bytes.begin(), bytes.end());
@@ -18,22 +18,26 @@ void SpillBytes::append(std::size_t index, std::span<const std::byte> bytes) {
 }
 
 std::uint64_t SpillBytes::size(std::size_t list) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(*mutex_);
   return lists_[list].size;
 }
 
-void SpillBytes::read(std::size_t index, std::byte* to) const {
-  const std::lock_guard lock(mutex_);
+void SpillBytes::read(std::size_t index, std::uint64_t from, std::uint64_t bytes, std::byte* to) const {
+  const std::lock_guard lock(*mutex_);
   const List& list = lists_[index];
   for (const Extent& extent : list.extents) {
-    file_.read(extent.offset, {to, extent.size});
-    to += extent.size;
+    const std::uint64_t skip = std::min(from, extent.size);
+    const std::uint64_t taken = std::min(bytes, extent.size - skip);
+    file_.read(extent.offset + skip, {to, taken});
+    from -= skip;
+    bytes -= taken;
+    to += taken;
   }
-  std::copy(list.buffer.begin(), list.buffer.end(), to);
+  std::copy_n(list.buffer.begin() + static_cast<std::ptrdiff_t>(from), bytes, to);
 }
 
 void SpillBytes::drop(std::size_t index) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(*mutex_);
   buffered_ -= lists_[index].buffer.capacity();
   lists_[index] = List{};
 }

@@ -7,10 +7,11 @@
 // a list depends on threads and budget: a reader sorts them by what they hold.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <type_traits>
@@ -29,7 +30,8 @@ class SpillBytes {
   std::uint64_t size(std::size_t list) const;  // bytes appended so far
   std::size_t lists() const { return lists_.size(); }
   // Not while others append to the same list.
-  void read(std::size_t list, std::byte* to) const;
+  void read(std::size_t list, std::byte* to) const { read(list, 0, size(list), to); }
+  void read(std::size_t list, std::uint64_t from, std::uint64_t bytes, std::byte* to) const;
   // Frees the list's buffer; what it held is gone.
   void drop(std::size_t list);
 
@@ -50,7 +52,7 @@ class SpillBytes {
   std::uint64_t buffered_ = 0;
   std::uint64_t end_ = 0;
   std::vector<List> lists_;
-  mutable std::mutex mutex_;
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
 
 template <class Record>
@@ -71,6 +73,17 @@ class Spill {
     std::vector<Record> records(count(list));
     bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
     return records;
+  }
+  // visit(record) for each, with only a part of them in memory.
+  template <class Visit>
+  void for_each(std::size_t list, Visit&& visit) const {
+    constexpr std::uint64_t kPart = 1 << 14;
+    std::vector<Record> part;
+    for (std::uint64_t from = 0; from < count(list); from += part.size()) {
+      part.resize(std::min(kPart, count(list) - from));
+      bytes_.read(list, from * sizeof(Record), part.size() * sizeof(Record), reinterpret_cast<std::byte*>(part.data()));
+      for (const Record& record : part) visit(record);
+    }
   }
   void drop(std::size_t list) { bytes_.drop(list); }
 

@@ -41,6 +41,16 @@ TileIndex Tiling::tile_of_row(Row row) const {
   return static_cast<TileIndex>(after - tiles.begin() - 1);
 }
 
+std::uint64_t Tiling::row_count() const {
+  return tiles.empty() ? 0 : value(tiles.back().first_row) + tiles.back().raw;
+}
+
+std::uint64_t Tiling::points() const {
+  std::uint64_t points = 0;
+  for (const Tile& tile : tiles) points += tile.points;
+  return points;
+}
+
 void Tiling::recount() {
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parent
     CellNode& node = nodes[i];

@@ -69,6 +69,8 @@ struct Tiling {
   TileIndex tile_of_row(Row row) const;
   Eigen::AlignedBox3d box(const CellNode& node) const { return grid.box(node.low, node.high); }
   Eigen::AlignedBox3d cell_box(std::uint32_t cell) const { return grid.box(cells[cell].coord, cells[cell].coord); }
+  std::uint64_t row_count() const;  // rows up to the last used one
+  std::uint64_t points() const;     // distinct ones
   void recount();  // nodes' points from the cells'
   void check() const;
 };

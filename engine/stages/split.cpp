@@ -66,8 +66,8 @@ class Splitter {
 
 }  // namespace
 
-Tiling split_tiles(SurveyedScan scan, std::uint64_t tile_points) {
-  Tiling tiling{.grid = scan.grid, .cells = std::move(scan.cells)};
+Tiling split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points) {
+  Tiling tiling{.grid = grid, .cells = std::move(cells)};
   if (tiling.cells.empty()) return tiling;
   Splitter(tiling, tile_points).split(0, static_cast<std::uint32_t>(tiling.cells.size()), false);
   std::uint64_t row = 0;

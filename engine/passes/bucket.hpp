@@ -1,0 +1,17 @@
+// The first two passes: where the points are, and the points themselves sorted into tiles on disk.
+#pragma once
+
+#include "engine/core/tile_store.hpp"
+#include "engine/data/points.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/stages/survey.hpp"
+
+namespace lacuna {
+
+// Streams the scan once and counts its points per cell.
+SurveyedScan survey_scan(PointSource& scan, Job& job);
+
+// Streams it again and stores every distinct finite point in its tile, in cell order.
+TileStore bucket_scan(PointSource& scan, Tiling tiling, Job& job);
+
+}  // namespace lacuna

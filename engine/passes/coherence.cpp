@@ -1,0 +1,45 @@
+#include "engine/passes/coherence.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lacuna {
+namespace {
+
+std::vector<Candidate> read_candidates(const EvaluatedScan& scan, TileIndex tile) {
+  std::vector<Candidate> candidates;
+  for (const StoredCandidate& c : scan.candidates.read(tile)) candidates.push_back(c.candidate);
+  return candidates;
+}
+
+}  // namespace
+
+RowSet make_coherent(const EvaluatedScan& scan, const TileStore& store, Job& job) {
+  const std::size_t tiles = store.tiling().tiles.size();
+  Phase phase(job, "coherence", scan.totals.candidates);
+  RowSet boundary(store.tiling().row_count());
+  job.crew.for_each(tiles, [&](std::size_t t) {
+    for (const Candidate& c : read_candidates(scan, static_cast<TileIndex>(t))) boundary.insert(c.row);
+  });
+
+  std::vector<TileIndex> unsettled(tiles);
+  std::iota(unsettled.begin(), unsettled.end(), TileIndex{0});
+  for (bool first = true; !unsettled.empty(); first = false) {
+    std::vector<std::uint8_t> changed(unsettled.size());
+    job.crew.for_each(unsettled.size(), [&](std::size_t i) {
+      const std::vector<Candidate> candidates = read_candidates(scan, unsettled[i]);
+      changed[i] = settle_coherence(candidates, boundary);
+      if (first) phase.advance(candidates.size());
+    });
+    std::vector<TileIndex> next;
+    for (std::size_t i = 0; i < unsettled.size(); ++i) {
+      if (changed[i]) next.insert(next.end(), scan.leaning[unsettled[i]].begin(), scan.leaning[unsettled[i]].end());
+    }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    unsettled = std::move(next);
+  }
+  return boundary;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,13 @@
+// Coherence over all tiles (paper, 5.1).
+#pragma once
+
+#include "engine/passes/evaluate.hpp"
+
+namespace lacuna {
+
+// The greatest set of candidates of which each has both of its gap neighbours in it. Tiles are settled on
+// their own and looked at again while a tile that they lean on changes; the result does not depend on the
+// order. Memory: one bit per row.
+RowSet make_coherent(const EvaluatedScan& scan, const TileStore& store, Job& job);
+
+}  // namespace lacuna

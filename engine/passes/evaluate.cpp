@@ -1,0 +1,313 @@
+#include "engine/passes/evaluate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "engine/stages/evaluate.hpp"
+#include "engine/stages/neighbourhoods.hpp"
+#include "engine/stages/orient.hpp"
+#include "engine/stages/reach.hpp"
+
+namespace lacuna {
+namespace {
+
+// Cells of other tiles within eps of a tile's cells.
+std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, double eps) {
+  std::vector<std::uint32_t> cells;
+  if (eps == 0) return cells;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, tile.first_cell, tile.last_cell,
+                       [&](std::uint32_t near) {
+                         cells.push_back(near);
+                         return true;
+                       });
+    if (cells.size() > 4 * tiling.cells.size() || cell + 1 == tile.last_cell) {
+      std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    }
+  }
+  return cells;
+}
+
+// Foreign points that a tile sees, each once, in ascending row.
+struct Sight {
+  std::vector<StoredPoint> points;
+  std::vector<Row> rows;
+
+  LocalIndex find(Row row) const {
+    const auto at = std::lower_bound(rows.begin(), rows.end(), row);
+    return static_cast<LocalIndex>(at - rows.begin());
+  }
+};
+
+Sight foreign_sight(const TileStore& store, std::span<const Link> links, std::span<const std::uint32_t> halo) {
+  Sight sight;
+  store.read_cells(halo, sight.points, sight.rows);
+  std::vector<std::pair<Row, StoredPoint>> seen;
+  for (std::size_t i = 0; i < sight.rows.size(); ++i) seen.emplace_back(sight.rows[i], sight.points[i]);
+  for (const Link& link : links) seen.emplace_back(link.row, link.foreign);
+  std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  seen.erase(std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+             seen.end());
+  sight.points.clear();
+  sight.rows.clear();
+  for (const auto& [row, point] : seen) {
+    sight.rows.push_back(row);
+    sight.points.push_back(point);
+  }
+  return sight;
+}
+
+// `links` get sorted.
+TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& links,
+                  std::span<const std::uint32_t> halo) {
+  const Tile& tile = store.tiling().tiles[index];
+  TilePoints points;
+  const auto add = [&](const StoredPoint& p, Row row) {
+    points.positions.push_back(p.position());
+    points.ids.push_back(p.id);
+    points.rows.push_back(row);
+  };
+  std::uint64_t row = value(tile.first_row);
+  for (const StoredPoint& p : store.points(index)) add(p, Row{row++});
+  points.owned = static_cast<LocalIndex>(points.size());
+  const Sight sight = foreign_sight(store, links, halo);
+  for (std::size_t i = 0; i < sight.rows.size(); ++i) add(sight.points[i], sight.rows[i]);
+
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+    return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
+  });
+  auto link = links.begin();
+  for (LocalIndex p = 0; p < points.owned; ++p) {
+    for (; link != links.end() && link->owned == p; ++link) {
+      if (link->incoming) points.linked.indices.push_back(points.owned + sight.find(link->row));
+    }
+    points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
+  }
+  return points;
+}
+
+// One tile's share of the evaluated scan.
+class TileRecorder {
+ public:
+  TileRecorder(EvaluatedScan& scan, const TileStore& store, const Job& job, TileIndex tile, const TilePoints& points,
+               const Rows& neighbourhoods, const std::vector<Evaluation>& evaluations)
+      : scan_(scan), store_(store), job_(job), tile_(tile), points_(points), neighbourhoods_(neighbourhoods),
+        evaluations_(evaluations) {}
+
+  void record() {
+    record_strengths();
+    record_edges();
+    record_candidates();
+    if (job_.config.output.points) record_results();
+    if (job_.config.normals.orient) record_orientation();
+  }
+
+  Totals totals() const {
+    Totals totals;
+    totals.points = points_.owned;
+    totals.neighbours = neighbourhoods_.indices.size();
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      const Evaluation& e = evaluations_[p];
+      totals.candidates += e.probability > job_.config.coherence.threshold;
+      totals.undefined_normals += !e.normal.allFinite();
+      const double length = e.mean_distance * static_cast<double>(neighbourhoods_[p].size());
+      totals.edge_length += static_cast<__int128>(length / scan_.totals.length_unit);
+    }
+    return totals;
+  }
+
+  // Tiles that own gap neighbours of this tile's candidates.
+  const std::vector<TileIndex>& leans_on() const { return leans_on_; }
+
+ private:
+  StoredPoint stored(LocalIndex p) const {
+    const Eigen::Vector3d& x = points_.positions[p];
+    return {x.x(), x.y(), x.z(), points_.ids[p]};
+  }
+  float probability(LocalIndex p) const { return static_cast<float>(evaluations_[p].probability); }
+
+  void record_strengths() {
+    std::vector<Strength> strengths;
+    strengths.reserve(points_.owned);
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      strengths.push_back({evaluations_[p].mean_distance, probability(p)});
+    }
+    scan_.strengths.write(value(store_.tiling().tiles[tile_].first_row), strengths);
+  }
+
+  void record_edges() {
+    const TileEdges edges = eligible_edges(points_, neighbourhoods_, evaluations_, job_.config.spanning);
+    scan_.edges.append(tile_, edges.inside);
+    std::vector<StoredCrossing> crossings;
+    for (const Crossing& c : edges.crossings) {
+      crossings.push_back({c.owned, points_.rows[c.foreign], points_.ids[c.foreign], c.distance});
+    }
+    scan_.crossings.append(tile_, crossings);
+
+    // Ends of eligible edges; of edges between tiles another tile may tell, so all with foreign neighbours.
+    std::vector<bool> is_vertex(points_.owned);
+    for (const TileEdge& edge : edges.inside) is_vertex[edge.a] = is_vertex[edge.b] = true;
+    std::vector<StoredVertex> vertices;
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      const auto neighbours = neighbourhoods_[p];
+      if (!is_vertex[p] && std::all_of(neighbours.begin(), neighbours.end(),
+                                       [&](LocalIndex q) { return points_.is_owned(q); })) {
+        continue;
+      }
+      const Eigen::Vector3f surface = evaluations_[p].mean_offset.cast<float>();
+      vertices.push_back({p, probability(p), {surface.x(), surface.y(), surface.z()}, stored(p)});
+    }
+    scan_.vertices.append(tile_, vertices);
+  }
+
+  void record_candidates() {
+    std::vector<StoredCandidate> candidates;
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      const Evaluation& e = evaluations_[p];
+      if (!(e.probability > job_.config.coherence.threshold) || e.gap_near == kNoIndex) continue;
+      candidates.push_back(
+          {{points_.rows[p], points_.rows[e.gap_near], points_.rows[e.gap_far]}, stored(p), probability(p)});
+      for (const LocalIndex gap : {e.gap_near, e.gap_far}) {
+        if (!points_.is_owned(gap)) leans_on_.push_back(store_.tiling().tile_of_row(points_.rows[gap]));
+      }
+    }
+    std::sort(leans_on_.begin(), leans_on_.end());
+    leans_on_.erase(std::unique(leans_on_.begin(), leans_on_.end()), leans_on_.end());
+    scan_.candidates.append(tile_, candidates);
+  }
+
+  StoredResult result(PointId id, LocalIndex p) const {
+    const Evaluation& e = evaluations_[p];
+    StoredResult result{.id = id, .row = points_.rows[p], .probability = probability(p)};
+    for (std::size_t i = 0; i < kCriteria; ++i) result.criteria[i] = static_cast<float>(e.criteria[i]);
+    for (int axis = 0; axis < 3; ++axis) result.normal[axis] = static_cast<float>(e.normal[axis]);
+    return result;
+  }
+
+  // By block of ids, duplicates with the results of the point that stands for them.
+  void record_results() {
+    std::vector<StoredResult> results;
+    for (LocalIndex p = 0; p < points_.owned; ++p) results.push_back(result(points_.ids[p], p));
+    for (const Duplicate& d : store_.duplicates(tile_)) results.push_back(result(d.id, d.of));
+    std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    for (std::size_t begin = 0, end; begin < results.size(); begin = end) {
+      const std::uint64_t block = value(results[begin].id) / kResultBlock;
+      for (end = begin; end < results.size() && value(results[end].id) / kResultBlock == block;) ++end;
+      scan_.results.append(block, std::span(results).subspan(begin, end - begin));
+    }
+  }
+
+  // An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree, so of the edges
+  // inside only the tile's own spanning forest goes on.
+  void record_orientation() {
+    std::vector<StoredNormal> normals;
+    for (const Evaluation& e : evaluations_) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
+    scan_.normals.write(value(store_.tiling().tiles[tile_].first_row), normals);
+
+    std::vector<OrientationEdge> edges;
+    std::vector<OrientationCrossing> crossings;
+    const std::uint64_t first_row = value(store_.tiling().tiles[tile_].first_row);
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!evaluations_[p].normal.allFinite()) continue;
+      for (const LocalIndex q : neighbourhoods_[p]) {
+        if (!(points_.ids[p] < points_.ids[q])) continue;
+        if (!points_.is_owned(q)) {
+          crossings.push_back({p, points_.rows[q], points_.ids[q]});
+        } else if (evaluations_[q].normal.allFinite()) {
+          edges.push_back(orientation_edge({points_.ids[p], points_.rows[p], evaluations_[p].normal},
+                                           {points_.ids[q], points_.rows[q], evaluations_[q].normal}));
+        }
+      }
+    }
+    scan_.orientation.append(tile_, spanning_forest(std::move(edges), first_row, points_.owned));
+    scan_.orientation_crossings.append(tile_, crossings);
+  }
+
+  EvaluatedScan& scan_;
+  const TileStore& store_;
+  const Job& job_;
+  TileIndex tile_;
+  const TilePoints& points_;
+  const Rows& neighbourhoods_;
+  const std::vector<Evaluation>& evaluations_;
+  std::vector<TileIndex> leans_on_;
+};
+
+void operator+=(Totals& totals, const Totals& more) {
+  totals.neighbours += more.neighbours;
+  totals.points += more.points;
+  totals.candidates += more.candidates;
+  totals.undefined_normals += more.undefined_normals;
+  totals.edge_length += more.edge_length;
+}
+
+// A power of two that no edge is lost beside: 2^-60 of the scan's extent.
+double length_unit(double extent) { return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0; }
+
+std::uint64_t blocks(std::uint64_t ids, const Job& job) {
+  return job.config.output.points ? (ids + kResultBlock - 1) / kResultBlock : 0;
+}
+
+}  // namespace
+
+EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
+    : edges(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 12),
+      crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 12),
+      vertices(job.file("vertices"), store.tiling().tiles.size(), job.memory.spills / 12),
+      candidates(job.file("candidates"), store.tiling().tiles.size(), job.memory.spills / 12),
+      strengths(job.file("strengths")),
+      results(job.file("results"), result_blocks, job.memory.spills / 8),
+      orientation(job.file("orientation"), store.tiling().tiles.size(), job.memory.spills / 16),
+      orientation_crossings(job.file("orientation-crossings"), store.tiling().tiles.size(), job.memory.spills / 16),
+      normals(job.file("oriented-normals")),
+      leaning(store.tiling().tiles.size()) {}
+
+double EvaluatedScan::mean_neighbours() const {
+  return totals.points == 0 ? 0 : static_cast<double>(totals.neighbours) / static_cast<double>(totals.points);
+}
+
+double EvaluatedScan::mean_edge_length() const {
+  if (totals.neighbours == 0) return 0;
+  return static_cast<double>(totals.edge_length) / static_cast<double>(totals.neighbours) * totals.length_unit;
+}
+
+EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps, double extent,
+                             Job& job) {
+  const Tiling& tiling = store.tiling();
+  EvaluatedScan scan(store, blocks(ids, job), job);
+  scan.totals.length_unit = length_unit(extent);
+  Phase phase(job, "evaluate", tiling.points());
+
+  std::vector<std::uint64_t> needs(tiling.tiles.size());
+  for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
+    std::uint64_t foreign = links.count(t);
+    for (const std::uint32_t cell : halo_cells(tiling, tiling.tiles[t], eps)) foreign += tiling.cells[cell].points;
+    needs[t] = job.tile_bytes(tiling.tiles[t].points) + foreign * 120;
+  }
+  std::mutex mutex;
+  job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
+    const auto tile = static_cast<TileIndex>(t);
+    std::vector<Link> inbox = links.read(t);
+    links.drop(t);
+    const TilePoints points = gather(store, tile, inbox, halo_cells(tiling, tiling.tiles[t], eps));
+    std::vector<Link>().swap(inbox);
+    const Rows neighbourhoods =
+        find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
+    const std::vector<Evaluation> evaluations =
+        evaluate(points, neighbourhoods, store.normals(tile), job.config.normals, job.config.criteria);
+    TileRecorder recorder(scan, store, job, tile, points, neighbourhoods, evaluations);
+    recorder.record();
+    const Totals totals = recorder.totals();
+    {
+      const std::lock_guard lock(mutex);
+      scan.totals += totals;
+      for (const TileIndex on : recorder.leans_on()) scan.leaning[on].push_back(tile);
+    }
+    phase.advance(points.owned);
+  });
+  return scan;
+}
+
+}  // namespace lacuna

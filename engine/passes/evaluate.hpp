@@ -1,0 +1,91 @@
+// Every point evaluated, and what the global stage needs of the points: a small part of the scan.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/spill.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/data/orientation.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/passes/links.hpp"
+#include "engine/stages/coherence.hpp"
+#include "engine/stages/eligible_edges.hpp"
+
+namespace lacuna {
+
+// A point that may end up on a loop.
+struct StoredVertex {
+  LocalIndex owned;
+  float probability;
+  float surface[3];  // mu_p - p
+  StoredPoint point;
+};
+
+// A candidate of the coherence step that has gap neighbours.
+struct StoredCandidate {
+  Candidate candidate;
+  StoredPoint point;
+  float probability;
+};
+
+// An edge out of the tile, to be judged once Pi of its foreign end is known.
+struct StoredCrossing {
+  LocalIndex owned;
+  Row foreign;
+  PointId foreign_id;
+  double distance;
+};
+
+// Of one point of the input, for points.ply.
+struct StoredResult {
+  PointId id;
+  Row row;  // of the distinct point
+  float probability;
+  float criteria[kCriteria];
+  float normal[3];
+};
+
+// An edge of G between tiles, told by the tile of its lower id.
+struct OrientationCrossing {
+  LocalIndex owned;
+  Row foreign;
+  PointId foreign_id;
+};
+
+struct Totals {
+  std::uint64_t neighbours = 0;       // sum of |N_p|
+  std::uint64_t points = 0;           // distinct ones
+  std::uint64_t candidates = 0;
+  std::uint64_t undefined_normals = 0;
+  __int128 edge_length = 0;           // sum over N_p of all p, in units of `length_unit`: exact in any order
+  double length_unit = 1;
+};
+
+// Lists are by tile, unless said otherwise.
+struct EvaluatedScan {
+  EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job);
+
+  Spill<TileEdge> edges;              // eligible, inside the tile
+  Spill<StoredCrossing> crossings;
+  Spill<StoredVertex> vertices;       // in ascending owned index
+  Spill<StoredCandidate> candidates;  // in ascending row
+  Column<Strength> strengths;         // by row
+  Spill<StoredResult> results;        // by block of ids; empty without output.points
+  Spill<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
+  Spill<OrientationCrossing> orientation_crossings;
+  Column<StoredNormal> normals;       // by row; likewise
+  std::vector<std::vector<TileIndex>> leaning;  // tiles with candidates whose gap neighbours are in this one
+  Totals totals;
+
+  double mean_neighbours() const;   // K
+  double mean_edge_length() const;  // over the edges of G
+};
+
+// Ids per block of `results`.
+inline constexpr std::uint64_t kResultBlock = 1 << 17;
+
+// Consumes the links. `eps`: a length, 0: off. `extent`: the largest distance between points.
+EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps, double extent,
+                             Job& job);
+
+}  // namespace lacuna

@@ -1,0 +1,59 @@
+// What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/config.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/progress.hpp"
+#include "engine/data/detection.hpp"
+
+namespace lacuna {
+
+// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save one bit
+// per point (the boundary) and about 100 bytes per cell.
+struct Memory {
+  std::uint64_t limit;   // all of it
+  std::uint64_t cells;   // survey and index
+  std::uint64_t tiles;   // all tiles at work together
+  std::uint64_t spills;  // buffers of all lists on their way to disk
+  std::uint64_t global;  // spanning graph and loops, sorts
+
+  static Memory share(std::uint64_t limit);
+};
+
+struct Job {
+  Job(const Config& config, std::filesystem::path workspace, Progress& progress);
+
+  const Config& config;
+  std::filesystem::path workspace;
+  Progress& progress;
+  Crew crew;
+  Memory memory;
+  std::vector<PhaseTime> phases;
+
+  // A file of the workspace.
+  std::filesystem::path file(std::string_view name) const { return workspace / name; }
+  // Points per tile: what was asked for, or enough tiles for all threads; never more than memory allows.
+  std::uint64_t tile_points(std::uint64_t points) const;
+  // Bytes that a tile with so many points takes while it is evaluated.
+  std::uint64_t tile_bytes(std::uint64_t points) const;
+};
+
+// Times a phase and shows it, for as long as it lives.
+class Phase {
+ public:
+  Phase(Job& job, std::string_view name, std::uint64_t total);
+  ~Phase();
+  void advance(std::uint64_t count) { job_.progress.advance(count); }
+
+ private:
+  Job& job_;
+  double start_;
+};
+
+}  // namespace lacuna

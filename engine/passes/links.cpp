@@ -1,0 +1,257 @@
+#include "engine/passes/links.hpp"
+
+#include <algorithm>
+#include <queue>
+#include <unordered_map>
+
+#include "engine/stages/reach.hpp"
+#include "engine/stages/search.hpp"
+
+namespace lacuna {
+namespace {
+
+// Cells near a cell hold some hundreds of points; a reach with more than this is that of an outlier.
+constexpr std::uint64_t kFarReach = 32'768;
+
+// Border cells to be searched together, and all cells within their reach.
+struct Group {
+  std::vector<std::uint32_t> border;
+  std::vector<std::uint32_t> sight;
+
+  bool empty() const { return border.empty(); }
+};
+
+// What the plan of a tile says.
+struct Border {
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> far_cells;
+};
+
+std::uint64_t points_of(const Tiling& tiling, std::span<const std::uint32_t> cells) {
+  std::uint64_t points = 0;
+  for (const std::uint32_t cell : cells) points += tiling.cells[cell].points;
+  return points;
+}
+
+void sort_unique(std::vector<std::uint32_t>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+// Groups hold at most about `group_points` points in sight.
+Border plan_border(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points) {
+  Border border;
+  Group group;
+  std::uint64_t gathered = 0;
+  const auto close_group = [&] {
+    if (group.empty()) return;
+    sort_unique(group.sight);
+    border.groups.push_back(std::move(group));
+    group = {};
+    gathered = 0;
+  };
+  std::vector<std::uint32_t> sight;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    const Eigen::AlignedBox3d box = tiling.cell_box(cell);
+    const double reach = squared_reach(tiling, cell, k);
+    bool leaves = false;
+    for_each_cell_near(tiling, box, reach, tile.first_cell, tile.last_cell, [&](std::uint32_t) {
+      leaves = true;
+      return false;
+    });
+    if (!leaves) continue;
+    sight.clear();
+    std::uint64_t points = 0;
+    for_each_cell_near(tiling, box, reach, 0, 0, [&](std::uint32_t near) {
+      sight.push_back(near);
+      points += tiling.cells[near].points;
+      return points <= kFarReach;
+    });
+    if (points > kFarReach) {
+      border.far_cells.push_back(cell);
+      continue;
+    }
+    group.border.push_back(cell);
+    group.sight.insert(group.sight.end(), sight.begin(), sight.end());
+    gathered += points;
+    if (gathered > 8 * group_points) {  // neighbours share most of their sight: count it once
+      sort_unique(group.sight);
+      gathered = points_of(tiling, group.sight);
+      if (gathered > group_points) close_group();
+    }
+  }
+  close_group();
+  return border;
+}
+
+class Linker {
+ public:
+  Linker(const TileStore& store, std::size_t k, TileIndex tile, Spill<Link>& inboxes)
+      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), inboxes_(inboxes) {}
+
+  void link_group(const Group& group) {
+    std::vector<StoredPoint> stored;
+    std::vector<Row> rows;
+    store_.read_cells(group.sight, stored, rows);
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<PointId> ids;
+    for (const StoredPoint& p : stored) {
+      positions.push_back(p.position());
+      ids.push_back(p.id);
+    }
+    const PointTree tree(positions, ids);
+    std::vector<Neighbour> found;
+    for (const std::uint32_t cell : group.border) {
+      const Row first = tiling_.cell_rows[cell];
+      const auto begin = static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
+      for (LocalIndex p = begin; p < begin + tiling_.cells[cell].points; ++p) {
+        tree.nearest(p, k_, found);
+        for (const Neighbour& q : found) link(stored[p], rows[p], stored[q.index], rows[q.index]);
+      }
+    }
+    send();
+  }
+
+  void link_far_cell(std::uint32_t cell) {
+    const std::vector<StoredPoint> points = store_.cell(cell);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      link_far_point(points[i], Row{value(tiling_.cell_rows[cell]) + i});
+    }
+    send();
+  }
+
+ private:
+  struct Found {
+    double squared_distance;
+    StoredPoint point;
+    Row row;
+
+    friend bool operator<(const Found& a, const Found& b) {
+      return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
+                                                      : a.point.id < b.point.id;
+    }
+  };
+  struct Place {
+    double squared_distance;
+    std::uint32_t index;
+    bool is_cell;
+
+    friend bool operator<(const Place& a, const Place& b) { return a.squared_distance > b.squared_distance; }
+  };
+
+  // Best first over the tree of cells; cells are read as they come.
+  void link_far_point(const StoredPoint& p, Row row) {
+    const Eigen::AlignedBox3d here(p.position(), p.position());
+    std::priority_queue<Place> places;
+    std::priority_queue<Found> nearest;
+    places.push({0, 0, false});
+    while (!places.empty()) {
+      const Place place = places.top();
+      places.pop();
+      if (nearest.size() == k_ && place.squared_distance > nearest.top().squared_distance) break;
+      if (place.is_cell) {
+        look_into(place.index, p, row, nearest);
+        continue;
+      }
+      const CellNode& node = tiling_.nodes[place.index];
+      if (node.left != 0) {
+        for (const std::uint32_t child : {node.left, node.right}) {
+          places.push({min_squared_distance(here, tiling_.box(tiling_.nodes[child])), child, false});
+        }
+      } else {
+        for (std::uint32_t c = node.first; c < node.last; ++c) {
+          places.push({min_squared_distance(here, tiling_.cell_box(c)), c, true});
+        }
+      }
+    }
+    for (; !nearest.empty(); nearest.pop()) {
+      refuse_underflow(nearest.top().squared_distance, p.id, nearest.top().point.id);
+      link(p, row, nearest.top().point, nearest.top().row);
+    }
+  }
+
+  void look_into(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
+    const std::vector<StoredPoint>& points = cached(cell);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Row other{value(tiling_.cell_rows[cell]) + i};
+      if (other == row) continue;
+      nearest.push({squared_distance(points[i].position(), p.position()), points[i], other});
+      if (nearest.size() > k_) nearest.pop();
+    }
+  }
+
+  const std::vector<StoredPoint>& cached(std::uint32_t cell) {
+    constexpr std::uint64_t kCachedPoints = 65'536;
+    const auto [place, is_new] = cache_.try_emplace(cell);
+    if (is_new) {
+      cached_points_ += tiling_.cells[cell].points;
+      if (cached_points_ > kCachedPoints) {
+        cache_.clear();
+        cached_points_ = tiling_.cells[cell].points;
+        return cache_[cell] = store_.cell(cell);
+      }
+      place->second = store_.cell(cell);
+    }
+    return place->second;
+  }
+
+  // p has q among its k nearest.
+  void link(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
+    const TileIndex q_tile = tiling_.tile_of_row(q_row);
+    if (q_tile == tile_) return;
+    sent_.push_back({tile_, {q_row, q, local(p_row, tile_), 0}});
+    sent_.push_back({q_tile, {p_row, p, local(q_row, q_tile), 1}});
+  }
+
+  LocalIndex local(Row row, TileIndex tile) const {
+    return static_cast<LocalIndex>(value(row) - value(tiling_.tiles[tile].first_row));
+  }
+
+  void send() {
+    std::stable_sort(sent_.begin(), sent_.end(), [](const auto& a, const auto& b) { return a.to < b.to; });
+    std::vector<Link> letter;
+    for (std::size_t i = 0; i < sent_.size();) {
+      const TileIndex to = sent_[i].to;
+      letter.clear();
+      for (; i < sent_.size() && sent_[i].to == to; ++i) letter.push_back(sent_[i].link);
+      inboxes_.append(to, letter);
+    }
+    sent_.clear();
+  }
+
+  struct Sent {
+    TileIndex to;
+    Link link;
+  };
+  const TileStore& store_;
+  const Tiling& tiling_;
+  std::size_t k_;
+  TileIndex tile_;
+  Spill<Link>& inboxes_;
+  std::vector<Sent> sent_;
+  std::unordered_map<std::uint32_t, std::vector<StoredPoint>> cache_;
+  std::uint64_t cached_points_ = 0;
+};
+
+}  // namespace
+
+Spill<Link> link_tiles(const TileStore& store, Job& job) {
+  const Tiling& tiling = store.tiling();
+  const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
+  Phase phase(job, "links", tiling.points());
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(tile.points));
+  Spill<Link> inboxes(job.file("links"), tiling.tiles.size(), job.memory.spills / 2);
+  job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
+    const Tile& tile = tiling.tiles[t];
+    const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarReach / 4);
+    const Border border = plan_border(tiling, tile, k, group_points);
+    Linker linker(store, k, static_cast<TileIndex>(t), inboxes);
+    for (const Group& group : border.groups) linker.link_group(group);
+    for (const std::uint32_t cell : border.far_cells) linker.link_far_cell(cell);
+    phase.advance(tile.points);
+  });
+  return inboxes;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,94 @@
+#include "engine/passes/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/stages/measure_loop.hpp"
+
+namespace lacuna {
+namespace {
+
+// A place on a loop that waits for its point.
+struct Wanted {
+  Row row;
+  std::size_t slot;
+};
+
+Loop to_loop(std::span<const StoredLoopPoint> stored) {
+  Loop loop;
+  loop.reserve(stored.size());
+  for (const StoredLoopPoint& p : stored) {
+    loop.push_back({p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability});
+  }
+  return loop;
+}
+
+// Tiles' vertices are read once each, in order.
+std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedScan& scan, const Tiling& tiling) {
+  std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.row < b.row; });
+  std::vector<StoredLoopPoint> points(wanted.size());
+  for (auto next = wanted.begin(); next != wanted.end();) {
+    const TileIndex t = tiling.tile_of_row(next->row);
+    const Tile& tile = tiling.tiles[t];
+    const std::vector<StoredVertex> vertices = scan.vertices.read(t);
+    auto vertex = vertices.begin();
+    for (; next != wanted.end() && value(next->row) < value(tile.first_row) + tile.points; ++next) {
+      const auto owned = static_cast<LocalIndex>(value(next->row) - value(tile.first_row));
+      vertex = std::lower_bound(vertex, vertices.end(), owned,
+                                [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
+      points[next->slot] = {vertex->point, next->row, {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
+                            vertex->probability};
+    }
+  }
+  return points;
+}
+
+// Cubes of 64 mean edges, as a power of two.
+double lattice_edge(double mean_edge_length) { return std::ldexp(1.0, std::ilogb(64 * mean_edge_length)); }
+
+}  // namespace
+
+Loop MeasuredLoops::read(std::size_t loop) const {
+  return to_loop(points.read(offsets[loop], offsets[loop + 1] - offsets[loop]));
+}
+
+MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, const TileStore& store,
+                            double mean_edge_length, Job& job) {
+  Phase phase(job, "measure", loops.points());
+  MeasuredLoops measured{.points = Column<StoredLoopPoint>(job.file("loops")), .offsets = {0}};
+  measured.measures.resize(loops.size());
+  const double edge = lattice_edge(mean_edge_length);
+  const std::uint64_t most = job.memory.global / (2 * sizeof(StoredLoopPoint) + 2 * sizeof(Wanted));
+  for (std::size_t begin = 0, end; begin < loops.size(); begin = end) {
+    std::vector<Wanted> wanted;
+    for (end = begin; end < loops.size() && (end == begin || wanted.size() + loops.points(end) <= most); ++end) {
+      for (const Vertex& v : loops.read(end)) wanted.push_back({v.row, wanted.size()});
+      measured.offsets.push_back(measured.offsets.back() + loops.points(end));
+    }
+    const std::uint64_t first = measured.offsets[begin];
+    const std::vector<StoredLoopPoint> points = gather(std::move(wanted), scan, store.tiling());
+    measured.points.write(first, points);
+    job.crew.for_each(end - begin, [&](std::size_t i) {
+      const std::uint64_t from = measured.offsets[begin + i] - first;
+      const Loop loop = to_loop(std::span(points).subspan(from, loops.points(begin + i)));
+      measured.measures[begin + i] = measure_loop(loop, edge);
+    });
+    phase.advance(points.size());
+  }
+  return measured;
+}
+
+std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config) {
+  std::vector<std::size_t> selected;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const LoopMeasures& loop = loops[i];
+    const bool too_short = loop.perimeter < config.min_perimeter;
+    const bool too_long = config.max_perimeter > 0 && loop.perimeter > config.max_perimeter;
+    const bool too_few = loop.points < static_cast<std::uint64_t>(config.min_points);
+    const bool unwanted = config.holes_only && loop.kind == LoopKind::kRim;
+    if (!too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
+  }
+  return selected;
+}
+
+}  // namespace lacuna

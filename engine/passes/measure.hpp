@@ -1,0 +1,33 @@
+// Loops measured: the points of each joined with what the evaluation said of them.
+#pragma once
+
+#include <vector>
+
+#include "engine/passes/trace.hpp"
+
+namespace lacuna {
+
+struct StoredLoopPoint {
+  StoredPoint point;
+  Row row;
+  float surface[3];
+  float probability;
+};
+
+// All raw loops in order of (first id, length, ids).
+struct MeasuredLoops {
+  Column<StoredLoopPoint> points;      // loop after loop
+  std::vector<std::uint64_t> offsets;  // loops + 1
+  std::vector<LoopMeasures> measures;
+
+  Loop read(std::size_t loop) const;
+};
+
+// In batches that fit in memory. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
+MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, const TileStore& store,
+                            double mean_edge_length, Job& job);
+
+// The loops that the selection reports.
+std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);
+
+}  // namespace lacuna

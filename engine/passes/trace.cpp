@@ -1,0 +1,358 @@
+#include "engine/passes/trace.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include "engine/core/external_sort.hpp"
+#include "engine/core/scratch.hpp"
+#include "engine/stages/loops.hpp"
+#include "engine/stages/spanning.hpp"
+#include "engine/stages/union_find.hpp"
+
+namespace lacuna {
+namespace {
+
+// An eligible edge between tiles, told to both.
+struct SeamEdge {
+  LocalIndex owned;
+  Vertex own, foreign;
+  double weight;
+};
+
+// Two ends of seam edges that are in one component.
+struct Join {
+  Row a, b;
+};
+
+// Measured: edges, vertices and graph of a component while it is traced.
+constexpr std::uint64_t kBytesPerEdge = 200;
+
+ComponentEdge component_edge(std::uint64_t component, double weight, const Vertex& a, const Vertex& b) {
+  return a.id < b.id ? ComponentEdge{component, weight, a, b} : ComponentEdge{component, weight, b, a};
+}
+
+// ---- seams: crossings judged with Pi and r of both ends
+
+void judge_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, const SpanningConfig& config,
+                     Spill<SeamEdge>& seams) {
+  const Tiling& tiling = store.tiling();
+  const Tile& tile = tiling.tiles[t];
+  std::vector<StoredCrossing> crossings = scan.crossings.read(t);
+  scan.crossings.drop(t);
+  if (crossings.empty()) return;
+  std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
+    return a.foreign != b.foreign ? a.foreign < b.foreign : a.owned < b.owned;
+  });
+  const std::vector<Strength> own = scan.strengths.read(value(tile.first_row), tile.points);
+  const std::vector<StoredPoint> points = store.points(t);
+  RunReader<Strength> foreign(scan.strengths);
+  std::vector<SeamEdge> here;
+  for (const StoredCrossing& c : crossings) {
+    const Strength& other = foreign[value(c.foreign)];
+    const PointId id = points[c.owned].id;
+    // Both ends tell if both are strong: then the lower id's word counts.
+    if (is_strong(other.probability, config) && c.foreign_id < id) continue;
+    const double weight = eligible_weight(own[c.owned], other, c.distance, config);
+    if (weight < 0) continue;
+    const Vertex a{id, Row{value(tile.first_row) + c.owned}}, b{c.foreign_id, c.foreign};
+    here.push_back({c.owned, a, b, weight});
+    const TileIndex there = tiling.tile_of_row(c.foreign);
+    seams.append(there, {static_cast<LocalIndex>(value(c.foreign) - value(tiling.tiles[there].first_row)), b, a, weight});
+  }
+  seams.append(t, here);
+}
+
+// ---- one component
+
+void trace(std::span<const Vertex> vertices, const SpanningGraph& graph, Scratch& scratch, RawLoops& loops) {
+  std::vector<Vertex> loop;
+  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
+    loop.clear();
+    for (const LocalIndex v : found) loop.push_back(vertices[v]);
+    loops.add(loop);
+  });
+}
+
+LocalIndex index_of(std::span<const Vertex> vertices, PointId id) {
+  const auto at = std::lower_bound(vertices.begin(), vertices.end(), id,
+                                   [](const Vertex& v, PointId i) { return v.id < i; });
+  return static_cast<LocalIndex>(at - vertices.begin());
+}
+
+bool same_vertex(const Vertex& a, const Vertex& b) { return a.id == b.id; }
+bool lower_id(const Vertex& a, const Vertex& b) { return a.id < b.id; }
+
+// A loop of more than e edges needs more than e vertices, and an edge more than a tree.
+bool can_hold_loop(std::uint64_t vertices, std::uint64_t edges, std::int64_t e) {
+  return vertices > static_cast<std::uint64_t>(e) && edges >= vertices;
+}
+
+void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const Job& job, RawLoops& loops) {
+  if (edges.size() <= static_cast<std::uint64_t>(e)) return;
+  std::vector<Vertex> vertices;
+  vertices.reserve(2 * edges.size());
+  for (const ComponentEdge& edge : edges) {
+    vertices.push_back(edge.a);
+    vertices.push_back(edge.b);
+  }
+  std::sort(vertices.begin(), vertices.end(), lower_id);
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), same_vertex), vertices.end());
+  if (!can_hold_loop(vertices.size(), edges.size(), e)) return;
+  Scratch scratch(job.workspace, job.memory.limit);
+  Spanning spanning(static_cast<LocalIndex>(vertices.size()), edges.size(), e, scratch);
+  for (const ComponentEdge& edge : edges) {
+    spanning.add({index_of(vertices, edge.a.id), index_of(vertices, edge.b.id)});
+  }
+  trace(vertices, spanning.finish(), scratch, loops);
+}
+
+// `edges`: of whole components, in any order.
+void trace_components(std::vector<ComponentEdge>& edges, std::int64_t e, const Job& job, RawLoops& loops) {
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+    for (end = begin; end < edges.size() && edges[end].component == edges[begin].component;) ++end;
+    trace_in_memory(std::span(edges).subspan(begin, end - begin), e, job, loops);
+  }
+}
+
+struct LowerId {
+  bool operator()(const Vertex& a, const Vertex& b) const { return lower_id(a, b); }
+};
+
+// One component that does not fit in memory. for_each_edge(visit): its edges in any order.
+void trace_on_disk(const std::function<void(const std::function<void(const ComponentEdge&)>&)>& for_each_edge,
+                   std::int64_t e, const Job& job, RawLoops& loops) {
+  ExternalSort<ComponentEdge, std::less<ComponentEdge>> edges(job.file("large-edges"), job.memory.global / 6);
+  ExternalSort<Vertex, LowerId> ends(job.file("large-vertices"), job.memory.global / 6);
+  for_each_edge([&](const ComponentEdge& edge) {
+    edges.add(edge);
+    ends.add(edge.a);
+    ends.add(edge.b);
+  });
+  std::uint64_t count = 0;
+  PointId last{};
+  const auto for_each_vertex = [&](auto&& visit) {
+    count = 0;
+    ends.for_each([&](const Vertex& v) {
+      if (count == 0 || last != v.id) visit(count++, v);
+      last = v.id;
+    });
+  };
+  for_each_vertex([](std::uint64_t, const Vertex&) {});
+  Scratch scratch(job.workspace, job.memory.global / 2);
+  const std::span<Vertex> vertices = scratch.array<Vertex>(count);
+  for_each_vertex([&](std::uint64_t i, const Vertex& v) { vertices[i] = v; });
+  Spanning spanning(static_cast<LocalIndex>(count), edges.size(), e, scratch);
+  edges.for_each([&](const ComponentEdge& edge) {
+    spanning.add({index_of(vertices, edge.a.id), index_of(vertices, edge.b.id)});
+  });
+  trace(vertices, spanning.finish(), scratch, loops);
+}
+
+// ---- components
+
+class Tracer {
+ public:
+  Tracer(EvaluatedScan& scan, const TileStore& store, std::int64_t e, Job& job)
+      : scan_(scan),
+        store_(store),
+        e_(e),
+        job_(job),
+        tiles_(store.tiling().tiles.size()),
+        seams_(job.file("seams"), tiles_, job.memory.spills / 8),
+        open_edges_(job.file("open-edges"), tiles_, job.memory.spills / 8),
+        joins_(job.file("joins"), tiles_, job.memory.spills / 8),
+        traced_{RawLoops(job.file("raw-loops"))} {}
+
+  TracedLoops run() {
+    job_.crew.for_each(tiles_, [&](std::size_t t) {
+      judge_crossings(scan_, store_, static_cast<TileIndex>(t), job_.config.spanning, seams_);
+    });
+    std::vector<std::uint64_t> needs(tiles_);
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      needs[t] = scan_.edges.count(t) * kBytesPerEdge + store_.tiling().tiles[t].points * sizeof(LocalIndex);
+    }
+    job_.crew.for_each_within(needs, job_.memory.global, [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
+    trace_open_components();
+    traced_.eligible_edges = eligible_edges_;
+    traced_.components = components_;
+    traced_.loops.sort();
+    return std::move(traced_);
+  }
+
+ private:
+  // Components inside the tile are traced; the edges of the others, and what holds them together, go on.
+  void trace_tile(TileIndex t) {
+    const Tile& tile = store_.tiling().tiles[t];
+    const std::vector<TileEdge> edges = scan_.edges.read(t);
+    scan_.edges.drop(t);
+    const std::vector<SeamEdge> seams = seams_.read(t);
+    if (edges.empty() && seams.empty()) return;
+
+    std::vector<LocalIndex> parents(tile.points);
+    UnionFind parts(parents);
+    for (const TileEdge& edge : edges) parts.unite(edge.a, edge.b);
+    // An open part goes by its first end of a seam edge: a row that no other part has.
+    std::vector<LocalIndex> open(tile.points, kNoIndex);
+    std::vector<Join> joins;
+    for (const SeamEdge& seam : seams) {
+      LocalIndex& name = open[parts.find(seam.owned)];
+      if (name == kNoIndex) name = seam.owned;
+      joins.push_back({row(tile, name), seam.own.row});
+      if (seam.own.id < seam.foreign.id) joins.push_back({seam.own.row, seam.foreign.row});
+    }
+
+    const std::vector<StoredPoint> points = store_.points(t);
+    const auto vertex = [&](LocalIndex p) { return Vertex{points[p].id, row(tile, p)}; };
+    std::vector<ComponentEdge> closed_edges, open_edges;
+    std::uint64_t closed = 0;
+    std::vector<bool> counted(tile.points);
+    for (const TileEdge& edge : edges) {
+      const LocalIndex part = parts.find(edge.a);
+      if (open[part] != kNoIndex) {
+        open_edges.push_back(component_edge(value(row(tile, open[part])), edge.weight, vertex(edge.a), vertex(edge.b)));
+      } else {
+        closed_edges.push_back(component_edge(part, edge.weight, vertex(edge.a), vertex(edge.b)));
+        closed += !counted[part];
+        counted[part] = true;
+      }
+    }
+    for (const SeamEdge& seam : seams) {
+      if (!(seam.own.id < seam.foreign.id)) continue;
+      open_edges.push_back(
+          component_edge(value(row(tile, open[parts.find(seam.owned)])), seam.weight, seam.own, seam.foreign));
+    }
+    components_ += closed;
+    eligible_edges_ += closed_edges.size() + open_edges.size();
+    open_edges_.append(t, open_edges);
+    joins_.append(t, joins);
+    trace_components(closed_edges, e_, job_, traced_.loops);
+  }
+
+  void trace_open_components() {
+    std::uint64_t joins = 0;
+    for (std::size_t t = 0; t < tiles_; ++t) joins += joins_.count(t);
+    if (joins == 0) return;
+    Scratch scratch(job_.workspace, job_.memory.global / 3);
+    const std::span<Row> ends = seam_ends(scratch);
+    const auto end_of = [&](Row row) {
+      scratch.breathe();
+      return static_cast<LocalIndex>(std::lower_bound(ends.begin(), ends.end(), row) - ends.begin());
+    };
+    UnionFind components(scratch.array<LocalIndex>(ends.size()));
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      for (const Join& join : joins_.read(t)) components.unite(end_of(join.a), end_of(join.b));
+    }
+
+    const std::span<std::uint64_t> edge_counts = scratch.array<std::uint64_t>(ends.size());
+    const auto component_of = [&](const ComponentEdge& edge) { return components.find(end_of(Row{edge.component})); };
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      for (const ComponentEdge& edge : open_edges_.read(t)) ++edge_counts[component_of(edge)];
+    }
+
+    // Batches of whole components, as many as fit.
+    const std::uint64_t most = std::max<std::uint64_t>(job_.memory.global / 2 / kBytesPerEdge / job_.crew.threads(), 1);
+    const std::span<std::uint32_t> batch_of = scratch.array<std::uint32_t>(ends.size());
+    std::vector<std::uint64_t> batch_edges;
+    for (std::size_t c = 0; c < ends.size(); ++c) {
+      scratch.breathe();
+      if (edge_counts[c] == 0) continue;
+      ++components_;
+      if (batch_edges.empty() || batch_edges.back() + edge_counts[c] > most) batch_edges.push_back(0);
+      batch_edges.back() += edge_counts[c];
+      batch_of[c] = static_cast<std::uint32_t>(batch_edges.size() - 1);
+    }
+    Spill<ComponentEdge> batches(job_.file("batches"), batch_edges.size(), job_.memory.spills / 4);
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      for (ComponentEdge edge : open_edges_.read(t)) {
+        const LocalIndex component = component_of(edge);
+        edge.component = component;
+        batches.append(batch_of[component], edge);
+      }
+      open_edges_.drop(t);
+    }
+
+    const std::uint64_t fits = job_.memory.global / 2 / kBytesPerEdge;
+    std::vector<std::uint64_t> needs(batch_edges.size());
+    for (std::size_t b = 0; b < needs.size(); ++b) needs[b] = batch_edges[b] > fits ? 0 : batch_edges[b] * kBytesPerEdge;
+    job_.crew.for_each_within(needs, job_.memory.global / 2, [&](std::size_t b) {
+      if (batch_edges[b] > fits) return;
+      std::vector<ComponentEdge> edges = batches.read(b);
+      batches.drop(b);
+      trace_components(edges, e_, job_, traced_.loops);
+    });
+    for (std::size_t b = 0; b < needs.size(); ++b) {
+      if (batch_edges[b] > fits) {
+        trace_on_disk([&](const auto& visit) { batches.for_each(b, visit); }, e_, job_, traced_.loops);
+      }
+    }
+  }
+
+  // Rows at the ends of seam edges, ascending, each once.
+  std::span<Row> seam_ends(Scratch& scratch) {
+    std::uint64_t most = 0;
+    for (std::size_t t = 0; t < tiles_; ++t) most += seams_.count(t);
+    const std::span<Row> ends = scratch.array<Row>(most);
+    std::size_t count = 0;
+    std::vector<Row> rows;
+    for (std::size_t t = 0; t < tiles_; ++t) {
+      rows.clear();
+      for (const SeamEdge& seam : seams_.read(t)) rows.push_back(seam.own.row);
+      seams_.drop(t);
+      std::sort(rows.begin(), rows.end());
+      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+      for (const Row row : rows) {
+        ends[count++] = row;
+        scratch.breathe();
+      }
+    }
+    return ends.first(count);
+  }
+
+  static Row row(const Tile& tile, LocalIndex p) { return Row{value(tile.first_row) + p}; }
+
+  EvaluatedScan& scan_;
+  const TileStore& store_;
+  std::int64_t e_;
+  Job& job_;
+  std::size_t tiles_;
+  Spill<SeamEdge> seams_;
+  Spill<ComponentEdge> open_edges_;
+  Spill<Join> joins_;
+  TracedLoops traced_;
+  std::atomic<std::uint64_t> eligible_edges_ = 0, components_ = 0;
+};
+
+}  // namespace
+
+void RawLoops::add(std::span<const Vertex> loop) {
+  const std::lock_guard lock(*mutex_);
+  vertices_.write(end_, loop);
+  index_.push_back({end_, loop.size(), loop.front().id});
+  end_ += loop.size();
+}
+
+std::vector<Vertex> RawLoops::read(std::size_t loop) const {
+  return vertices_.read(index_[loop].offset, index_[loop].points);
+}
+
+void RawLoops::sort() {
+  const auto ids = [&](const Entry& entry) {
+    std::vector<PointId> ids;
+    for (const Vertex& v : vertices_.read(entry.offset, entry.points)) ids.push_back(v.id);
+    return ids;
+  };
+  std::sort(index_.begin(), index_.end(), [&](const Entry& a, const Entry& b) {
+    if (a.first != b.first) return a.first < b.first;
+    if (a.points != b.points) return a.points < b.points;
+    return a.offset != b.offset && ids(a) < ids(b);
+  });
+}
+
+TracedLoops trace_loops(EvaluatedScan& scan, const TileStore& store, std::int64_t e, Job& job) {
+  Phase phase(job, "loops", 0);
+  return Tracer(scan, store, e, job).run();
+}
+
+}  // namespace lacuna

@@ -1,0 +1,49 @@
+// The global stage: the graph of eligible edges stitched across tiles, its components spanned, their loops.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "engine/data/component.hpp"
+#include "engine/passes/evaluate.hpp"
+
+namespace lacuna {
+
+// Loops as they are found, on disk; in memory only where each one is.
+class RawLoops {
+ public:
+  explicit RawLoops(std::filesystem::path file) : vertices_(std::move(file)) {}
+
+  // May be called from any thread.
+  void add(std::span<const Vertex> loop);
+  std::size_t size() const { return index_.size(); }
+  std::uint64_t points() const { return end_; }
+  std::uint64_t points(std::size_t loop) const { return index_[loop].points; }
+  std::vector<Vertex> read(std::size_t loop) const;
+  // In order of (first id, length, ids): from then on `read` and `points` count in that order.
+  void sort();
+
+ private:
+  struct Entry {
+    std::uint64_t offset, points;
+    PointId first;
+  };
+  Column<Vertex> vertices_;
+  std::uint64_t end_ = 0;
+  std::vector<Entry> index_;
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
+};
+
+struct TracedLoops {
+  RawLoops loops;  // sorted
+  std::uint64_t eligible_edges = 0;
+  std::uint64_t components = 0;  // of the graph of eligible edges, with an edge
+};
+
+// Union-find first within each tile, then over the ends of edges between tiles. Components inside one tile
+// are spanned and searched there and then; the others are gathered in batches that fit in memory. A
+// component larger than that is sorted on disk and spanned in mapped arrays. Consumes edges and crossings.
+TracedLoops trace_loops(EvaluatedScan& scan, const TileStore& store, std::int64_t e, Job& job);
+
+}  // namespace lacuna

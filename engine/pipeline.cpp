@@ -1,0 +1,101 @@
+#include "engine/pipeline.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/passes/bucket.hpp"
+#include "engine/passes/coherence.hpp"
+#include "engine/passes/evaluate.hpp"
+#include "engine/passes/links.hpp"
+#include "engine/passes/measure.hpp"
+#include "engine/passes/orient.hpp"
+#include "engine/passes/publish.hpp"
+#include "engine/passes/trace.hpp"
+#include "engine/stages/split.hpp"
+
+namespace lacuna {
+namespace {
+
+double diagonal(const Eigen::AlignedBox3d& bounds) { return bounds.isEmpty() ? 0 : bounds.diagonal().norm(); }
+
+double eps_length(const NeighbourhoodConfig& config, double extent) {
+  return config.eps > 0 ? config.eps : config.eps_fraction * extent;
+}
+
+// Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
+std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
+  return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
+}
+
+Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_t tile_points, const Job& job) {
+  Summary summary;
+  summary.counts.points = survey.points;
+  summary.counts.dropped = survey.dropped;
+  summary.bounds = survey.bounds;
+  summary.tiles = tiling.tiles.size();
+  summary.tile_points = tile_points;
+  summary.threads = job.crew.threads();
+  summary.memory_limit = job.memory.limit;
+  return summary;
+}
+
+}  // namespace
+
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& config, const std::filesystem::path& workspace,
+                                  Progress& progress) {
+  check_config(config);
+  Job job(config, workspace, progress);
+
+  // Where the points are, and the points in tiles on disk.
+  SurveyedScan survey = survey_scan(scan, job);
+  const double extent = diagonal(survey.bounds);
+  const double eps = eps_length(config.neighbourhood, extent);
+  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
+  Tiling tiling = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  Summary summary = summarise(survey, tiling, tile_points, job);
+  const TileStore store = bucket_scan(scan, std::move(tiling), job);
+
+  // Every point judged from its neighbourhood (paper, 4.1 to 4.6).
+  Spill<Link> links = link_tiles(store, job);
+  EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
+
+  // Boundary points and loops (5.1, 5.2).
+  const RowSet coherent = make_coherent(evaluated, store, job);
+  const std::int64_t e = minimum_loop(config.spanning, evaluated.mean_neighbours());
+  const TracedLoops traced = trace_loops(evaluated, store, e, job);
+  MeasuredLoops loops = measure_loops(traced.loops, evaluated, store, evaluated.mean_edge_length(), job);
+
+  // Back into the order of the input.
+  std::optional<RowSet> turned;
+  if (config.normals.orient) turned = orient_normals(evaluated, store, job);
+  summary.counts.duplicates = survey.points - survey.dropped - evaluated.totals.points;
+  summary.counts.candidates = evaluated.totals.candidates;
+  summary.counts.undefined_normals = evaluated.totals.undefined_normals;
+  summary.counts.eligible_edges = traced.eligible_edges;
+  summary.counts.components = traced.components;
+  summary.mean_neighbours = evaluated.mean_neighbours();
+  summary.mean_edge_length = evaluated.mean_edge_length();
+  summary.eps = eps;
+  summary.e = e;
+  return publish(std::move(evaluated), store, coherent, std::move(loops), std::move(turned), std::move(summary), job);
+}
+
+Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
+  check_config(config);
+  Job job(config, {}, progress);
+  SurveyedScan survey = survey_scan(scan, job);
+  const std::uint64_t points = survey.points - survey.dropped;
+  const std::uint64_t tile_points = job.tile_points(points);
+  const Tiling tiling = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  Estimate estimate{.summary = summarise(survey, tiling, tile_points, job)};
+  estimate.summary.phases = job.phases;
+  estimate.cell_size = tiling.grid.edge();
+  estimate.cells = tiling.cells.size();
+  // Raw and stored points, strengths, links and the global stage's lists; measured 90 to 130 bytes a point.
+  const std::uint64_t normals = scan.has_normals() ? 2 * sizeof(StoredNormal) : 0;
+  const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
+  estimate.workspace_bytes = points * (130 + normals + results);
+  return estimate;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,25 @@
+// measure_loop: what a user sorts and filters loops by.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/data/loop.hpp"
+
+namespace lacuna {
+
+// Hole or rim: the loop's points are moved towards the surface (by the mean of their neighbours). If the
+// area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: a rim. For a
+// cap of a sphere that makes a rim of less than about half a sphere, a hole of more.
+//
+// normal: of the area vector of the polygon (Newell), by the right hand rule about the written direction.
+// area: its length, that of the loop seen along the normal. planarity: 1 - sqrt(smallest / largest
+// eigenvalue of the points' covariance). tiles: cubes of a fixed lattice, of edge `lattice_edge`, that hold
+// a point of the loop, so that the number does not depend on the tiling of the run.
+// Precondition: three points or more. Cost: linear, but for the diameter (see `diameter`).
+LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge);
+
+// Largest distance between two points, exactly, by branch and bound over runs of the loop.
+double diameter(std::span<const LoopPoint> loop);
+
+}  // namespace lacuna

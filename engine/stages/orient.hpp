@@ -1,0 +1,25 @@
+// orient: consistent orientation of normals by a minimum spanning tree of G (Hoppe et al. 1992).
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/data/orientation.hpp"
+
+namespace lacuna {
+
+struct OrientedEnd {
+  PointId id;
+  Row row;
+  Eigen::Vector3d normal;
+};
+
+// The edge of G between two points: weight 1 - |n_a . n_b|, ties by ids.
+OrientationEdge orientation_edge(const OrientedEnd& a, const OrientedEnd& b);
+
+// The edges of the minimum spanning forest of a graph over rows [first_row, first_row + rows).
+std::vector<OrientationEdge> spanning_forest(std::vector<OrientationEdge> edges, std::uint64_t first_row,
+                                             LocalIndex rows);
+
+}  // namespace lacuna
