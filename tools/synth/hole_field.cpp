@@ -1,11 +1,11 @@
 #include "tools/synth/hole_field.hpp"
 
+#include "engine/core/error.hpp"
+#include "tools/synth/trig.hpp"
+
 #include <array>
 #include <cmath>
 #include <string>
-
-#include "engine/core/error.hpp"
-#include "tools/synth/trig.hpp"
 
 namespace lacuna::synth {
 
@@ -16,7 +16,8 @@ constexpr double kMargin = 6;           // nodes between a hole and the edge of 
 constexpr std::uint64_t kMaxHoles = 10'000'000;
 
 // Fewer, larger cells while they still hold all the holes: spreads the holes over the whole surface.
-void widen_cells(std::uint64_t holes, double height, double width, std::uint32_t& down, std::uint32_t& across) {
+void widen_cells(std::uint64_t holes, double height, double width, std::uint32_t& down,
+                 std::uint32_t& across) {
   while (true) {
     const bool rows_next = height / down < width / across;
     if (rows_next && std::uint64_t{down - 1} * across >= holes)
@@ -41,7 +42,8 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   across_ = static_cast<std::uint32_t>(width / (2 * reach + 1));
   const std::uint64_t room = std::uint64_t{down_} * across_;
   if (options.holes > room || options.holes > kMaxHoles)
-    throw Error("--holes " + std::to_string(options.holes) + ": only " + std::to_string(std::min(room, kMaxHoles)) +
+    throw Error("--holes " + std::to_string(options.holes) + ": only " +
+                std::to_string(std::min(room, kMaxHoles)) +
                 " holes of this radius fit on this surface; plant fewer or smaller ones, or more points");
   widen_cells(options.holes, grid.rows, width, down_, across_);
   cell_rows_ = grid.rows / down_;

@@ -1,22 +1,23 @@
 // The holes planted in a synthetic surface: which nodes of its grid they take, and their true loops.
 #pragma once
 
+#include "tools/synth/surface_grid.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "tools/synth/surface_grid.hpp"
 
 namespace lacuna::synth {
 
 enum class NodeState { kSurface, kOnLoop, kRemoved };
 
-// Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it, so that none
-// comes near another, the rim or a density step.
+// Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it, so that
+// none comes near another, the rim or a density step.
 //
-// The surface is the quads whose four nodes exist; a loop is the closed chain of edges with exactly one such quad.
-// A hole has exactly one loop, which visits no node twice, because the nodes that it takes are those inside a convex
-// curve: a line through a node beside it has one of the node's quads on its far side, so no node is left without a
-// quad; and were a node's only quads two opposite ones, it would lie between two removed nodes, so inside.
+// The surface is the quads whose four nodes exist; a loop is the closed chain of edges with exactly one such
+// quad. A hole has exactly one loop, which visits no node twice, because the nodes that it takes are those
+// inside a convex curve: a line through a node beside it has one of the node's quads on its far side, so no
+// node is left without a quad; and were a node's only quads two opposite ones, it would lie between two
+// removed nodes, so inside.
 class HoleField {
  public:
   // Throws `Error` when the holes do not fit.

@@ -1,9 +1,9 @@
 #include "tools/synth/output_file.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <cerrno>
 #include <system_error>
-
-#include "engine/core/error.hpp"
 
 namespace lacuna::synth {
 

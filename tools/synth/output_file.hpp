@@ -13,8 +13,9 @@
 
 namespace lacuna::synth {
 
-// Writes NAME.partial through one large buffer; `commit` renames it to NAME. Without `commit` the partial file is
-// removed. Every failure (no folder, no permission, a full disk) is an `Error` that names file and reason.
+// Writes NAME.partial through one large buffer; `commit` renames it to NAME. Without `commit` the partial
+// file is removed. Every failure (no folder, no permission, a full disk) is an `Error` that names file and
+// reason.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path name);

@@ -1,18 +1,18 @@
 // A seeded random order of 0 .. size-1 without a table: the k-th index in a few operations.
 #pragma once
 
+#include "tools/synth/random.hpp"
+
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
-#include "tools/synth/random.hpp"
-
 namespace lacuna::synth {
 
-// A Feistel network over the smallest power of two that holds `size`, its halves unequal by a bit where need be;
-// values outside the range are sent through again (cycle walking: Black and Rogaway 2002), on average less than
-// once. A bijection by construction.
+// A Feistel network over the smallest power of two that holds `size`, its halves unequal by a bit where need
+// be; values outside the range are sent through again (cycle walking: Black and Rogaway 2002), on average
+// less than once. A bijection by construction.
 class Permutation {
  public:
   Permutation(std::uint64_t size, std::uint64_t seed)

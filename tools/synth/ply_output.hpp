@@ -1,11 +1,11 @@
 // A binary PLY of points, streamed: the count is filled in at the end.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-
 #include "tools/synth/output_file.hpp"
 #include "tools/synth/vec3.hpp"
+
+#include <cstdint>
+#include <filesystem>
 
 namespace lacuna::synth {
 

@@ -1,13 +1,13 @@
 #include "tools/synth/surface.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "engine/core/error.hpp"
 #include "tools/synth/hole_field.hpp"
 #include "tools/synth/surface_shape.hpp"
 #include "tools/synth/truth_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace lacuna::synth {
 
@@ -30,7 +30,8 @@ void check(const SurfaceOptions& o) {
   require(o.jitter >= 0 && o.jitter <= 0.5, "--jitter: must be 0 to 0.5 of the spacing");
   require(o.noise >= 0 && o.noise <= 1e3, "--noise: must be 0 to 1000 spacings");
   require(o.density_step >= 1 && o.density_step <= 100 && is_square(o.density_step),
-          "--density-step " + std::to_string(o.density_step) + ": must be 1, 4, 9, ..., 100, the square of a stride");
+          "--density-step " + std::to_string(o.density_step) +
+              ": must be 1, 4, 9, ..., 100, the square of a stride");
   require(o.density_factor >= 1 && o.density_factor <= 100, "--density-factor: must be 1 to 100");
   for (const double offset : o.translate)
     require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 units of the scan");
@@ -113,7 +114,8 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   }
 
   const auto in_ids = truth.in_ids();
-  truth_file.write("# one boundary loop per line, 0-based point ids of " + options.out.filename().string() + "\n");
+  truth_file.write("# one boundary loop per line, 0-based point ids of " + options.out.filename().string() +
+                   "\n");
   for (const auto& loop : in_ids) truth_file.write(in_text(loop));
   ply.commit();
   truth_file.commit();

@@ -1,10 +1,10 @@
 #include "tools/synth/surface_grid.hpp"
 
-#include <cmath>
-#include <string>
-
 #include "engine/core/error.hpp"
 #include "tools/synth/trig.hpp"
+
+#include <cmath>
+#include <string>
 
 namespace lacuna::synth {
 
@@ -46,8 +46,9 @@ SurfaceGrid lay_grid(const SurfaceOptions& options) {
   const double nodes = (static_cast<double>(options.points) + holes) / kept;
   const double side = std::sqrt(nodes / aspect(options.kind));
   if (side < kMinSide * exact_root(options.density_step) || side * aspect(options.kind) > kMaxSide)
-    throw Error("--points " + std::to_string(options.points) +
-                ": this surface needs at least about 10 x 10 points in its sparsest part, and at most 2^31 in a row");
+    throw Error(
+        "--points " + std::to_string(options.points) +
+        ": this surface needs at least about 10 x 10 points in its sparsest part, and at most 2^31 in a row");
 
   SurfaceGrid grid;
   grid.stride = exact_root(options.density_step);

@@ -1,10 +1,10 @@
 // The grid that a synthetic surface is made of: which of its nodes exist, and where it ends.
 #pragma once
 
+#include "tools/synth/surface_options.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "tools/synth/surface_options.hpp"
 
 namespace lacuna::synth {
 
@@ -32,8 +32,8 @@ struct SurfaceGrid {
 
 using NodeLoop = std::vector<std::uint64_t>;
 
-// A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that is too
-// few or too many.
+// A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that
+// is too few or too many.
 SurfaceGrid lay_grid(const SurfaceOptions& options);
 
 // The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus. Where the

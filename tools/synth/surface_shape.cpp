@@ -1,15 +1,15 @@
 #include "tools/synth/surface_shape.hpp"
 
-#include <cmath>
-
 #include "tools/synth/trig.hpp"
+
+#include <cmath>
 
 namespace lacuna::synth {
 
 namespace {
 
-// Monotone, 0 to 0 and 1 to 1; its slope changes by the factor `stretch`, steadily from end to end, or, on a closed
-// direction, once up and down.
+// Monotone, 0 to 0 and 1 to 1; its slope changes by the factor `stretch`, steadily from end to end, or, on a
+// closed direction, once up and down.
 double warp(double t, double stretch, bool closed) {
   if (stretch == 1) return t;
   const double swing = (stretch - 1) / (stretch + 1);
@@ -41,7 +41,8 @@ SurfacePoint on_torus(double u, double v, double width, double height) {
   return {{ring * cos_u, ring * sin_u, minor * sin_v}, {cos_v * cos_u, cos_v * sin_u, sin_v}};
 }
 
-// Stereographic, so that squares stay squares: a square sheet that covers 53 degrees to each side of the pole.
+// Stereographic, so that squares stay squares: a square sheet that covers 53 degrees to each side of the
+// pole.
 SurfacePoint on_sphere_cap(double u, double v, double width, double height) {
   const double radius = 0.5 * width;
   const double x = 2 * u - 1;

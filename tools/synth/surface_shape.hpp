@@ -11,8 +11,8 @@ struct SurfacePoint {
   Vec3 normal;  // unit
 };
 
-// From the plane of the grid to space. Neighbours are one spacing apart on average; a torus is denser inside, a
-// sphere cap at its corners, as their geometry has it.
+// From the plane of the grid to space. Neighbours are one spacing apart on average; a torus is denser inside,
+// a sphere cap at its corners, as their geometry has it.
 class SurfaceShape {
  public:
   SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);

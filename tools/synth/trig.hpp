@@ -1,5 +1,5 @@
-// Sine and cosine of an angle in turns, from + - * and floor only: the same bits on every machine, which those
-// of the C library are not.
+// Sine and cosine of an angle in turns, from + - * and floor only: the same bits on every machine, which
+// those of the C library are not.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,8 @@ inline SinCos sin_cos(double turns) {
   const double y = x * x;
   double s = -1.0 / 1307674368000;  // 1/15!
   double c = 1.0 / 20922789888000;  // 1/16!
-  for (const double term : {1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6})
+  for (const double term :
+       {1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6})
     s = s * y + term;
   for (const double term :
        {-1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24, -1.0 / 2})

@@ -18,7 +18,9 @@ std::size_t TruthLoops::place(std::uint64_t node) const {
   return static_cast<std::size_t>(found - nodes_.begin());
 }
 
-void TruthLoops::note(std::uint64_t node, std::uint64_t id) { ids_[place(node)] = id; }
+void TruthLoops::note(std::uint64_t node, std::uint64_t id) {
+  ids_[place(node)] = id;
+}
 
 std::vector<std::vector<std::uint64_t>> TruthLoops::in_ids() const {
   std::vector<std::vector<std::uint64_t>> all;

@@ -1,11 +1,11 @@
 // The true loops of a synthetic surface, from grid nodes to the ids of the points written.
 #pragma once
 
+#include "tools/synth/surface_grid.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
-
-#include "tools/synth/surface_grid.hpp"
 
 namespace lacuna::synth {
 
@@ -17,7 +17,8 @@ class TruthLoops {
   // `node` is on a loop and was written as the `id`-th point.
   void note(std::uint64_t node, std::uint64_t id);
 
-  // Once every node is noted: the loops as ids, each from its smallest towards that one's smaller neighbour, sorted.
+  // Once every node is noted: the loops as ids, each from its smallest towards that one's smaller neighbour,
+  // sorted.
   std::vector<std::vector<std::uint64_t>> in_ids() const;
 
  private:
