@@ -322,6 +322,7 @@ TEST_CASE("surfaces that cannot be made are refused in one line and leave no fil
   };
   refused([](SurfaceOptions& o) { o.points = 10; });
   refused([](SurfaceOptions& o) { o.holes = 1000; });
+  refused([](SurfaceOptions& o) { o.holes = 0 - std::uint64_t{1}; });
   refused([](SurfaceOptions& o) { o.hole_radius = {5, 4}; });
   refused([](SurfaceOptions& o) { o.hole_radius = {1, 4}; });
   refused([](SurfaceOptions& o) { o.jitter = 0.6; });

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kMaxElongation = 1.6;  // long over short axis of a hole
 constexpr double kMargin = 6;           // nodes between a hole and the edge of its cell
-constexpr std::uint64_t kMaxHoles = 10'000'000;
 
 // Fewer, larger cells while they still hold all the holes: spreads the holes over the whole surface.
 void widen_cells(std::uint64_t holes, double height, double width, std::uint32_t& down,
@@ -41,9 +40,8 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   down_ = static_cast<std::uint32_t>(grid.rows / (2 * reach + 1));
   across_ = static_cast<std::uint32_t>(width / (2 * reach + 1));
   const std::uint64_t room = std::uint64_t{down_} * across_;
-  if (options.holes > room || options.holes > kMaxHoles)
-    throw Error("--holes " + std::to_string(options.holes) + ": only " +
-                std::to_string(std::min(room, kMaxHoles)) +
+  if (options.holes > room)
+    throw Error("--holes " + std::to_string(options.holes) + ": only " + std::to_string(room) +
                 " holes of this radius fit on this surface; plant fewer or smaller ones, or more points");
   widen_cells(options.holes, grid.rows, width, down_, across_);
   cell_rows_ = grid.rows / down_;

@@ -50,7 +50,6 @@ class HoleField {
   NodeLoop trace(const Ellipse& hole) const;
 
   SurfaceGrid grid_;
-  std::uint32_t first_column_ = 0;
   std::uint32_t cell_rows_ = 1, cell_columns_ = 1;  // nodes per cell
   std::uint32_t down_ = 0, across_ = 0;             // cells
   std::vector<Ellipse> holes_;

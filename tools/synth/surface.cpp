@@ -25,6 +25,7 @@ bool is_square(std::uint32_t value) {
 
 void check(const SurfaceOptions& o) {
   require(o.spacing > 0 && o.spacing <= 1e6, "--spacing: must be above 0, at most 1e6 units of the scan");
+  require(o.holes <= 10'000'000, "--holes: must be at most 10 million");
   require(o.hole_radius[0] >= 1.5 && o.hole_radius[0] <= o.hole_radius[1] && o.hole_radius[1] <= 1e6,
           "--hole-radius: needs 1.5 <= smallest <= largest <= 1e6 spacings");
   require(o.jitter >= 0 && o.jitter <= 0.5, "--jitter: must be 0 to 0.5 of the spacing");
