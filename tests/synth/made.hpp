@@ -88,4 +88,23 @@ inline double distance(const Position& a, const Position& b) {
   return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
 }
 
+inline SurfaceOptions small_surface(const Folder& folder, SurfaceKind kind = SurfaceKind::kPlane) {
+  SurfaceOptions options;
+  options.out = folder / "made.ply";
+  options.truth = folder / "made.loops.txt";
+  options.kind = kind;
+  options.points = 20'000;
+  options.holes = 5;
+  options.hole_radius = {3, 7};
+  return options;
+}
+
+inline std::size_t rims_of(SurfaceKind kind) {
+  if (kind == SurfaceKind::kTorus) return 0;
+  return kind == SurfaceKind::kCylinder ? 2 : 1;
+}
+
+inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves, SurfaceKind::kCylinder,
+                                      SurfaceKind::kTorus, SurfaceKind::kSphereCap};
+
 }  // namespace lacuna::synth

@@ -21,7 +21,7 @@ OutputFile::OutputFile(std::filesystem::path name)
 }
 
 OutputFile::~OutputFile() {
-  if (!file_) return;
+  if (committed_) return;
   file_.reset();
   std::error_code ignored;
   std::filesystem::remove(partial_, ignored);
@@ -48,18 +48,18 @@ void OutputFile::overwrite_start(std::string_view text) {
   if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail();
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
+  if (!file_) return;
   flush();
-  if (std::fclose(file_.release()) != 0) {
-    const int reason = errno;
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
-    errno = reason;
-    fail();
-  }
+  if (std::fclose(file_.release()) != 0) fail();
+}
+
+void OutputFile::commit() {
+  finish();
   std::error_code error;
   std::filesystem::rename(partial_, name_, error);
   if (error) throw Error(name_.string() + ": cannot rename the finished file: " + error.message());
+  committed_ = true;
 }
 
 }  // namespace lacuna::synth

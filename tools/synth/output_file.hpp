@@ -20,7 +20,8 @@ class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path name);
   ~OutputFile();
-  OutputFile(OutputFile&&) = default;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::span<const std::byte> bytes) {
     if (bytes.size() > buffer_.size() - used_) make_room(bytes.size());
@@ -32,6 +33,10 @@ class OutputFile {
   // Puts `text` over the first bytes of the file.
   void overwrite_start(std::string_view text);
 
+  // All bytes are in the partial file, so that `commit` of one file cannot fail for want of room after that
+  // of another. Nothing may be written any more.
+  void finish();
+  // Finishes, and gives the file its name.
   void commit();
 
  private:
@@ -46,6 +51,7 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<std::byte> buffer_;
   std::size_t used_ = 0;
+  bool committed_ = false;
 };
 
 }  // namespace lacuna::synth
