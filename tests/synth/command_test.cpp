@@ -1,0 +1,60 @@
+#include "engine/core/error.hpp"
+#include "tests/synth/made.hpp"
+#include "tools/synth_command.hpp"
+
+#include <catch2/catch.hpp>
+#include <CLI/CLI.hpp>
+
+using namespace lacuna;
+using namespace lacuna::synth;
+
+namespace {
+
+void run(const std::string& arguments) {
+  CLI::App app;
+  add_synth_command(app);
+  app.parse(arguments);
+}
+
+}  // namespace
+
+TEST_CASE("the synth command makes what the options say") {
+  Folder folder;
+  const std::string out = (folder / "made.ply").string();
+  run("synth surface " + out +
+      " --kind sphere-cap --points 10000 --holes 2 --hole-radius 3 5 --jitter 0.1 --noise 0.1" +
+      " --spacing 1 --density-factor 2 --order random --seed 9 --translate -5 0 7 --double --truth " + out +
+      ".txt");
+  SurfaceOptions options;
+  options.out = folder / "again.ply";
+  options.kind = SurfaceKind::kSphereCap;
+  options.points = 10'000;
+  options.holes = 2;
+  options.hole_radius = {3, 5};
+  options.jitter = 0.1;
+  options.noise = 0.1;
+  options.spacing = 1;
+  options.density_factor = 2;
+  options.order = Order::kRandom;
+  options.seed = 9;
+  options.translate = {-5, 0, 7};
+  options.coordinates = Coordinates::kDouble;
+  write_surface(options);
+  CHECK(bytes_of(out) == bytes_of(options.out));
+  CHECK(loops_of(out + ".txt") == loops_of(folder / "again.loops.txt"));
+  CHECK(folder.files() == 4);
+
+  run("synth scan " + out +
+      " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20");
+  CHECK(rows_of(out, 17).size() == Approx(5000).epsilon(0.1));
+}
+
+TEST_CASE("the synth command refuses an unknown kind with the kinds that there are") {
+  Folder folder;
+  const std::string out = (folder / "made.ply").string();
+  CHECK_THROWS_WITH(run("synth surface " + out + " --kind cube"),
+                    Catch::Contains("torus") && Catch::Contains("cube"));
+  CHECK_THROWS_WITH(run("synth scan " + out + " --scene moon"), Catch::Contains("court"));
+  CHECK_THROWS_AS(run("synth scan " + out + " --points many"), CLI::ParseError);
+  CHECK(folder.files() == 0);
+}

@@ -1,0 +1,155 @@
+#include "engine/core/error.hpp"
+#include "tests/synth/made.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace lacuna;
+using namespace lacuna::synth;
+
+namespace {
+
+constexpr std::size_t kStride = 12 + 1 + 4;
+const auto kAllScenes = {SceneKind::kRoom, SceneKind::kCourt, SceneKind::kHall};
+
+ScanOptions small(const Folder& folder, SceneKind scene = SceneKind::kRoom) {
+  ScanOptions options;
+  options.out = folder / "made.ply";
+  options.scene = scene;
+  options.points = 20'000;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a ray meets the nearest of a wall, a box, a ball and a column, at the right angle") {
+  Scene scene;
+  scene.walls.push_back({{10, -5, -5}, {0, 1, 0}, {0, 0, 1}, 10, 10, 0.8, {{4, 4, 5, 5, Opening::kGlass}}});
+  const double slant = std::sqrt(0.5);
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).range == Approx(10));
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).cosine == Approx(1));
+  CHECK(cast(scene, {7, 0, 1}, {slant, slant, 0}).range == Approx(3 / slant));
+  CHECK(cast(scene, {7, 0, 1}, {slant, slant, 0}).cosine == Approx(slant));
+  CHECK(cast(scene, {0, -0.5, -0.5}, {1, 0, 0}).reflectance == 0);  // glass
+  CHECK(std::isinf(cast(scene, {0, 2, 0}, {-1, 0, 0}).range));
+  scene.boxes.push_back({{8, 2, 0}, {1, 1, 1}, 0.6, 0.8, 0.5});
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).range == Approx(8 - 1 / 0.8));
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).cosine == Approx(0.8));
+  scene.balls.push_back({{5, 2, 0}, 1, 0.5});
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).range == Approx(4));
+  scene.columns.push_back({{3, 2, -1}, 0.5, 2, 0.5});
+  CHECK(cast(scene, {0, 2, 0}, {1, 0, 0}).range == Approx(2.5));
+  CHECK(cast(scene, {0, 2, 1.5}, {1, 0, 0}).range == Approx(10));  // over the column
+  CHECK(cast(scene, {3, 2.2, 4}, {0, 0, -1}).range == Approx(3));  // its lid
+}
+
+TEST_CASE("a scan of the same seed has the same bytes, of another seed other bytes") {
+  Folder folder;
+  ScanOptions options = small(folder);
+  write_scan(options);
+  const std::string first = bytes_of(options.out);
+  write_scan(options);
+  CHECK(bytes_of(options.out) == first);
+  options.seed = 2;
+  write_scan(options);
+  CHECK(bytes_of(options.out) != first);
+}
+
+TEST_CASE("a scan has the bytes that it had on the machine where this test was written") {
+  Folder folder;
+  const auto hash = [&](SceneKind scene, Order order) {
+    ScanOptions options = small(folder, scene);
+    options.order = order;
+    options.stations = 3;
+    options.outliers = 0.01;
+    write_scan(options);
+    return fnv1a(bytes_of(options.out));
+  };
+  CHECK(hash(SceneKind::kRoom, Order::kScanline) == 0x25d59ce3a4bffc8du);
+  CHECK(hash(SceneKind::kCourt, Order::kRandom) == 0x3aa0958aba795917u);
+  CHECK(hash(SceneKind::kHall, Order::kScanline) == 0x8db3d5542b4e6719u);
+}
+
+TEST_CASE("a scan has about the points asked for, of every station, with intensities in range") {
+  for (const SceneKind scene : kAllScenes) {
+    Folder folder;
+    ScanOptions options = small(folder, scene);
+    options.stations = 4;
+    const ScanSummary made = write_scan(options);
+    const auto rows = rows_of(options.out, kStride);
+    CHECK(rows.size() == made.points);
+    CHECK(made.rays > made.points);
+    CHECK(double(made.points) == Approx(20'000).epsilon(0.05));
+    std::array<std::size_t, 4> of_station{};
+    for (const std::string& row : rows) {
+      ++of_station.at(scalar<std::uint8_t>(row, 12));
+      const auto intensity = scalar<float>(row, 13);
+      CHECK((intensity > 0 && intensity <= 1));
+    }
+    for (const std::size_t count : of_station) CHECK(count > 2500);
+  }
+}
+
+TEST_CASE("random order has the rows of scanline order, in another order") {
+  Folder folder;
+  ScanOptions options = small(folder, SceneKind::kCourt);
+  write_scan(options);
+  auto in_scanlines = rows_of(options.out, kStride);
+  options.order = Order::kRandom;
+  write_scan(options);
+  auto at_random = rows_of(options.out, kStride);
+  CHECK(in_scanlines != at_random);
+  std::sort(in_scanlines.begin(), in_scanlines.end());
+  std::sort(at_random.begin(), at_random.end());
+  CHECK(in_scanlines == at_random);
+}
+
+TEST_CASE("without noise and outliers the room's points lie on it, and its windows are empty") {
+  Folder folder;
+  ScanOptions options = small(folder);
+  options.noise = 0;
+  write_scan(options);
+  std::size_t on_window_wall = 0, in_window = 0;
+  for (const Position& p : positions_of(options.out, kStride)) {
+    CHECK((p[1] > -0.001 && p[1] < 8.001 && p[2] > -0.001 && p[2] < 2.801 && p[0] > -0.001 && p[0] < 9.501));
+    if (p[1] > 0.001) continue;
+    ++on_window_wall;
+    in_window += p[0] > 1.25 && p[0] < 2.95 && p[2] > 0.95 && p[2] < 2.25;
+  }
+  CHECK(on_window_wall > 100);
+  CHECK(in_window == 0);
+}
+
+TEST_CASE("doubles keep georeferenced coordinates") {
+  Folder folder;
+  ScanOptions options = small(folder);
+  write_scan(options);
+  const auto here = positions_of(options.out, kStride);
+  options.coordinates = Coordinates::kDouble;
+  options.translate = {4'000'000, 500'000, 0};
+  write_scan(options);
+  const auto there = rows_of(options.out, 24 + 1 + 4);
+  REQUIRE(there.size() == here.size());
+  for (std::size_t i = 0; i < here.size(); ++i)
+    CHECK(std::fabs(scalar<double>(there[i], 0) - 4'000'000 - here[i][0]) < 1e-6);
+}
+
+TEST_CASE("scans that cannot be made are refused and leave no file") {
+  Folder folder;
+  const auto refused = [&](auto change) {
+    ScanOptions options = small(folder);
+    change(options);
+    CHECK_THROWS_AS(write_scan(options), Error);
+    CHECK(folder.files() == 0);
+  };
+  refused([](ScanOptions& o) { o.points = 0; });
+  refused([](ScanOptions& o) { o.stations = 0; });
+  refused([](ScanOptions& o) { o.stations = 256; });
+  refused([](ScanOptions& o) { o.noise = -0.1; });
+  refused([](ScanOptions& o) { o.outliers = std::nan(""); });
+  refused([](ScanOptions& o) { o.max_range = 0; });
+  refused([](ScanOptions& o) { o.translate = {1e6, 0, 0}; });  // in floats
+  refused([](ScanOptions& o) { o.out = o.out / "no-such-folder" / "made.ply"; });
+}

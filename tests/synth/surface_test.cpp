@@ -1,0 +1,167 @@
+#include "engine/core/error.hpp"
+#include "tests/synth/made.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+using namespace lacuna;
+using namespace lacuna::synth;
+
+namespace {
+
+// Kilobytes of a field of /proc/self/status.
+long status_kilobytes(const std::string& field) {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(field)) return std::stol(line.substr(field.size()));
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a surface of the same seed has the same bytes, of another seed other bytes") {
+  Folder folder;
+  SurfaceOptions options = small_surface(folder);
+  write_surface(options);
+  const std::string first = bytes_of(options.out);
+  write_surface(options);
+  CHECK(bytes_of(options.out) == first);
+  options.seed = 2;
+  write_surface(options);
+  CHECK(bytes_of(options.out) != first);
+}
+
+TEST_CASE("a surface has the bytes that it had on the machine where this test was written") {
+  Folder folder;
+  const auto hash = [&](SurfaceKind kind, Order order) {
+    SurfaceOptions options = small_surface(folder, kind);
+    options.order = order;
+    options.noise = 0.2;
+    options.density_factor = 3;
+    write_surface(options);
+    return fnv1a(bytes_of(options.out) + bytes_of(options.truth));
+  };
+  CHECK(hash(SurfaceKind::kPlane, Order::kScanline) == 0x04c4665fbb35768eu);
+  CHECK(hash(SurfaceKind::kWaves, Order::kRandom) == 0x7af4096c3f95e1f9u);
+  CHECK(hash(SurfaceKind::kCylinder, Order::kRandom) == 0xff7fb20dcbc4a686u);
+  CHECK(hash(SurfaceKind::kTorus, Order::kScanline) == 0x9818274b4341e311u);
+  CHECK(hash(SurfaceKind::kSphereCap, Order::kScanline) == 0x4b9de0821496cf48u);
+}
+
+TEST_CASE("past the density step there is the promised part of the points, and the holes are before it") {
+  for (const std::uint32_t step : {4u, 9u}) {
+    Folder folder;
+    SurfaceOptions options = small_surface(folder);
+    options.density_step = step;
+    options.points = 40'000;
+    options.holes = 3;
+    write_surface(options);
+    const auto points = positions_of(options.out);
+    float width = 0;
+    for (const Position& p : points) width = std::max(width, p[0]);
+    const auto between = [&](double low, double high) {
+      return double(std::count_if(points.begin(), points.end(), [&](const Position& p) {
+        return p[0] > low * width && p[0] < high * width;
+      }));
+    };
+    CHECK(between(0.05, 0.45) / between(0.55, 0.95) == Approx(step).epsilon(0.05));
+    const auto loops = loops_of(options.truth);
+    CHECK(loops.size() == 4);
+    std::size_t past = 0;
+    for (const auto& loop : loops)
+      past += std::any_of(loop.begin(), loop.end(),
+                          [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
+    CHECK(past == 1);  // the rim
+  }
+}
+
+TEST_CASE("the density factor is the ratio of the densities at two corners") {
+  Folder folder;
+  SurfaceOptions options = small_surface(folder);
+  options.points = 200'000;
+  options.holes = 0;
+  options.density_factor = 9;
+  write_surface(options);
+  const auto points = positions_of(options.out);
+  Position far{};
+  for (const Position& p : points)
+    for (int axis : {0, 1}) far[axis] = std::max(far[axis], p[axis]);
+  double dense = 0, sparse = 0;
+  for (const Position& p : points) {
+    dense += p[0] < 0.03 * far[0] && p[1] < 0.03 * far[1];
+    sparse += p[0] > 0.97 * far[0] && p[1] > 0.97 * far[1];
+  }
+  CHECK(dense / sparse > 7);
+  CHECK(dense / sparse < 10);
+}
+
+TEST_CASE("noise is along the normal and has the deviation asked for") {
+  Folder folder;
+  SurfaceOptions options = small_surface(folder);
+  options.noise = 0.5;
+  options.translate = {0, 0, 2};
+  write_surface(options);
+  double sum = 0, squares = 0;
+  const auto points = positions_of(options.out);
+  for (const Position& p : points) {
+    sum += p[2] - 2;
+    squares += (p[2] - 2) * (p[2] - 2);
+  }
+  CHECK(std::fabs(sum / points.size()) < 1e-4);
+  CHECK(std::sqrt(squares / points.size()) == Approx(0.5 * options.spacing).epsilon(0.02));
+}
+
+TEST_CASE("two million points take less than 32 MB of memory") {
+  Folder folder;
+  SurfaceOptions options = small_surface(folder, SurfaceKind::kTorus);
+  options.points = 2'000'000;
+  options.holes = 100;
+  options.order = Order::kRandom;
+  std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
+  const long before = status_kilobytes("VmRSS:");
+  write_surface(options);
+  CHECK(status_kilobytes("VmHWM:") - before < 32 * 1024);
+}
+
+TEST_CASE("surfaces that cannot be made are refused in one line and leave no file") {
+  Folder folder;
+  const auto refused = [&](auto change) {
+    SurfaceOptions options = small_surface(folder);
+    change(options);
+    std::string reason;
+    try {
+      write_surface(options);
+    } catch (const Error& error) {
+      reason = error.what();
+    }
+    CHECK(!reason.empty());
+    CHECK(reason.find('\n') == std::string::npos);
+    CHECK(folder.files() == 0);
+  };
+  refused([](SurfaceOptions& o) { o.points = 10; });
+  refused([](SurfaceOptions& o) { o.holes = 1000; });
+  refused([](SurfaceOptions& o) { o.holes = 0 - std::uint64_t{1}; });
+  refused([](SurfaceOptions& o) { o.hole_radius = {5, 4}; });
+  refused([](SurfaceOptions& o) { o.hole_radius = {1, 4}; });
+  refused([](SurfaceOptions& o) { o.jitter = 0.6; });
+  refused([](SurfaceOptions& o) { o.noise = -1; });
+  refused([](SurfaceOptions& o) { o.spacing = std::nan(""); });
+  refused([](SurfaceOptions& o) { o.density_step = 5; });
+  refused([](SurfaceOptions& o) { o.density_factor = 0.5; });
+  refused([](SurfaceOptions& o) { o.translate = {1e6, 0, 0}; });  // in floats
+  refused([](SurfaceOptions& o) { o.truth = o.out; });
+  refused([](SurfaceOptions& o) { o.out = o.out / "no-such-folder" / "made.ply"; });
+}
+
+TEST_CASE("a full disk is an error that names file and reason, and nothing appears") {
+  Folder folder;
+  const SurfaceOptions options = small_surface(folder);
+  for (const auto& full : {options.out, options.truth}) {
+    std::filesystem::create_symlink("/dev/full", full.string() + ".partial");
+    CHECK_THROWS_WITH(write_surface(options),
+                      Catch::Contains(full.filename().string()) && Catch::Contains("No space left"));
+    CHECK(folder.files() == 0);
+  }
+}

@@ -1,0 +1,35 @@
+// A binary PLY of points, streamed: the count is filled in at the end.
+#pragma once
+
+#include "tools/synth/output_file.hpp"
+#include "tools/synth/vec3.hpp"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace lacuna::synth {
+
+enum class Coordinates { kFloat, kDouble };
+enum class Extras { kNone, kScanAndIntensity };  // uchar scan, float intensity
+
+// Little-endian rows x y z [scan intensity].
+class PlyOutput {
+ public:
+  PlyOutput(std::filesystem::path file, Coordinates coordinates, Extras extras);
+
+  void add(Vec3 position);
+  void add(Vec3 position, std::uint8_t scan, float intensity);
+  std::uint64_t count() const { return count_; }
+
+  void commit();
+
+ private:
+  std::string header() const;
+
+  OutputFile file_;
+  Coordinates coordinates_;
+  Extras extras_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,127 @@
+#include "tools/synth/surface.hpp"
+
+#include "engine/core/error.hpp"
+#include "tools/synth/hole_field.hpp"
+#include "tools/synth/surface_shape.hpp"
+#include "tools/synth/truth_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace lacuna::synth {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw Error(message);
+}
+
+bool is_square(std::uint32_t value) {
+  std::uint32_t root = 0;
+  while (root * root < value) ++root;
+  return root * root == value;
+}
+
+void check(const SurfaceOptions& o) {
+  require(o.spacing > 0 && o.spacing <= 1e6, "--spacing: must be above 0, at most 1e6 units of the scan");
+  require(o.holes <= 10'000'000, "--holes: must be at most 10 million");
+  require(o.hole_radius[0] >= 1.5 && o.hole_radius[0] <= o.hole_radius[1] && o.hole_radius[1] <= 1e6,
+          "--hole-radius: needs 1.5 <= smallest <= largest <= 1e6 spacings");
+  require(o.jitter >= 0 && o.jitter <= 0.5, "--jitter: must be 0 to 0.5 of the spacing");
+  require(o.noise >= 0 && o.noise <= 1e3, "--noise: must be 0 to 1000 spacings");
+  require(o.density_step >= 1 && o.density_step <= 100 && is_square(o.density_step),
+          "--density-step " + std::to_string(o.density_step) +
+              ": must be 1, 4, 9, ..., 100, the square of a stride");
+  require(o.density_factor >= 1 && o.density_factor <= 100, "--density-factor: must be 1 to 100");
+  for (const double offset : o.translate)
+    require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 units of the scan");
+}
+
+// Floats have 24 bits: where neighbours would fall together, the user means doubles.
+void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
+  if (options.coordinates == Coordinates::kDouble) return;
+  double reach = options.spacing * std::max(grid.rows, grid.columns);
+  for (const double offset : options.translate) reach = std::max(reach, std::fabs(offset));
+  require(reach * 0x1p-24 <= options.spacing / 16,
+          "floats are too coarse for this size and --translate: spacing " + std::to_string(options.spacing) +
+              " at coordinates of " + std::to_string(reach) + "; add --double");
+}
+
+class PointMaker {
+ public:
+  PointMaker(const SurfaceGrid& grid, const SurfaceOptions& options)
+      : grid_(grid),
+        shape_(grid, options),
+        jitter_(options.jitter),
+        noise_(options.noise * options.spacing),
+        translate_{options.translate[0], options.translate[1], options.translate[2]},
+        place_(options.seed, 1),
+        height_(options.seed, 2) {}
+
+  Vec3 at(std::uint32_t row, std::uint32_t column) const {
+    const std::uint64_t node = grid_.node(row, column);
+    const double jitter = grid_.thinned(column) ? jitter_ * grid_.stride : jitter_;
+    const SurfacePoint p = shape_.at(row + place_.uniform(2 * node, -jitter, jitter),
+                                     column + place_.uniform(2 * node + 1, -jitter, jitter));
+    if (noise_ == 0) return p.position + translate_;
+    return p.position + noise_ * height_.normal(node) * p.normal + translate_;
+  }
+
+ private:
+  const SurfaceGrid& grid_;
+  SurfaceShape shape_;
+  double jitter_, noise_;
+  Vec3 translate_;
+  Random place_, height_;
+};
+
+std::string in_text(const std::vector<std::uint64_t>& loop) {
+  std::string line;
+  for (const std::uint64_t id : loop) line += std::to_string(id) + ' ';
+  line.back() = '\n';
+  return line;
+}
+
+}  // namespace
+
+SurfaceSummary write_surface(const SurfaceOptions& options) {
+  check(options);
+  const SurfaceGrid grid = lay_grid(options);
+  check_precision(grid, options);
+  const HoleField holes(grid, options);
+  const PointMaker points(grid, options);
+  const Permutation shuffled(grid.nodes(), options.seed);
+
+  std::vector<NodeLoop> loops = holes.loops();
+  for (NodeLoop& rim : rims(grid)) loops.push_back(std::move(rim));
+  TruthLoops truth(std::move(loops));
+
+  std::filesystem::path truth_path = options.truth;
+  if (truth_path.empty()) truth_path = std::filesystem::path(options.out).replace_extension(".loops.txt");
+  require(truth_path != options.out, truth_path.string() + ": the surface and its true loops need two files");
+  PlyOutput ply(options.out, options.coordinates, Extras::kNone);
+  OutputFile truth_file(truth_path);
+
+  for (std::uint64_t turn = 0; turn < grid.nodes(); ++turn) {
+    const std::uint64_t node = options.order == Order::kRandom ? shuffled(turn) : turn;
+    const auto row = static_cast<std::uint32_t>(node / grid.columns);
+    const auto column = static_cast<std::uint32_t>(node % grid.columns);
+    if (!grid.exists(row, column)) continue;
+    const NodeState state = holes.state(row, column);
+    if (state == NodeState::kRemoved) continue;
+    if (state == NodeState::kOnLoop || grid.on_rim(row, column)) truth.note(node, ply.count());
+    ply.add(points.at(row, column));
+  }
+
+  const auto in_ids = truth.in_ids();
+  truth_file.write("# one boundary loop per line, 0-based point ids of " + options.out.filename().string() +
+                   "\n");
+  for (const auto& loop : in_ids) truth_file.write(in_text(loop));
+  truth_file.finish();
+  ply.commit();
+  truth_file.commit();
+  return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};
+}
+
+}  // namespace lacuna::synth

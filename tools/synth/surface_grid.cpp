@@ -1,0 +1,85 @@
+#include "tools/synth/surface_grid.hpp"
+
+#include "engine/core/error.hpp"
+#include "tools/synth/trig.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace lacuna::synth {
+
+namespace {
+
+constexpr double kMinSide = 8;
+constexpr double kMaxSide = 0x1p31;
+
+// Columns per row of the grid, for squares of about one spacing.
+double aspect(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::kCylinder:
+      return 2;
+    case SurfaceKind::kTorus:
+      return 3;  // the major radius is three minor ones
+    default:
+      return 1;
+  }
+}
+
+std::uint32_t exact_root(std::uint32_t square) {
+  std::uint32_t root = 1;
+  while (root * root < square) ++root;
+  return root;
+}
+
+// The multiple of `stride` nearest to `length`.
+std::uint32_t whole_strides(double length, std::uint32_t stride) {
+  return stride * static_cast<std::uint32_t>(std::floor(length / stride + 0.5));
+}
+
+}  // namespace
+
+SurfaceGrid lay_grid(const SurfaceOptions& options) {
+  const auto [low, high] = options.hole_radius;
+  const double hole_nodes = 0.5 * kTwoPi * (low * low + low * high + high * high) / 3;  // mean area of a hole
+  const double kept = 0.5 + 0.5 / options.density_step;
+  const double holes = static_cast<double>(options.holes) * hole_nodes;
+  const double nodes = (static_cast<double>(options.points) + holes) / kept;
+  const double side = std::sqrt(nodes / aspect(options.kind));
+  if (side < kMinSide * exact_root(options.density_step) || side * aspect(options.kind) > kMaxSide)
+    throw Error(
+        "--points " + std::to_string(options.points) +
+        ": this surface needs at least about 10 x 10 points in its sparsest part, and at most 2^31 in a row");
+
+  SurfaceGrid grid;
+  grid.stride = exact_root(options.density_step);
+  grid.wrap_columns = options.kind == SurfaceKind::kCylinder || options.kind == SurfaceKind::kTorus;
+  grid.wrap_rows = options.kind == SurfaceKind::kTorus;
+  // An open side of n whole strides has n + 1 coarse rows, a closed one n.
+  grid.rows = whole_strides(side, grid.stride) + (grid.wrap_rows ? 0 : 1);
+  const double columns = nodes / grid.rows;
+  grid.step_column = static_cast<std::uint32_t>(columns / 2);
+  grid.columns =
+      grid.step_column + whole_strides(columns - grid.step_column, grid.stride) + (grid.wrap_columns ? 0 : 1);
+  return grid;
+}
+
+std::vector<NodeLoop> rims(const SurfaceGrid& grid) {
+  if (grid.wrap_rows) return {};
+  const std::uint32_t bottom = grid.rows - 1;
+  const std::uint32_t right = grid.columns - 1;
+  NodeLoop first, last;
+  for (std::uint32_t column = 0; column < grid.columns; ++column) {
+    if (!grid.exists(0, column)) continue;
+    first.push_back(grid.node(0, column));
+    last.push_back(grid.node(bottom, column));
+  }
+  if (grid.wrap_columns) return {first, last};
+  NodeLoop around = first;
+  for (std::uint32_t row = 1; row < bottom; ++row)
+    if (grid.exists(row, right)) around.push_back(grid.node(row, right));
+  around.insert(around.end(), last.rbegin(), last.rend());
+  for (std::uint32_t row = bottom - 1; row > 0; --row) around.push_back(grid.node(row, 0));
+  return {around};
+}
+
+}  // namespace lacuna::synth

@@ -1,0 +1,43 @@
+// The grid that a synthetic surface is made of: which of its nodes exist, and where it ends.
+#pragma once
+
+#include "tools/synth/surface_options.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::synth {
+
+// A node of the grid is written row * columns + column. Columns beyond `step_column` are thinned to every
+// `stride`-th, and so are the rows there.
+struct SurfaceGrid {
+  std::uint32_t rows = 0, columns = 0;
+  bool wrap_rows = false, wrap_columns = false;  // the last row (column) is next to the first
+  std::uint32_t step_column = 0;
+  std::uint32_t stride = 1;
+
+  std::uint64_t nodes() const { return std::uint64_t{rows} * columns; }
+  std::uint64_t node(std::uint32_t row, std::uint32_t column) const {
+    return std::uint64_t{row} * columns + column;
+  }
+  bool thinned(std::uint32_t column) const { return stride > 1 && column > step_column; }
+  bool exists(std::uint32_t row, std::uint32_t column) const {
+    return !thinned(column) || (row % stride == 0 && (column - step_column) % stride == 0);
+  }
+  bool on_rim(std::uint32_t row, std::uint32_t column) const {
+    return (!wrap_rows && (row == 0 || row + 1 == rows)) ||
+           (!wrap_columns && (column == 0 || column + 1 == columns));
+  }
+};
+
+using NodeLoop = std::vector<std::uint64_t>;
+
+// A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that
+// is too few or too many.
+SurfaceGrid lay_grid(const SurfaceOptions& options);
+
+// The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus. Where the
+// density steps, fine and coarse quads meet without a gap.
+std::vector<NodeLoop> rims(const SurfaceGrid& grid);
+
+}  // namespace lacuna::synth

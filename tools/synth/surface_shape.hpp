@@ -1,0 +1,31 @@
+// The smooth surfaces that the grid is laid on.
+#pragma once
+
+#include "tools/synth/surface_grid.hpp"
+#include "tools/synth/vec3.hpp"
+
+namespace lacuna::synth {
+
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 normal;  // unit
+};
+
+// From the plane of the grid to space. Neighbours are one spacing apart on average; a torus is denser inside,
+// a sphere cap at its corners, as their geometry has it.
+class SurfaceShape {
+ public:
+  SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);
+
+  // At a place between the nodes, in rows and columns.
+  SurfacePoint at(double row, double column) const;
+
+ private:
+  SurfaceKind kind_;
+  bool wrap_rows_, wrap_columns_;
+  double rows_, columns_;  // steps from the first to the last, or around
+  double height_, width_;  // rows_ and columns_, units of the scan
+  double stretch_;         // largest over smallest step in each direction
+};
+
+}  // namespace lacuna::synth
