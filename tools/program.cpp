@@ -1,5 +1,13 @@
 #include "tools/program.hpp"
 
+#include "engine/core/error.hpp"
+#include "tools/detect_command.hpp"
+#include "tools/info_command.hpp"
+#include "tools/parameter_options.hpp"
+#include "tools/signals.hpp"
+#include "tools/synth_command.hpp"
+#include "tools/terminal.hpp"
+
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -10,14 +18,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-
-#include "engine/core/error.hpp"
-#include "tools/detect_command.hpp"
-#include "tools/info_command.hpp"
-#include "tools/parameter_options.hpp"
-#include "tools/signals.hpp"
-#include "tools/synth_command.hpp"
-#include "tools/terminal.hpp"
 
 namespace lacuna {
 namespace {

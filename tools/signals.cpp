@@ -1,5 +1,7 @@
 #include "tools/signals.hpp"
 
+#include "tools/terminal.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -11,8 +13,6 @@
 
 #include <pthread.h>
 #include <unistd.h>
-
-#include "tools/terminal.hpp"
 
 namespace lacuna {
 namespace {

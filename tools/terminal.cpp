@@ -9,11 +9,10 @@
 #include <mutex>
 #include <utility>
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -191,14 +190,18 @@ void start_log() {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("lacuna", std::make_shared<ConsoleSink>()));
 }
 
-void quiet_log() { spdlog::set_level(spdlog::level::warn); }
+void quiet_log() {
+  spdlog::set_level(spdlog::level::warn);
+}
 
 void print_error(std::string_view reason) {
   clear_progress();
   console().print_line("lacuna: error: " + std::string(reason));
 }
 
-void clear_progress() { console().show_bar(""); }
+void clear_progress() {
+  console().show_bar("");
+}
 
 std::string progress_bar(std::string_view phase, std::uint64_t done, std::uint64_t total, double seconds,
                          std::size_t width) {

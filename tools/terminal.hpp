@@ -2,12 +2,12 @@
 // place, so that a log line never tears the progress bar.
 #pragma once
 
+#include "engine/core/progress.hpp"
+
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include "engine/core/progress.hpp"
 
 namespace lacuna {
 

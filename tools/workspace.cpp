@@ -1,5 +1,8 @@
 #include "tools/workspace.hpp"
 
+#include "engine/core/error.hpp"
+#include "tools/signals.hpp"
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -8,9 +11,6 @@
 #include <utility>
 
 #include <unistd.h>
-
-#include "engine/core/error.hpp"
-#include "tools/signals.hpp"
 
 namespace lacuna {
 
