@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 to the holes of a scan: installs, builds, makes a scan of about 200,000 points in
+# demo/ and finds its holes.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+tools/build.sh -DLACUNA_TESTS=OFF
+
+mkdir -p demo
+build/lacuna synth scan demo/scan.ply --points 200000 --stations 3 --seed 1
+build/lacuna detect demo/scan.ply --out demo/holes --points
+
+cat <<END
+
+Look at it in CloudCompare or MeshLab:
+  $PWD/demo/holes/points.ply    every point, with its boundary probability
+  $PWD/demo/holes/loops.ply     the loops around the holes
+and at $PWD/demo/holes/holes.json for their measures.
+On a scan of your own:
+  $PWD/build/lacuna detect SCAN.ply --out DIR
+END

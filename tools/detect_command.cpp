@@ -1,0 +1,110 @@
+#include "tools/detect_command.hpp"
+
+#include "engine/config.hpp"
+#include "engine/core/error.hpp"
+#include "engine/pipeline.hpp"
+#include "io/file_scan.hpp"
+#include "io/results.hpp"
+#include "tools/parameter_options.hpp"
+#include "tools/summary.hpp"
+#include "tools/terminal.hpp"
+#include "tools/workspace.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct DetectArguments {
+  explicit DetectArguments(CLI::App& command) : parameters(command) {}
+
+  std::vector<fs::path> scans;
+  fs::path out;
+  bool print_config = false;
+  ProgressStyle progress = default_progress_style();
+  bool quiet = false;
+  bool keep_workspace = false;
+  ParameterOptions parameters;
+};
+
+void require(const CLI::App& command, const std::string& option) {
+  if (command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
+}
+
+// Writes the results; returns what to tell about them.
+std::string detect_to(const fs::path& out, const DetectArguments& arguments, const Config& config) {
+  const Clock::time_point start = Clock::now();
+  FileScan scan(arguments.scans, {.columns = config.input.columns});
+
+  const MadeFolder out_folder(out);
+  const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
+  const std::string prefix = config.run.workspace.empty() ? ".lacuna-" : "lacuna-";
+  const Workspace workspace(parent.path(), prefix, arguments.keep_workspace);
+  const std::unique_ptr<Progress> progress =
+      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
+
+  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
+  const Clock::time_point writing = Clock::now();
+  progress->begin("write", 0);
+  write_results(*detection, scan, config, out);
+  progress->end();
+
+  const Clock::time_point end = Clock::now();
+  std::string told = print_summary(*detection, arguments.scans,
+                                   {.write_seconds = std::chrono::duration<double>(end - writing).count(),
+                                    .total_seconds = std::chrono::duration<double>(end - start).count()});
+  told += print_result_files(out);
+  if (arguments.keep_workspace) told += "workspace kept: " + workspace.path().string() + "\n";
+  return told;
+}
+
+void run_detect(const CLI::App& command, const DetectArguments& arguments) {
+  const Config config = arguments.parameters.effective_config();
+  if (arguments.print_config) {
+    std::cout << print_config(config);
+    return;
+  }
+  require(command, "SCAN");
+  require(command, "--out");
+  if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
+  if (arguments.quiet) quiet_log();
+
+  const std::string told = detect_to(arguments.out, arguments, config);
+  if (!arguments.quiet) std::cout << told;
+}
+
+}  // namespace
+
+void add_detect_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("detect", "Find the holes of a scan and write them to a folder");
+  // Its life ends with the callback's, the app's own.
+  const auto arguments = std::make_shared<DetectArguments>(*command);
+  command->add_option("SCAN", arguments->scans, "Scan files (PLY or text); several are one registered scan")
+      ->type_name("FILE");
+  command->add_option("--out", arguments->out, "Folder for the results; made if missing")->type_name("DIR");
+  command->add_flag("--print-config", arguments->print_config,
+                    "Print the parameters in effect as a config file, and end");
+  const std::map<std::string, ProgressStyle> styles = {
+      {"bar", ProgressStyle::kBar}, {"plain", ProgressStyle::kPlain}, {"none", ProgressStyle::kNone}};
+  command
+      ->add_option("--progress", arguments->progress,
+                   "bar, plain or none; bar where stderr is a terminal, else plain")
+      ->transform(CLI::CheckedTransformer(styles).description(""))
+      ->type_name("STYLE");
+  command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
+  command->add_flag("--keep-workspace", arguments->keep_workspace, "Leave the workspace folder on disk");
+  command->callback([command, arguments] { run_detect(*command, *arguments); });
+}
+
+}  // namespace lacuna

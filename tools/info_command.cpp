@@ -1,0 +1,210 @@
+#include "tools/info_command.hpp"
+
+#include "engine/config.hpp"
+#include "engine/pipeline.hpp"
+#include "io/file_scan.hpp"
+#include "tools/parameter_options.hpp"
+#include "tools/summary.hpp"
+#include "tools/terminal.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Measured: points per second of a whole `lacuna detect` with default parameters, on two threads.
+constexpr double kPointsPerSecond = 500'000;
+constexpr double kMeasuredThreads = 2;
+
+// What points.ply has for each point beyond the input's own properties: four floats, two flags, a loop.
+constexpr std::uint64_t kResultBytes = 4 * 4 + 2 + 4;
+constexpr std::uint64_t kNormalBytes = 3 * 4;
+
+struct InfoArguments {
+  explicit InfoArguments(CLI::App& command) : parameters(command) {}
+
+  std::vector<fs::path> scans;
+  bool json = false;
+  ParameterOptions parameters;
+};
+
+struct FileInfo {
+  fs::path file;
+  std::string format;
+  RowLayout layout;
+  std::uint64_t points = 0;
+};
+
+struct RunInfo {
+  Estimate estimate;
+  std::uint64_t points_ply_bytes = 0;
+  double seconds = 0;
+};
+
+// "PLY, binary_little_endian" as its header says, or "text".
+std::string format_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string magic, keyword, encoding;
+  in >> std::setw(4) >> magic;
+  if (magic != "ply") return "text";
+  in >> std::setw(16) >> keyword >> std::setw(32) >> encoding;
+  return "PLY, " + (keyword == "format" ? encoding : "unknown encoding");
+}
+
+std::uint64_t count_rows(ScanReader& reader) {
+  if (const auto expected = reader.expected_rows()) return *expected;
+  constexpr std::size_t kRowsAtATime = 1 << 16;
+  std::uint64_t rows = 0;
+  for (RowBatch batch; reader.next(batch, kRowsAtATime);) rows += batch.count;
+  return rows;
+}
+
+FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
+  const std::unique_ptr<ScanReader> reader = open_scan(file, options);
+  return {file, format_of(file), reader->layout(), count_rows(*reader)};
+}
+
+RunInfo estimate_run(FileScan& scan, const std::vector<FileInfo>& files, const Config& config) {
+  RunInfo run;
+  NoProgress silence;
+  run.estimate = estimate(scan, config, silence);
+
+  std::uint64_t row_bytes = kResultBytes + (config.output.normals ? kNormalBytes : 0);
+  std::map<std::string, std::size_t> properties;  // of all files together, each as wide as its widest
+  for (const FileInfo& file : files) {
+    for (const Property& property : file.layout.properties) {
+      std::size_t& size = properties[property.name];
+      size = std::max(size, size_of(property.type));
+    }
+  }
+  for (const auto& [name, size] : properties) row_bytes += size;
+  const Summary& summary = run.estimate.summary;
+  run.points_ply_bytes = row_bytes * summary.counts.points;
+
+  const double threads = std::max<double>(1, static_cast<double>(summary.threads));
+  run.seconds = static_cast<double>(summary.counts.points) / kPointsPerSecond * kMeasuredThreads / threads;
+  return run;
+}
+
+std::string print_point(const Eigen::Vector3d& point) {
+  std::ostringstream out;
+  out.precision(10);
+  out << point.x() << " " << point.y() << " " << point.z();
+  return out.str();
+}
+
+std::string assumption() {
+  return "assuming " + print_count(static_cast<std::uint64_t>(kPointsPerSecond)) + " points/s on " +
+         std::to_string(static_cast<int>(kMeasuredThreads)) + " threads, and twice that on twice as many";
+}
+
+void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
+  for (const FileInfo& file : files) {
+    std::cout << file.file.string() << "\n  format      " << file.format << "\n  points      "
+              << print_count(file.points) << "\n  properties ";
+    for (const Property& property : file.layout.properties) {
+      std::cout << " " << property.name << " (" << ply_name(property.type) << ")";
+    }
+    std::cout << "\n";
+  }
+  const Summary& summary = run.estimate.summary;
+  std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
+  if (summary.counts.dropped > 0) std::cout << ", " << print_count(summary.counts.dropped) << " not finite";
+  std::cout << "\n  bounds        ";
+  if (summary.bounds.isEmpty()) {
+    std::cout << "none: no finite point";
+  } else {
+    std::cout << print_point(summary.bounds.min()) << " to " << print_point(summary.bounds.max());
+  }
+  std::cout << "\n  tiles         " << print_count(summary.tiles) << ", of at most "
+            << print_count(summary.tile_points) << " points"
+            << "\n  cells         " << print_count(run.estimate.cells) << ", of size "
+            << run.estimate.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
+            << "\n  threads       " << summary.threads << "\n  workspace     "
+            << print_size(run.estimate.workspace_bytes) << " on disk"
+            << "\n  points.ply    " << print_size(run.points_ply_bytes) << ", with --points"
+            << "\n  other output  depends on the holes found"
+            << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
+}
+
+Json point_json(const Eigen::Vector3d& point) {
+  return Json::array({point.x(), point.y(), point.z()});
+}
+
+void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
+  Json root;
+  root["files"] = Json::array();
+  for (const FileInfo& file : files) {
+    Json properties = Json::array();
+    for (const Property& property : file.layout.properties) {
+      properties.push_back({{"name", property.name}, {"type", ply_name(property.type)}});
+    }
+    root["files"].push_back({{"file", file.file.string()},
+                             {"format", file.format},
+                             {"points", file.points},
+                             {"properties", std::move(properties)}});
+  }
+  const Summary& summary = run.estimate.summary;
+  const bool has_bounds = !summary.bounds.isEmpty();
+  root["points"] = summary.counts.points;
+  root["dropped"] = summary.counts.dropped;
+  root["bounds"] =
+      has_bounds
+          ? Json({{"min", point_json(summary.bounds.min())}, {"max", point_json(summary.bounds.max())}})
+          : Json();
+  root["tiles"] = summary.tiles;
+  root["tile_points"] = summary.tile_points;
+  root["cells"] = run.estimate.cells;
+  root["cell_size"] = run.estimate.cell_size;
+  root["memory_limit"] = summary.memory_limit;
+  root["threads"] = summary.threads;
+  root["workspace_bytes"] = run.estimate.workspace_bytes;
+  root["points_ply_bytes"] = run.points_ply_bytes;
+  root["estimated_seconds"] = run.seconds;
+  root["estimate"] = assumption();
+  // Names of files need not be UTF-8.
+  std::cout << root.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
+
+void run_info(const InfoArguments& arguments) {
+  const Config config = arguments.parameters.effective_config();
+  const ReadOptions options{.columns = config.input.columns};
+  FileScan scan(arguments.scans, options);
+  std::vector<FileInfo> files;
+  for (const fs::path& file : arguments.scans) files.push_back(read_file_info(file, options));
+  const RunInfo run = estimate_run(scan, files, config);
+  if (arguments.json) {
+    print_json(files, run);
+  } else {
+    print_text(files, run);
+  }
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("info", "Show what scan files hold and what a run on them would take");
+  const auto arguments = std::make_shared<InfoArguments>(*command);
+  command->add_option("SCAN", arguments->scans, "Scan files (PLY or text); several are one registered scan")
+      ->type_name("FILE")
+      ->required();
+  command->add_flag("--json", arguments->json, "Print it as JSON");
+  command->callback([arguments] { run_info(*arguments); });
+}
+
+}  // namespace lacuna

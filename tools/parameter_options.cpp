@@ -1,0 +1,84 @@
+#include "tools/parameter_options.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <variant>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna {
+namespace {
+
+struct TypeName {
+  std::string operator()(const std::int64_t*) const { return "N"; }
+  std::string operator()(const double*) const { return "X"; }
+  std::string operator()(const bool*) const { return ""; }
+  std::string operator()(const std::string*) const { return "TEXT"; }
+  std::string operator()(const std::uint64_t*) const { return "SIZE"; }
+};
+
+}  // namespace
+
+ParameterOptions::ParameterOptions(CLI::App& command) {
+  command.add_option("--config", config_file_, "Config file (TOML); the command line counts over it")
+      ->type_name("FILE");
+  Config defaults;
+  for (const Parameter& parameter : parameters(defaults)) {
+    Given& given = given_.emplace_back();
+    const bool is_flag = std::holds_alternative<bool*>(parameter.value);
+    CLI::Option* option = is_flag ? command.add_flag(parameter.option(), given.text)
+                                  : command.add_option(parameter.option(), given.text);
+    option->description(std::string(parameter.help));
+    option->group(std::string(parameter.section));
+    option->type_name(std::visit(TypeName{}, parameter.value));
+    option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    if (!is_flag) option->default_str(parameter.print());
+    given.option = option;
+  }
+}
+
+Config ParameterOptions::effective_config() const {
+  Config config;
+  if (!config_file_.empty()) read_config(config_file_, config);
+  const std::vector<Parameter> all = parameters(config);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (given_[i].option->count() == 0) continue;
+    try {
+      all[i].set(given_[i].text);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(all[i].option(), error.what());
+    }
+  }
+  try {
+    check_config(config);
+  } catch (const Error& error) {
+    if (config_file_.empty()) throw CLI::ValidationError(error.what());
+    throw Error(config_file_ + " with the command line: " + error.what());
+  }
+  return config;
+}
+
+std::vector<std::string> join_columns(std::vector<std::string> arguments) {
+  std::vector<std::string> joined;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--") {
+      joined.insert(joined.end(), arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.end());
+      break;
+    }
+    const auto is_name = [&](std::size_t at) {
+      return at < arguments.size() && !arguments[at].starts_with('-');
+    };
+    if (arguments[i] != "--columns" || !is_name(i + 1)) {
+      joined.push_back(arguments[i]);
+      continue;
+    }
+    std::string names = arguments[++i];
+    if (names.find(' ') == std::string::npos) {
+      while (is_name(i + 1)) names += " " + arguments[++i];
+    }
+    joined.push_back("--columns=" + names);
+  }
+  return joined;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,39 @@
+// The command line's view of the parameters: one option each, generated from the list in engine/config.
+#pragma once
+
+#include "engine/config.hpp"
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lacuna {
+
+class ParameterOptions {
+ public:
+  // Adds `--config` and an option for every parameter, grouped by section in --help.
+  explicit ParameterOptions(CLI::App& command);
+
+  // Defaults, then the config file, then the command line. Throws `Error` for what is wrong in the file and
+  // `CLI::ValidationError` for what is wrong on the command line.
+  Config effective_config() const;
+
+ private:
+  struct Given {
+    const CLI::Option* option;
+    std::string text;
+  };
+  std::string config_file_;
+  std::deque<Given> given_;  // as in parameters(); a deque, because the options point into it
+};
+
+// `--columns x y z` with its names as one argument, `--columns=x y z`: all that follow up to the next option;
+// only the first where it holds several names already.
+std::vector<std::string> join_columns(std::vector<std::string> arguments);
+
+}  // namespace lacuna

@@ -1,0 +1,90 @@
+#include "tools/program.hpp"
+
+#include "engine/core/error.hpp"
+#include "tools/detect_command.hpp"
+#include "tools/info_command.hpp"
+#include "tools/parameter_options.hpp"
+#include "tools/signals.hpp"
+#include "tools/synth_command.hpp"
+#include "tools/terminal.hpp"
+
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna {
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
+
+int fail(const std::string& reason, ExitCode code) {
+  wait_if_interrupted();  // the signal tells how the program ends
+  print_error(reason);
+  return code;
+}
+
+// A full disk or a closed pipe behind stdout is a failure like any other.
+int flush_output() {
+  std::cout.flush();
+  if (std::cout) return kDone;
+  return fail("cannot write to standard output", kFailed);
+}
+
+int run_command(CLI::App& app, std::vector<std::string> arguments) {
+  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  return flush_output();
+}
+
+std::string usage_hint(const CLI::App& app) {
+  std::string command = "lacuna";
+  for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+  return " (see " + command + " --help)";
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error to report, after the workspace is removed
+  handle_signals();
+  start_log();
+
+  CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
+  app.set_version_flag("--version", "lacuna " LACUNA_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+  add_detect_command(app);
+  add_info_command(app);
+  add_synth_command(app);
+
+  try {
+    return run_command(app, join_columns({argv + 1, argv + argc}));
+  } catch (const CLI::Success& shown) {  // --help, --version
+    app.exit(shown, std::cout, std::cerr);
+    return flush_output();
+  } catch (const CLI::Error& error) {
+    return fail(one_line(error.what()) + usage_hint(app), kWrongUsage);
+  } catch (const Error& error) {
+    return fail(one_line(error.what()), kFailed);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; a lower --memory-limit or smaller --tile-points may help", kFailed);
+  } catch (const std::exception& error) {  // of the file system, mostly
+    return fail(one_line(error.what()), kFailed);
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,73 @@
+#include "tools/signals.hpp"
+
+#include "tools/terminal.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <pthread.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+std::mutex folders_mutex;
+std::vector<std::filesystem::path> folders;
+std::atomic<bool> interrupted = false;
+
+// Other threads may still be adding files, so removing takes several rounds.
+void remove_persistently(const std::filesystem::path& folder) {
+  for (int round = 0; round < 100; ++round) {
+    std::error_code error;
+    std::filesystem::remove_all(folder, error);
+    if (!error && !std::filesystem::exists(folder, error)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+void wait_for_signal(sigset_t signals) {
+  int signal = 0;
+  sigwait(&signals, &signal);
+  interrupted = true;
+  clear_progress();
+  const std::lock_guard lock(folders_mutex);  // kept: no folder is added any more
+  for (const auto& folder : folders) remove_persistently(folder);
+  _exit(128 + signal);
+}
+
+}  // namespace
+
+void handle_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    const bool is_ignored = action.sa_handler == SIG_IGN;  // by nohup, or by a shell in the background
+    if (!is_ignored) sigaddset(&signals, signal);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(wait_for_signal, signals).detach();
+}
+
+void remove_on_signal(const std::filesystem::path& folder) {
+  const std::lock_guard lock(folders_mutex);
+  folders.push_back(std::filesystem::absolute(folder));
+}
+
+void keep_on_signal(const std::filesystem::path& folder) {
+  const std::lock_guard lock(folders_mutex);
+  std::erase(folders, std::filesystem::absolute(folder));
+}
+
+void wait_if_interrupted() {
+  while (interrupted) pause();
+}
+
+}  // namespace lacuna

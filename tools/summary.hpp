@@ -1,0 +1,29 @@
+// What a person reads after a run.
+#pragma once
+
+#include "engine/data/detection.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+struct RunTimes {
+  double write_seconds = 0;
+  double total_seconds = 0;
+};
+
+// What was read and found, time per phase, and the loops, the one with the largest perimeter first.
+std::string print_summary(const Detection& detection, const std::vector<std::filesystem::path>& scans,
+                          const RunTimes& times);
+
+// The files that a run has left in its output folder.
+std::string print_result_files(const std::filesystem::path& folder);
+
+std::string print_count(std::uint64_t count);  // "1,234,567"
+std::string print_size(std::uint64_t bytes);   // "1.5 GiB", for people; exact: print_bytes
+std::uint64_t peak_memory();                   // bytes resident, as the operating system measures it
+
+}  // namespace lacuna

@@ -1,0 +1,61 @@
+#include "tools/workspace.hpp"
+
+#include "engine/core/error.hpp"
+#include "tools/signals.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+namespace lacuna {
+
+namespace fs = std::filesystem;
+
+MadeFolder::MadeFolder(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error(folder_.string() + ": not a folder");
+  }
+  for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
+       missing = missing.parent_path()) {
+    if (missing.has_filename()) made_.push_back(missing);
+    if (missing == missing.parent_path()) break;
+  }
+  fs::create_directories(folder_, error);
+  if (error && !fs::is_directory(folder_)) {
+    throw Error(folder_.string() + ": cannot make the folder: " + error.message());
+  }
+  if (access(folder_.c_str(), W_OK | X_OK) != 0) {
+    throw Error(folder_.string() + ": cannot write to the folder: " + std::strerror(errno));
+  }
+}
+
+MadeFolder::~MadeFolder() {
+  for (const fs::path& folder : made_) {
+    if (rmdir(folder.c_str()) != 0) return;  // it holds something: that is what it was made for
+  }
+}
+
+Workspace::Workspace(const fs::path& parent, const std::string& prefix, bool keep) : keep_(keep) {
+  std::string name = (parent / (prefix + "XXXXXX")).string();
+  if (!mkdtemp(name.data())) {
+    throw Error(parent.string() + ": cannot make a workspace: " + std::strerror(errno));
+  }
+  folder_ = name;
+  if (!keep_) remove_on_signal(folder_);
+}
+
+Workspace::~Workspace() {
+  if (keep_) return;
+  std::error_code error;  // nothing to be done about it
+  fs::remove_all(folder_, error);
+  keep_on_signal(folder_);
+}
+
+}  // namespace lacuna

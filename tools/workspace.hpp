@@ -1,0 +1,43 @@
+// Folders that a run makes, and takes away again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// A folder that exists afterwards, with its parents. What was made for it and is still empty at the end is
+// removed, so that a failed run leaves nothing behind.
+class MadeFolder {
+ public:
+  // Throws `Error` if the path is no folder, cannot be made or cannot be written to.
+  explicit MadeFolder(std::filesystem::path folder);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
+
+// A fresh folder with a unique name, `prefix` and six more letters; removed with all it holds at the end,
+// and when a signal ends the program.
+class Workspace {
+ public:
+  Workspace(const std::filesystem::path& parent, const std::string& prefix, bool keep);
+  ~Workspace();
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  bool keep_;
+};
+
+}  // namespace lacuna
