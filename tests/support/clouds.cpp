@@ -232,10 +232,11 @@ Cloud open_cylinder(int nu, int nv) {
   return cloud;
 }
 
-Cloud crease(int n) {
+Cloud crease(int n, double degrees) {
+  const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
   Cloud cloud = plane(n);
   for (const Vector3d& p : plane(n).positions) {
-    if (p.x() > 0) cloud.positions.emplace_back(0, p.y(), p.x());
+    if (p.x() > 0) cloud.positions.emplace_back(p.x() * c, p.y(), p.x() * s);
   }
   return cloud;
 }

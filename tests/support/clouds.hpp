@@ -68,8 +68,8 @@ Cloud lattice(int n);
 Cloud sphere(int n);
 // nu points around, nv rings a unit apart about the z axis; neighbours on a ring a unit apart too. Two rims.
 Cloud open_cylinder(int nu, int nv);
-// Two n x n half planes of the unit grid that meet at 90 degrees along the y axis.
-Cloud crease(int n);
+// Two n x n half planes of the unit grid that meet along the y axis.
+Cloud crease(int n, double degrees = 90);
 // The plane(n) where x < n / 2; beyond, every other point along both axes: a quarter of the density.
 Cloud density_step(int n);
 Cloud line(int n);
