@@ -1,0 +1,83 @@
+#include "tests/support/golden.hpp"
+
+#include "io/file_scan.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+namespace lacuna {
+
+std::optional<std::filesystem::path> shared_folder() {
+  const char* named = std::getenv("LACUNA_SHARED");
+  const std::filesystem::path folder =
+      named ? std::filesystem::path(named)
+            : std::filesystem::path(LACUNA_SOURCE_DIR).parent_path() / "shared";
+  if (!std::filesystem::is_directory(folder)) return std::nullopt;
+  return folder;
+}
+
+std::vector<GoldenSetting> golden_settings() {
+  const Config k15;
+  Config eps, k25, noisy;
+  eps.neighbourhood.eps = 0.004;
+  k25.neighbourhood.k = 25;
+  noisy.criteria = {
+      .sigma = 0.8, .cone = 25, .weight_angle = 0.2, .weight_halfdisc = 0.2, .weight_shape = 0.6};
+  noisy.coherence.threshold = 0.4;
+  noisy.spanning = {.max_prob_weight = 1.2, .max_total_weight = 2.8, .e = 20};
+  return {{"bun_zipper.k15", "data/bun_zipper.ply", k15}, {"bun_zipper.eps0.004", "data/bun_zipper.ply", eps},
+          {"bun000.k15", "data/bun000.ply", k15},         {"bun000.k25", "data/bun000.ply", k25},
+          {"bun000.noisy", "data/bun000.ply", noisy},     {"tied.k15", "golden/tied.ply", k15},
+          {"aerial.k15", "golden/aerial.ply", k15}};
+}
+
+std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
+                                            const GoldenSetting& setting) {
+  const std::string file = (shared / "golden" / (setting.name + ".points.csv.gz")).string();
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(("gzip -dc '" + file + "'").c_str(), "r"), pclose);
+  if (!pipe) throw std::runtime_error("cannot run gzip");
+  std::vector<GoldenPoint> points;
+  char line[512];
+  if (!std::fgets(line, sizeof line, pipe.get())) throw std::runtime_error(file + ": empty");
+  while (std::fgets(line, sizeof line, pipe.get())) {
+    GoldenPoint p;
+    long id, neighbours, coherent, gap_near, gap_far;
+    if (std::sscanf(line, "%ld,%lf,%lf,%lf,%lf,%lf,%ld,%ld,%ld,%ld", &id, &p.angle, &p.halfdisc, &p.shape,
+                    &p.probability, &p.mean_distance, &neighbours, &coherent, &gap_near, &gap_far) != 10 ||
+        id != long(points.size())) {
+      throw std::runtime_error(file + ": bad line: " + line);
+    }
+    p.neighbours = neighbours, p.coherent = coherent, p.gap_near = gap_near, p.gap_far = gap_far;
+    points.push_back(p);
+  }
+  return points;
+}
+
+GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting) {
+  std::ifstream file(shared / "golden" / (setting.name + ".loops.txt"));
+  if (!file) throw std::runtime_error(setting.name + ": no golden loops");
+  GoldenLoops loops;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream ids(line);
+    loops.emplace_back();
+    for (std::int64_t id; ids >> id;) loops.back().push_back(id);
+  }
+  return loops;
+}
+
+Cloud read_cloud(const std::filesystem::path& file) {
+  FileScan scan({file}, ReadOptions{});
+  Cloud cloud;
+  for (PointBatch batch; scan.next(batch);) {
+    cloud.positions.insert(cloud.positions.end(), batch.positions.begin(), batch.positions.end());
+    cloud.normals.insert(cloud.normals.end(), batch.normals.begin(), batch.normals.end());
+  }
+  return cloud;
+}
+
+}  // namespace lacuna

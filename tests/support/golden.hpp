@@ -1,0 +1,43 @@
+// The golden results: what a plain program made of real scans. They lie beside the checkout, in the shared
+// folder; tests skip where that is absent.
+#pragma once
+
+#include "engine/config.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// $LACUNA_SHARED, else `shared` beside the source folder; none where that is no folder.
+std::optional<std::filesystem::path> shared_folder();
+
+// A point in the golden results: ids and counts as written, -1 for no gap neighbour.
+struct GoldenPoint {
+  double angle, halfdisc, shape, probability, mean_distance;
+  std::int64_t neighbours, coherent, gap_near, gap_far;
+};
+
+using GoldenLoops = std::vector<std::vector<std::int64_t>>;
+
+struct GoldenSetting {
+  std::string name;   // of its files in shared/golden
+  std::string cloud;  // file in the shared folder
+  Config config;
+};
+
+// All seven.
+std::vector<GoldenSetting> golden_settings();
+
+std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
+                                            const GoldenSetting& setting);
+GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
+
+// A scan in any format of io/, with its normals if it has them.
+Cloud read_cloud(const std::filesystem::path& file);
+
+}  // namespace lacuna

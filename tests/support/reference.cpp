@@ -1,0 +1,614 @@
+#include "tests/support/reference.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace lacuna::reference {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using std::numbers::pi;
+using Positions = std::vector<Vector3d>;
+
+// An adjacency list with a row for every id of the input.
+using Graph = std::vector<std::vector<PointId>>;
+
+double squared_length(const Vector3d& d) {
+  return (d.x() * d.x() + d.y() * d.y()) + d.z() * d.z();
+}
+double length(const Vector3d& d) {
+  return std::sqrt(squared_length(d));
+}
+double rounded(double weight) {
+  return std::nearbyint(weight * 0x1p24) * 0x1p-24;
+}
+
+// ---- Input -------------------------------------------------------------------------------------------
+
+void find_distinct(const Positions& positions, Detection& result) {
+  std::map<std::array<double, 3>, PointId> first_at;  // -0 compares equal to 0
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const PointId id{i};
+    const Vector3d& p = positions[i];
+    result.points[i].representative = id;
+    result.points[i].dropped = !p.allFinite();
+    if (result.points[i].dropped) continue;
+    const auto [entry, is_new] = first_at.try_emplace({p.x(), p.y(), p.z()}, id);
+    result.points[i].representative = entry->second;
+    if (is_new) result.distinct.push_back(id);
+  }
+}
+
+// ---- 1. Neighbourhoods and the proximity graph -------------------------------------------------------
+
+// A neighbour in the order of neighbours.
+using Neighbour = std::pair<double, PointId>;  // squared distance, id
+
+// A kd-tree over the distinct points: the middle of each range is its node, smaller coordinates before it.
+// Exact: rounding is monotonous, so no point beyond a plane is nearer than the plane, rounded alike.
+class KdTree {
+ public:
+  KdTree(const Positions& positions, std::vector<PointId> ids)
+      : positions_(positions), ids_(std::move(ids)), axes_(ids_.size()) {
+    build(0, ids_.size());
+  }
+
+  // N_p^{k,eps} without p, in order.
+  std::vector<Neighbour> neighbours(PointId p, std::size_t k, double squared_eps) const {
+    Search search{p, k, squared_eps, {}, {}};
+    visit(0, ids_.size(), search);
+    std::vector<Neighbour> result = std::move(search.ball);
+    result.insert(result.end(), search.nearest.begin(), search.nearest.end());
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+ private:
+  struct Search {
+    PointId p;
+    std::size_t k;
+    double squared_eps;
+    std::vector<Neighbour> nearest;  // the first k so far, in order
+    std::vector<Neighbour> ball;
+
+    double reach() const {
+      if (nearest.size() < k) return std::numeric_limits<double>::infinity();
+      return std::max(squared_eps, nearest.back().first);
+    }
+  };
+
+  double coordinate(std::size_t i, int axis) const { return positions_[value(ids_[i])][axis]; }
+
+  void build(std::size_t begin, std::size_t end) {
+    if (begin == end) return;
+    Vector3d low = positions_[value(ids_[begin])], high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+      low = low.cwiseMin(positions_[value(ids_[i])]);
+      high = high.cwiseMax(positions_[value(ids_[i])]);
+    }
+    int axis;
+    (high - low).maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(
+        ids_.begin() + begin, ids_.begin() + middle, ids_.begin() + end,
+        [&](PointId a, PointId b) { return positions_[value(a)][axis] < positions_[value(b)][axis]; });
+    axes_[middle] = axis;
+    build(begin, middle);
+    build(middle + 1, end);
+  }
+
+  void visit(std::size_t begin, std::size_t end, Search& search) const {
+    if (begin == end) return;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const Vector3d& p = positions_[value(search.p)];
+    if (ids_[middle] != search.p)
+      offer({squared_length(positions_[value(ids_[middle])] - p), ids_[middle]}, search);
+
+    const double to_plane = coordinate(middle, axes_[middle]) - p[axes_[middle]];
+    const bool low_side_first = to_plane > 0;
+    if (low_side_first) {
+      visit(begin, middle, search);
+    } else {
+      visit(middle + 1, end, search);
+    }
+    if (to_plane * to_plane > search.reach()) return;
+    if (low_side_first) {
+      visit(middle + 1, end, search);
+    } else {
+      visit(begin, middle, search);
+    }
+  }
+
+  static void offer(const Neighbour& q, Search& search) {
+    if (q.first <= search.squared_eps) search.ball.push_back(q);
+    search.nearest.insert(std::upper_bound(search.nearest.begin(), search.nearest.end(), q), q);
+    if (search.nearest.size() > search.k) search.nearest.pop_back();
+  }
+
+  const Positions& positions_;
+  std::vector<PointId> ids_;
+  std::vector<int> axes_;  // of the plane through each node
+};
+
+double eps_in_effect(const Positions& positions, const std::vector<PointId>& distinct,
+                     const NeighbourhoodConfig& config) {
+  if (distinct.empty()) return config.eps;
+  Vector3d low = positions[value(distinct[0])], high = low;
+  for (PointId id : distinct) {
+    low = low.cwiseMin(positions[value(id)]);
+    high = high.cwiseMax(positions[value(id)]);
+  }
+  const double diagonal = length(high - low);
+  if (!std::isfinite(diagonal)) throw Error("squared distances overflow");
+  return config.eps_fraction > 0 ? config.eps_fraction * diagonal : config.eps;
+}
+
+void find_neighbours(const Positions& positions, const NeighbourhoodConfig& config, Detection& result) {
+  result.eps = eps_in_effect(positions, result.distinct, config);
+  const KdTree tree(positions, result.distinct);
+  std::vector<std::vector<Neighbour>> closure(positions.size());
+  for (PointId p : result.distinct) {
+    for (const auto& [squared, q] : tree.neighbours(p, config.k, result.eps * result.eps)) {
+      if (squared == 0) throw Error("the squared distance of distinct points underflows");
+      closure[value(p)].emplace_back(squared, q);
+      closure[value(q)].emplace_back(squared, p);
+    }
+  }
+
+  std::uint64_t ends = 0;
+  double total_length = 0;  // every edge from both ends
+  for (PointId p : result.distinct) {
+    auto& row = closure[value(p)];
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    double sum = 0;
+    for (const auto& [squared, q] : row) {
+      result.points[value(p)].neighbours.push_back(q);
+      sum += std::sqrt(squared);
+    }
+    if (!row.empty()) result.points[value(p)].mean_distance = sum / row.size();
+    ends += row.size();
+    total_length += sum;
+  }
+  if (!result.distinct.empty()) result.mean_neighbours = double(ends) / result.distinct.size();
+  if (ends > 0) result.mean_edge_length = total_length / ends;
+}
+
+// ---- 2. and 3. Normals and criteria ------------------------------------------------------------------
+
+// The neighbours of a point as offsets q - p, in order.
+using Offsets = std::vector<Vector3d>;
+
+struct Moments {
+  Vector3d mean{0, 0, 0};  // mu_p - p
+  Matrix3d covariance = Matrix3d::Zero();
+};
+
+// 3, halfdisc and shape: both weighted by exp(-d^2 / sigma^2).
+Moments weighted_moments(const Offsets& offsets, double sigma) {
+  std::vector<double> weights;
+  double total = 0;
+  Moments moments;
+  for (const Vector3d& q : offsets) {
+    weights.push_back(std::exp(-squared_length(q) / (sigma * sigma)));
+    total += weights.back();
+    moments.mean += weights.back() * q;
+  }
+  if (total == 0) return {};
+  moments.mean /= total;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const Vector3d d = moments.mean - offsets[i];
+    moments.covariance += weights[i] * d * d.transpose();
+  }
+  return moments;
+}
+
+struct AngleOutcome {
+  double probability = 1;
+  std::optional<std::array<std::size_t, 2>> gap;  // places in the order of neighbours, nearer first
+};
+
+// 3, angle.
+AngleOutcome angle_criterion(const Offsets& offsets, const Vector3d& normal, double cone) {
+  struct Direction {
+    double angle;
+    std::size_t place;  // in the order of neighbours
+  };
+  constexpr double kSame = 1e-9;  // radians
+
+  const Vector3d u = normal.unitOrthogonal();
+  const Vector3d v = normal.cross(u);
+  std::vector<Direction> used;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const Vector3d& q = offsets[i];
+    const double x = u.dot(q), y = v.dot(q);
+    if (cone > 0 && std::abs(normal.dot(q)) > std::cos(cone * pi / 180) * length(q)) continue;
+    if (std::hypot(x, y) <= 1e-12 * length(q)) continue;  // projects onto p
+    used.push_back({std::atan2(y, x), i});
+  }
+  if (used.empty()) return {};
+  std::sort(used.begin(), used.end(),
+            [](const Direction& a, const Direction& b) { return a.angle < b.angle; });
+
+  // Runs of one direction, each replaced by its nearest neighbour; the last may go on across pi.
+  std::vector<Direction> directions;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const bool same = i > 0 && used[i].angle - used[i - 1].angle <= kSame;
+    if (!same) {
+      directions.push_back(used[i]);
+    } else if (used[i].place < directions.back().place) {
+      directions.back() = used[i];
+    }
+  }
+  if (directions.size() > 1 && used.front().angle + 2 * pi - used.back().angle <= kSame) {
+    if (directions.back().place < directions.front().place) directions.front() = directions.back();
+    directions.pop_back();
+  }
+
+  struct Gap {
+    double size;
+    std::array<std::size_t, 2> pair;
+  };
+  std::vector<Gap> gaps;
+  double largest = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Direction& a = directions[i];
+    const Direction& b = directions[(i + 1) % directions.size()];
+    double size = b.angle - a.angle;
+    if (size <= 0) size += 2 * pi;
+    gaps.push_back({size, {std::min(a.place, b.place), std::max(a.place, b.place)}});
+    largest = std::max(largest, size);
+  }
+  AngleOutcome outcome;
+  for (const Gap& gap : gaps) {
+    if (gap.size >= largest - kSame && (!outcome.gap || gap.pair < *outcome.gap)) outcome.gap = gap.pair;
+  }
+  const double m = double(used.size());
+  if (m >= 3) outcome.probability = std::clamp((largest - 2 * pi / m) / (pi - 2 * pi / m), 0., 1.);
+  return outcome;
+}
+
+// 3, halfdisc.
+double halfdisc_criterion(const Vector3d& mean, const Vector3d& normal, double r) {
+  const Vector3d projected = mean - normal.dot(mean) * normal;
+  return std::min(length(projected) / (4 * r / (3 * pi)), 1.);
+}
+
+// 3, shape: Lambda_p, from ascending eigenvalues.
+Vector3d normalised_eigenvalues(const Vector3d& eigenvalues) {
+  const Vector3d lambda = eigenvalues.reverse().cwiseMax(0);
+  return lambda.sum() > 0 ? Vector3d(lambda / lambda.sum()) : Vector3d::Constant(1. / 3);
+}
+
+// 3, shape.
+double shape_criterion(const Vector3d& lambda) {
+  const std::array<Vector3d, 4> characteristic{Vector3d(2. / 3, 1. / 3, 0), Vector3d(1. / 2, 1. / 2, 0),
+                                               Vector3d(1. / 3, 1. / 3, 1. / 3), Vector3d(1, 0, 0)};
+  const Vector3d centroid(11. / 18, 5. / 18, 1. / 9);
+  std::array<double, 4> kernels;
+  for (int i = 0; i < 4; ++i) {
+    const double s = length(characteristic[i] - centroid) / 3;
+    kernels[i] = std::exp(-squared_length(lambda - characteristic[i]) / (s * s));
+  }
+  const double sum = kernels[0] + kernels[1] + kernels[2] + kernels[3];
+  return sum > 0 ? kernels[0] / sum : 0;
+}
+
+// 2: as given, normalised; none where it is zero or not finite.
+std::optional<Vector3d> given_normal(const std::vector<Vector3d>& normals, PointId p) {
+  if (normals.empty()) return std::nullopt;
+  const Vector3d& n = normals[value(p)];
+  if (!n.allFinite() || n.isZero(0)) return std::nullopt;
+  return (n / n.cwiseAbs().maxCoeff()).normalized();
+}
+
+// 2: the eigenvector of the smallest eigenvalue; none where it is not the smallest alone.
+std::optional<Vector3d> estimated_normal(const Eigen::SelfAdjointEigenSolver<Matrix3d>& eigen) {
+  const Vector3d& values = eigen.eigenvalues();  // ascending
+  if (values[1] - values[0] <= 1e-12 * values.sum()) return std::nullopt;
+  return eigen.eigenvectors().col(0).normalized();
+}
+
+// 2, creases: turned by 90 degrees about the axis through the projected gap neighbours.
+std::optional<Vector3d> turned_normal(const Vector3d& normal, const Vector3d& g1, const Vector3d& g2) {
+  Vector3d axis = g2 - g1;
+  axis -= normal.dot(axis) * normal;
+  if (length(axis) <= 1e-12 * (length(g1) + length(g2))) return std::nullopt;
+  return axis.cross(normal).normalized();
+}
+
+void evaluate(const Positions& positions, const std::vector<Vector3d>& given, const Config& config,
+              PointId id, Point& point) {
+  if (point.neighbours.empty()) return;  // all probabilities 1
+  const CriteriaConfig& criteria = config.criteria;
+  Offsets offsets;
+  for (PointId q : point.neighbours) offsets.push_back(positions[value(q)] - positions[value(id)]);
+
+  const Moments moments = weighted_moments(offsets, criteria.sigma * point.mean_distance);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(moments.covariance);
+  point.surface = moments.mean;
+  const Vector3d lambda = normalised_eigenvalues(eigen.eigenvalues());
+  point.lambda = {lambda[0], lambda[1], lambda[2]};
+  point.shape = shape_criterion(lambda);
+
+  point.normal = given_normal(given, id);
+  const bool estimated = !point.normal;
+  if (estimated) point.normal = estimated_normal(eigen);
+  if (point.normal) {
+    AngleOutcome angle = angle_criterion(offsets, *point.normal, criteria.cone);
+    if (estimated && angle.probability > config.normals.crease_threshold && angle.gap) {
+      const auto [g1, g2] = *angle.gap;
+      if (const auto turned = turned_normal(*point.normal, offsets[g1], offsets[g2])) {
+        const AngleOutcome again = angle_criterion(offsets, *turned, criteria.cone);
+        point.turned = again.probability < angle.probability / 2;
+        if (point.turned) point.normal = turned, angle = again;
+      }
+    }
+    point.angle = angle.probability;
+    point.halfdisc = halfdisc_criterion(moments.mean, *point.normal, point.mean_distance);
+    if (angle.gap) point.gap = {point.neighbours[(*angle.gap)[0]], point.neighbours[(*angle.gap)[1]]};
+  }
+
+  const double total = (criteria.weight_angle + criteria.weight_halfdisc) + criteria.weight_shape;
+  point.combined =
+      (criteria.weight_angle / total * point.angle + criteria.weight_halfdisc / total * point.halfdisc) +
+      criteria.weight_shape / total * point.shape;
+  point.probability = rounded(point.combined);
+}
+
+// ---- 2. Orientation ----------------------------------------------------------------------------------
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  // False if they were one already.
+  bool join(PointId a, PointId b) {
+    const std::size_t root_a = root(value(a)), root_b = root(value(b));
+    parent_[root_a] = root_b;
+    return root_a != root_b;
+  }
+
+ private:
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  std::vector<std::size_t> parent_;
+};
+
+bool by_weight_then_ids(const Edge& a, const Edge& b) {
+  return std::tie(a.weight, a.low, a.high) < std::tie(b.weight, b.low, b.high);
+}
+
+// Of a root: to +z; a horizontal one to +y, else to +x.
+bool points_up(const Vector3d& n) {
+  if (n.z() != 0) return n.z() > 0;
+  return n.y() != 0 ? n.y() > 0 : n.x() > 0;
+}
+
+// Hoppe et al. 1992, over the points of G that have a normal.
+void orient_normals(const Positions& positions, Detection& result) {
+  std::vector<Edge> edges;
+  for (PointId p : result.distinct) {
+    const Point& point = result.points[value(p)];
+    for (PointId q : point.neighbours) {
+      const Point& other = result.points[value(q)];
+      if (p < q && point.normal && other.normal) {
+        edges.push_back({p, q, 1 - std::abs(point.normal->dot(*other.normal))});
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end(), by_weight_then_ids);
+  UnionFind components(positions.size());
+  Graph tree(positions.size());
+  for (const Edge& edge : edges) {
+    if (!components.join(edge.low, edge.high)) continue;
+    tree[value(edge.low)].push_back(edge.high);
+    tree[value(edge.high)].push_back(edge.low);
+  }
+
+  // From the highest point not yet reached, which is its component's highest.
+  std::vector<PointId> roots = result.distinct;
+  std::stable_sort(roots.begin(), roots.end(),
+                   [&](PointId a, PointId b) { return positions[value(a)].z() > positions[value(b)].z(); });
+  for (PointId root : roots) {
+    Point& highest = result.points[value(root)];
+    if (!highest.normal || highest.oriented_normal) continue;
+    highest.oriented_normal = points_up(*highest.normal) ? *highest.normal : Vector3d(-*highest.normal);
+    std::vector<PointId> reached{root};
+    while (!reached.empty()) {
+      const PointId p = reached.back();
+      reached.pop_back();
+      const Vector3d normal = *result.points[value(p)].oriented_normal;
+      for (PointId q : tree[value(p)]) {
+        Point& other = result.points[value(q)];
+        if (other.oriented_normal) continue;
+        other.oriented_normal = normal.dot(*other.normal) < 0 ? Vector3d(-*other.normal) : *other.normal;
+        reached.push_back(q);
+      }
+    }
+  }
+}
+
+// ---- 4. Coherence ------------------------------------------------------------------------------------
+
+void find_coherent(const CoherenceConfig& config, Detection& result) {
+  std::vector<Point>& points = result.points;
+  for (PointId p : result.distinct)
+    points[value(p)].coherent = points[value(p)].probability > config.threshold;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (PointId p : result.distinct) {
+      Point& point = points[value(p)];
+      const bool stays = point.coherent && point.gap && points[value((*point.gap)[0])].coherent &&
+                         points[value((*point.gap)[1])].coherent;
+      changed |= stays != point.coherent;
+      point.coherent = stays;
+    }
+  }
+}
+
+// ---- 5. Minimum spanning graph -----------------------------------------------------------------------
+
+void find_eligible(const Positions& positions, const SpanningConfig& config, Detection& result) {
+  for (PointId i : result.distinct) {
+    const Point& a = result.points[value(i)];
+    for (PointId j : a.neighbours) {
+      if (j < i) continue;
+      const Point& b = result.points[value(j)];
+      const double w_prob = 2 - a.probability - b.probability;
+      const double distance = length(positions[value(j)] - positions[value(i)]);
+      const double w_density = rounded(2 * distance / (a.mean_distance + b.mean_distance));
+      const double w_total = w_prob + w_density;
+      if (w_prob < config.max_prob_weight && w_total < config.max_total_weight) {
+        result.eligible.push_back({i, j, w_total});
+      }
+    }
+  }
+  std::sort(result.eligible.begin(), result.eligible.end(), by_weight_then_ids);
+}
+
+// Whether a path of at most `steps` edges leads from a to b. `seen` is all false before and after.
+bool path_within(const Graph& graph, PointId a, PointId b, std::int64_t steps, std::vector<bool>& seen) {
+  std::vector<PointId> reached{a};
+  seen[value(a)] = true;
+  std::size_t level = 0;  // where the vertices of the last level start
+  for (std::int64_t step = 0; step < steps && level < reached.size() && !seen[value(b)]; ++step) {
+    const std::size_t level_end = reached.size();
+    for (; level < level_end; ++level) {
+      for (PointId next : graph[value(reached[level])]) {
+        if (seen[value(next)]) continue;
+        seen[value(next)] = true;
+        reached.push_back(next);
+      }
+    }
+  }
+  const bool found = seen[value(b)];
+  for (PointId vertex : reached) seen[value(vertex)] = false;
+  return found;
+}
+
+Graph span(const SpanningConfig& config, Detection& result) {
+  const std::size_t count = result.points.size();
+  // 2 sqrt(pi K): steps around the smallest hole that edges do not cross.
+  result.e = config.e > 0 ? config.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
+  Graph graph(count);
+  UnionFind components(count);
+  std::vector<bool> seen(count, false);
+  for (const Edge& edge : result.eligible) {
+    const bool joins = components.join(edge.low, edge.high);
+    // D + 1 > e, unless a path of D <= e - 1 edges exists.
+    if (!joins && path_within(graph, edge.low, edge.high, result.e - 1, seen)) continue;
+    graph[value(edge.low)].push_back(edge.high);
+    graph[value(edge.high)].push_back(edge.low);
+    result.spanning.push_back(edge);
+  }
+  return graph;
+}
+
+// ---- 6. Loops ----------------------------------------------------------------------------------------
+
+// Takes off the trees that hang off the graph: no loop contains them, and the order in which a search meets
+// all other vertices stays the same. (Bridges stay; a search from one finds nothing.)
+void strip_trees(Graph& graph) {
+  std::vector<PointId> leaves;
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    if (graph[i].size() == 1) leaves.push_back(PointId{i});
+  }
+  while (!leaves.empty()) {
+    const PointId leaf = leaves.back();
+    leaves.pop_back();
+    if (graph[value(leaf)].empty()) continue;
+    const PointId other = graph[value(leaf)][0];
+    graph[value(leaf)].clear();
+    std::erase(graph[value(other)], leaf);
+    if (graph[value(other)].size() == 1) leaves.push_back(other);
+  }
+}
+
+// The loop through the origin; empty if there is none.
+std::vector<PointId> search_loop(const Graph& graph, PointId origin) {
+  struct Reached {
+    PointId parent;
+    PointId branch;
+  };
+  std::map<PointId, Reached> reached;
+  std::queue<PointId> queue;
+  for (PointId neighbour : graph[value(origin)]) {
+    reached[neighbour] = {origin, neighbour};
+    queue.push(neighbour);
+  }
+  while (!queue.empty()) {
+    const PointId p = queue.front();
+    queue.pop();
+    for (PointId q : graph[value(p)]) {
+      if (q == origin) continue;
+      const auto [entry, is_new] = reached.try_emplace(q, Reached{p, reached[p].branch});
+      if (is_new) {
+        queue.push(q);
+      } else if (entry->second.branch != reached[p].branch) {
+        std::vector<PointId> loop;
+        for (PointId i = p; i != origin; i = reached[i].parent) loop.push_back(i);
+        std::reverse(loop.begin(), loop.end());
+        for (PointId i = q; i != origin; i = reached[i].parent) loop.push_back(i);
+        loop.push_back(origin);
+        return loop;
+      }
+    }
+  }
+  return {};
+}
+
+void find_loops(Graph graph, Detection& result) {
+  strip_trees(graph);
+  for (auto& row : graph) std::sort(row.begin(), row.end());
+  std::vector<bool> on_loop(graph.size(), false);
+  for (PointId origin : result.distinct) {
+    if (on_loop[value(origin)] || graph[value(origin)].empty()) continue;
+    std::vector<PointId> loop = search_loop(graph, origin);
+    if (loop.empty()) continue;
+    for (PointId p : loop) on_loop[value(p)] = true;
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    if (loop.back() < loop[1]) std::reverse(loop.begin() + 1, loop.end());
+    result.loops.push_back(std::move(loop));
+  }
+  std::sort(result.loops.begin(), result.loops.end());
+  for (PointId p : result.distinct) {
+    Point& point = result.points[value(p)];
+    point.boundary = point.coherent || on_loop[value(p)];
+  }
+}
+
+}  // namespace
+
+Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vector3d>& normals,
+                 const Config& config) {
+  Detection result;
+  result.points.resize(positions.size());
+  find_distinct(positions, result);
+  find_neighbours(positions, config.neighbourhood, result);
+  for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
+  if (config.normals.orient) orient_normals(positions, result);
+  find_coherent(config.coherence, result);
+  find_eligible(positions, config.spanning, result);
+  find_loops(span(config.spanning, result), result);
+  for (Point& point : result.points) {
+    if (!point.dropped) point = Point(result.points[value(point.representative)]);
+  }
+  return result;
+}
+
+}  // namespace lacuna::reference
