@@ -1,0 +1,100 @@
+#include "tests/support/detected.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+#include "tests/support/memory_scan.hpp"
+
+namespace lacuna {
+namespace {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "lacuna-test-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void put(std::string& bytes, const Eigen::Vector3d& v) {
+  for (int axis = 0; axis < 3; ++axis) put(bytes, v[axis]);
+}
+
+}  // namespace
+
+std::vector<std::vector<PointId>> Detected::loop_ids() const {
+  std::vector<std::vector<PointId>> ids;
+  for (const ReportedLoop& loop : loops) {
+    ids.emplace_back();
+    for (const LoopPoint& p : loop.points) ids.back().push_back(p.id);
+  }
+  return ids;
+}
+
+std::string Detected::bytes() const {
+  std::string bytes;
+  for (const PointResult& p : points) {
+    for (const float value : {p.probability, p.angle, p.halfdisc, p.shape}) put(bytes, value);
+    for (int axis = 0; axis < 3; ++axis) put(bytes, p.normal[axis]);
+    put(bytes, p.boundary);
+    put(bytes, p.coherent);
+    put(bytes, p.loop);
+  }
+  for (const BoundaryPoint& p : boundary) {
+    put(bytes, p.id);
+    put(bytes, p.position);
+    put(bytes, p.probability);
+    put(bytes, p.loop);
+  }
+  for (const ReportedLoop& loop : loops) {
+    const LoopMeasures& m = loop.measures;
+    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability}) put(bytes, value);
+    put(bytes, m.kind);
+    put(bytes, m.points);
+    put(bytes, m.centroid);
+    put(bytes, m.normal);
+    put(bytes, m.tiles);
+    for (const LoopPoint& p : loop.points) {
+      put(bytes, p.id);
+      put(bytes, p.position);
+      put(bytes, p.probability);
+    }
+  }
+  const Counts& c = summary.counts;
+  for (const std::uint64_t count : {c.points, c.dropped, c.duplicates, c.candidates, c.coherent, c.boundary_points,
+                                    c.eligible_edges, c.components, c.raw_loops, c.undefined_normals}) {
+    put(bytes, count);
+  }
+  put(bytes, summary.mean_neighbours);
+  put(bytes, summary.mean_edge_length);
+  put(bytes, summary.e);
+  return bytes;
+}
+
+Detected run_engine(const Cloud& cloud, Config config) {
+  config.output.points = true;
+  const TemporaryFolder workspace;
+  MemoryScan scan(cloud);
+  NoProgress quiet;
+  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
+  Detected detected{.summary = detection->summary()};
+  detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {
+    detected.points.insert(detected.points.end(), block.begin(), block.end());
+  });
+  detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
+  for (std::size_t i = 0; i < detection->loops().size(); ++i) detected.loops.push_back(detection->read_loop(i));
+  return detected;
+}
+
+}  // namespace lacuna

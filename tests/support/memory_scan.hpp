@@ -1,0 +1,24 @@
+// A cloud in memory as the engine's input.
+#pragma once
+
+#include "engine/data/points.hpp"
+#include "tests/support/clouds.hpp"
+
+namespace lacuna {
+
+class MemoryScan final : public PointSource {
+ public:
+  explicit MemoryScan(const Cloud& cloud, std::size_t batch = 1000) : cloud_(cloud), batch_(batch) {}
+
+  void rewind() override { next_ = 0; }
+  bool next(PointBatch& batch) override;
+  std::optional<std::uint64_t> expected_points() const override { return cloud_.size(); }
+  bool has_normals() const override { return !cloud_.normals.empty(); }
+
+ private:
+  const Cloud& cloud_;
+  std::size_t batch_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace lacuna
