@@ -1,6 +1,7 @@
 #include "io/file_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
