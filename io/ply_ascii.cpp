@@ -29,9 +29,9 @@ std::string not_a_value(const PlyProperty& property, std::string_view word) {
 }
 
 // The number before the values of a list.
-std::uint64_t parse_count(const InputFile& in, std::uint64_t line, const PlyProperty& property,
+std::uint32_t parse_count(const InputFile& in, std::uint64_t line, const PlyProperty& property,
                           std::string_view word) {
-  std::uint64_t count = 0;
+  std::uint32_t count = 0;
   if (!parse_number(word, count)) in.fail_at_line(line, not_a_value<std::uint32_t>(property, word));
   return count;
 }

@@ -36,7 +36,8 @@ Json parameter_values(Config config) {
 Json inputs(const FileScan& scan) {
   Json files = Json::array();
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    Json file{{"file", scan.files()[i].string()}};
+    Json file = Json::object();
+    file["file"] = scan.files()[i].string();
     const auto& rows = scan.expected_rows()[i];
     file["points"] = rows ? Json(*rows) : Json(nullptr);
     file["properties"] = Json::object();

@@ -6,8 +6,20 @@
 
 namespace lacuna {
 
+void check_output_folder(const FileScan& scan, const std::filesystem::path& folder) {
+  for (const char* name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
+    for (const auto& file : scan.files()) {
+      std::error_code error;  // when there is no such result yet, nothing can be lost
+      if (std::filesystem::equivalent(folder / name, file, error)) {
+        throw Error(file.string() + ": is an input in the place of a result; another output folder is needed");
+      }
+    }
+  }
+}
+
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder) {
+  check_output_folder(scan, folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder.string() + ": the folder cannot be made: " + error.message());

@@ -16,6 +16,10 @@ namespace lacuna {
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder);
 
+// Throws `Error` if results in `folder` would take the place of a file of the input. write_results asks, too; a
+// program asks before the work.
+void check_output_folder(const FileScan& scan, const std::filesystem::path& folder);
+
 // The report: parameters, counts, times, and one line for each loop, in order. A loop's line depends on the
 // loop alone. What is not finite is null.
 void write_report(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);

@@ -37,9 +37,10 @@ std::string_view without_blanks(std::string_view line) {
 
 bool is_comment(std::string_view line) { return line.starts_with('#') || line.starts_with("//"); }
 
-bool is_number(std::string_view field) {
+// A number, or meant to be one.
+bool is_numeric(std::string_view field) {
   double value;
-  return parse_number(field, value);
+  return parse_number(field, value) || field.find_first_of("0123456789+-.") == 0;
 }
 
 // A name that can stand in a PLY header too.
@@ -112,7 +113,7 @@ class TextReader final : public ScanReader {
     const Preamble preamble = read_preamble(in_);
     separator_ = find_separator(preamble.first);
     const Fields first = split(preamble.first, separator_);
-    const bool has_header = !first.empty() && std::none_of(first.begin(), first.end(), is_number);
+    const bool has_header = !first.empty() && std::none_of(first.begin(), first.end(), is_numeric);
     if (first.empty() && preamble.count != std::uint64_t{0}) {
       in_.fail_at_line(in_.line(), std::string("the file ends here without a row; ") + kAllowed);
     }
@@ -171,8 +172,7 @@ class TextReader final : public ScanReader {
       columns.emplace_back(name, Scalar::kFloat64);
     }
     if (!has_position(names)) {
-      in_.fail_at_line(in_.line(), "no columns named x, y and z; name the columns, or give " +
-                                       std::string("a file of which ") + kAllowed);
+      in_.fail_at_line(in_.line(), "no columns named x, y and z; a header line or the option for columns must name all three");
     }
     layout_ = packed_layout(columns);
   }
