@@ -1,11 +1,11 @@
 #include "io/file_scan.hpp"
 
+#include "io/scalar.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
-
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {
@@ -27,9 +27,10 @@ void copy_vectors(const RowBatch& rows, const RowLayout& layout, const Names& na
   auto* to = reinterpret_cast<std::byte*>(vectors.data());
   for (std::size_t axis = 0; axis < names.size(); ++axis) {
     const Property& property = *layout.find(names[axis]);
-    copy_column({.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
-                {.data = to + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
-                rows.count);
+    copy_column(
+        {.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
+        {.data = to + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
+        rows.count);
   }
 }
 
@@ -75,7 +76,9 @@ bool FileScan::next(PointBatch& batch) {
   return false;
 }
 
-std::optional<std::uint64_t> FileScan::expected_points() const { return expected_points_; }
+std::optional<std::uint64_t> FileScan::expected_points() const {
+  return expected_points_;
+}
 
 bool FileScan::has_normals() const {
   return std::any_of(layouts_.begin(), layouts_.end(),

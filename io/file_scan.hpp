@@ -1,12 +1,12 @@
 // Several scan files as one registered scan: the engine's view of the input.
 #pragma once
 
+#include "engine/data/points.hpp"
+#include "io/scan_reader.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <vector>
-
-#include "engine/data/points.hpp"
-#include "io/scan_reader.hpp"
 
 namespace lacuna {
 

@@ -1,5 +1,7 @@
 #include "io/input_file.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -9,14 +11,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "engine/core/error.hpp"
-
 namespace lacuna {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 // Up to `count` bytes, fewer only at the end of the file.
 std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_t count) {
@@ -49,7 +51,9 @@ InputFile::~InputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::uint64_t InputFile::remaining() const { return size_ > position() ? size_ - position() : 0; }
+std::uint64_t InputFile::remaining() const {
+  return size_ > position() ? size_ - position() : 0;
+}
 
 bool InputFile::fill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
@@ -77,8 +81,7 @@ void InputFile::read(std::byte* to, std::size_t count) {
     if (end_ >= missing) return read(to + buffered, missing);
     begin_ = end_;
   } else {
-    const std::size_t got =
-        read_fully(*this, descriptor_, reinterpret_cast<char*>(to) + buffered, missing);
+    const std::size_t got = read_fully(*this, descriptor_, reinterpret_cast<char*>(to) + buffered, missing);
     end_position_ += got;
     missing -= got;
     if (missing == 0) return;
@@ -165,7 +168,9 @@ bool InputFile::end_row() {
   return true;
 }
 
-void InputFile::fail(const std::string& reason) const { throw Error(file_.string() + ": " + reason); }
+void InputFile::fail(const std::string& reason) const {
+  throw Error(file_.string() + ": " + reason);
+}
 
 void InputFile::fail_at_line(std::uint64_t line, const std::string& reason) const {
   fail("line " + std::to_string(line) + ": " + reason);

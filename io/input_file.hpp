@@ -24,7 +24,8 @@ class InputFile {
   std::uint64_t remaining() const;
   std::uint64_t line() const { return line_; }  // lines passed, by next_line and next_row
 
-  // The next bytes without passing them: `count` or, at the end of the file, fewer; at most the buffer's size.
+  // The next bytes without passing them: `count` or, at the end of the file, fewer; at most the buffer's
+  // size.
   std::string_view peek(std::size_t count);
   // Throws `Error` where the file ends before.
   void read(std::byte* to, std::size_t count);
@@ -34,8 +35,8 @@ class InputFile {
   std::optional<std::string_view> next_line();
 
   // Rows of words, however long the row. next_row passes blank lines, false at the end of the file; next_word
-  // is valid until the next call, none at the end of the line; end_row passes the line's end, false when a word
-  // is left before it.
+  // is valid until the next call, none at the end of the line; end_row passes the line's end, false when a
+  // word is left before it.
   bool next_row();
   std::optional<std::string_view> next_word();
   bool end_row();

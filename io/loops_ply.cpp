@@ -1,9 +1,9 @@
-#include <cassert>
-#include <limits>
-
 #include "engine/core/error.hpp"
 #include "io/ply_writer.hpp"
 #include "io/results.hpp"
+
+#include <cassert>
+#include <limits>
 
 namespace lacuna {
 namespace {

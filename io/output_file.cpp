@@ -1,5 +1,7 @@
 #include "io/output_file.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
@@ -9,8 +11,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "engine/core/error.hpp"
-
 namespace lacuna {
 namespace {
 
@@ -19,7 +19,8 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 void remove_stale(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);
-  if (error) throw Error(file.string() + ": the result of an earlier run cannot be removed: " + error.message());
+  if (error)
+    throw Error(file.string() + ": the result of an earlier run cannot be removed: " + error.message());
 }
 
 }  // namespace

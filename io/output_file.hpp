@@ -48,8 +48,8 @@ class OutputSet {
   OutputFile& add(const std::string& name);
 
   // Removes what an earlier run has left under the names of this set and of `stale`, then puts the files in
-  // place in the order in which they were added. Results of two runs never stand side by side, and the last file
-  // says that all the others are there.
+  // place in the order in which they were added. Results of two runs never stand side by side, and the last
+  // file says that all the others are there.
   void commit(const std::vector<std::string>& stale);
 
  private:

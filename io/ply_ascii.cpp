@@ -1,10 +1,10 @@
-#include <cstring>
-#include <string>
-#include <string_view>
-
 #include "io/number.hpp"
 #include "io/ply_rows.hpp"
 #include "io/scalar.hpp"
+
+#include <cstring>
+#include <string>
+#include <string_view>
 
 namespace lacuna {
 namespace {
@@ -16,11 +16,13 @@ namespace {
 }
 
 std::string few_values(const PlyElement& element) {
-  return "fewer values than element " + in_quotes(element.name) + " has properties; one row per line is needed";
+  return "fewer values than element " + in_quotes(element.name) +
+         " has properties; one row per line is needed";
 }
 
 std::string many_values(const PlyElement& element) {
-  return "more values than element " + in_quotes(element.name) + " has properties; one row per line is needed";
+  return "more values than element " + in_quotes(element.name) +
+         " has properties; one row per line is needed";
 }
 
 template <class T>

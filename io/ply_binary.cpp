@@ -1,11 +1,11 @@
+#include "io/ply_rows.hpp"
+#include "io/scalar.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <type_traits>
-
-#include "io/ply_rows.hpp"
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {

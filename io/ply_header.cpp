@@ -1,11 +1,11 @@
 #include "io/ply_header.hpp"
 
+#include "io/number.hpp"
+#include "io/scalar.hpp"
+
 #include <set>
 #include <span>
 #include <string_view>
-
-#include "io/number.hpp"
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {
@@ -13,7 +13,8 @@ namespace {
 // More than any real header has, little enough to give up on a file that is none.
 constexpr std::uint64_t kLongestHeader = 1 << 20;
 
-constexpr const char* kTypes = "char, uchar, short, ushort, int, uint, float and double (or int8, ... float64)";
+constexpr const char* kTypes =
+    "char, uchar, short, ushort, int, uint, float and double (or int8, ... float64)";
 
 using Words = std::span<const std::string_view>;
 

@@ -1,13 +1,13 @@
 // The header of a PLY file: what its elements are made of. https://paulbourke.net/dataformats/ply/
 #pragma once
 
+#include "io/input_file.hpp"
+#include "io/scan_reader.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "io/input_file.hpp"
-#include "io/scan_reader.hpp"
 
 namespace lacuna {
 

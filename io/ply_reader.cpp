@@ -1,13 +1,13 @@
 #include "io/ply_reader.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cassert>
-
 #include "io/input_file.hpp"
 #include "io/ply_header.hpp"
 #include "io/ply_rows.hpp"
 #include "io/scalar.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
 
 namespace lacuna {
 namespace {
@@ -66,7 +66,8 @@ void require_end(InputFile& in) {
     const std::string_view block = in.peek(kBlock);
     const std::size_t data = block.find_first_not_of(" \t\r\n\v\f");
     if (data != std::string_view::npos) {
-      in.fail_at_byte(place + data, "more data after the last row that the header declares; its counts must hold");
+      in.fail_at_byte(place + data,
+                      "more data after the last row that the header declares; its counts must hold");
     }
     if (block.empty()) return;
     in.skip(block.size());
@@ -140,7 +141,8 @@ class PlyReader final : public ScanReader {
 
 bool looks_like_ply(std::string_view first_bytes) {
   if (!first_bytes.starts_with("ply")) return false;
-  return first_bytes.size() == 3 || std::string_view(" \t\r\n").find(first_bytes[3]) != std::string_view::npos;
+  return first_bytes.size() == 3 ||
+         std::string_view(" \t\r\n").find(first_bytes[3]) != std::string_view::npos;
 }
 
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions&) {

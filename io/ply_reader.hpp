@@ -1,11 +1,11 @@
 // PLY, ASCII and binary: the points are the rows of element "vertex".
 #pragma once
 
+#include "io/scan_reader.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <string_view>
-
-#include "io/scan_reader.hpp"
 
 namespace lacuna {
 

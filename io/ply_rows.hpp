@@ -1,10 +1,10 @@
 // The rows of one element of a PLY file, in both encodings.
 #pragma once
 
+#include "io/ply_header.hpp"
+
 #include <cstddef>
 #include <cstdint>
-
-#include "io/ply_header.hpp"
 
 namespace lacuna {
 

@@ -1,10 +1,10 @@
 #include "io/ply_writer.hpp"
 
+#include "io/scalar.hpp"
+
 #include <bit>
 #include <cassert>
 #include <utility>
-
-#include "io/scalar.hpp"
 
 namespace lacuna {
 
@@ -29,6 +29,8 @@ void PlyWriter::put_bytes(std::span<const std::byte> bytes) {
   out_.write(bytes.data(), bytes.size());
 }
 
-void PlyWriter::finish() { assert(missing_bytes_ == 0); }
+void PlyWriter::finish() {
+  assert(missing_bytes_ == 0);
+}
 
 }  // namespace lacuna

@@ -1,13 +1,13 @@
 // Binary little endian PLY, as a stream of values.
 #pragma once
 
+#include "io/output_file.hpp"
+#include "io/ply_header.hpp"
+
 #include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
-
-#include "io/output_file.hpp"
-#include "io/ply_header.hpp"
 
 namespace lacuna {
 

@@ -1,13 +1,13 @@
+#include "engine/core/error.hpp"
+#include "io/ply_writer.hpp"
+#include "io/results.hpp"
+#include "io/scalar.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
 #include <set>
-
-#include "engine/core/error.hpp"
-#include "io/ply_writer.hpp"
-#include "io/results.hpp"
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {
@@ -46,7 +46,8 @@ std::vector<std::pair<std::string, Scalar>> join_properties(const std::vector<Ro
   std::vector<std::pair<std::string, Scalar>> joined;
   for (const RowLayout& layout : layouts) {
     for (const Property& property : layout.properties) {
-      if (std::any_of(results.begin(), results.end(), [&](const auto& r) { return r.name == property.name; })) {
+      if (std::any_of(results.begin(), results.end(),
+                      [&](const auto& r) { return r.name == property.name; })) {
         continue;
       }
       const auto known = std::find_if(joined.begin(), joined.end(),
@@ -91,8 +92,8 @@ void copy_input(const RowBatch& rows, const RowLayout& from, const RowLayout& to
     const Property& target = to.properties[i];
     const Column column{.data = out + target.offset, .stride = to.stride, .type = target.type};
     if (const Property* source = from.find(target.name)) {
-      copy_column({.data = rows.bytes.data() + source->offset, .stride = from.stride, .type = source->type}, column,
-                  rows.count);
+      copy_column({.data = rows.bytes.data() + source->offset, .stride = from.stride, .type = source->type},
+                  column, rows.count);
     } else {
       fill_missing(column, rows.count);
     }

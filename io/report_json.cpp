@@ -1,11 +1,11 @@
+#include "io/results.hpp"
+#include "io/scalar.hpp"
+
 #include <fstream>
 #include <sstream>
 #include <variant>
 
 #include <nlohmann/json.hpp>
-
-#include "io/results.hpp"
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {
@@ -67,7 +67,9 @@ Json counts(const Counts& counts, const std::vector<LoopMeasures>& loops) {
           {"undefined_normals", counts.undefined_normals}};
 }
 
-double points_per_second(std::uint64_t points, double seconds) { return static_cast<double>(points) / seconds; }
+double points_per_second(std::uint64_t points, double seconds) {
+  return static_cast<double>(points) / seconds;
+}
 
 // The most memory this process has held so far.
 Json peak_memory_bytes() {
@@ -103,9 +105,10 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["phases"] = Json::array();
   double total_seconds = 0;
   for (const PhaseTime& phase : summary.phases) {
-    json["phases"].push_back({{"name", phase.name},
-                              {"seconds", phase.seconds},
-                              {"points_per_second", points_per_second(summary.counts.points, phase.seconds)}});
+    json["phases"].push_back(
+        {{"name", phase.name},
+         {"seconds", phase.seconds},
+         {"points_per_second", points_per_second(summary.counts.points, phase.seconds)}});
     total_seconds += phase.seconds;
   }
   json["total_seconds"] = total_seconds;

@@ -1,8 +1,8 @@
 #include "io/results.hpp"
 
-#include <limits>
-
 #include "engine/core/error.hpp"
+
+#include <limits>
 
 namespace lacuna {
 
@@ -11,7 +11,8 @@ void check_output_folder(const FileScan& scan, const std::filesystem::path& fold
     for (const auto& file : scan.files()) {
       std::error_code error;  // when there is no such result yet, nothing can be lost
       if (std::filesystem::equivalent(folder / name, file, error)) {
-        throw Error(file.string() + ": is an input in the place of a result; another output folder is needed");
+        throw Error(file.string() +
+                    ": is an input in the place of a result; another output folder is needed");
       }
     }
   }

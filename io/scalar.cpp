@@ -31,7 +31,9 @@ std::size_t size_of(Scalar type) {
   return with_type(type, [](auto value) { return sizeof(value); });
 }
 
-const char* ply_name(Scalar type) { return kNames[static_cast<std::size_t>(type)].name; }
+const char* ply_name(Scalar type) {
+  return kNames[static_cast<std::size_t>(type)].name;
+}
 
 std::optional<Scalar> scalar_from_name(std::string_view name) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
@@ -40,7 +42,9 @@ std::optional<Scalar> scalar_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_integer(Scalar type) { return type != Scalar::kFloat32 && type != Scalar::kFloat64; }
+bool is_integer(Scalar type) {
+  return type != Scalar::kFloat32 && type != Scalar::kFloat64;
+}
 
 void copy_column(ConstColumn from, Column to, std::size_t count) {
   assert(from.type == to.type || to.type == Scalar::kFloat64);

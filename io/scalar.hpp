@@ -1,13 +1,13 @@
 // What can be done with a `Scalar` known only at run time.
 #pragma once
 
+#include "io/scan_reader.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
-
-#include "io/scan_reader.hpp"
 
 namespace lacuna {
 

@@ -1,10 +1,10 @@
 #include "io/scan_reader.hpp"
 
-#include <array>
-
 #include "io/input_file.hpp"
 #include "io/ply_reader.hpp"
 #include "io/text_reader.hpp"
+
+#include <array>
 
 namespace lacuna {
 namespace {

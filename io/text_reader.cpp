@@ -1,13 +1,13 @@
 #include "io/text_reader.hpp"
 
+#include "io/input_file.hpp"
+#include "io/number.hpp"
+#include "io/scalar.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <set>
-
-#include "io/input_file.hpp"
-#include "io/number.hpp"
-#include "io/scalar.hpp"
 
 namespace lacuna {
 namespace {
@@ -35,7 +35,9 @@ std::string_view without_blanks(std::string_view line) {
   return line.substr(begin);
 }
 
-bool is_comment(std::string_view line) { return line.starts_with('#') || line.starts_with("//"); }
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with("//");
+}
 
 // A number, or meant to be one.
 bool is_numeric(std::string_view field) {
@@ -172,7 +174,9 @@ class TextReader final : public ScanReader {
       columns.emplace_back(name, Scalar::kFloat64);
     }
     if (!has_position(names)) {
-      in_.fail_at_line(in_.line(), "no columns named x, y and z; a header line or the option for columns must name all three");
+      in_.fail_at_line(
+          in_.line(),
+          "no columns named x, y and z; a header line or the option for columns must name all three");
     }
     layout_ = packed_layout(columns);
   }

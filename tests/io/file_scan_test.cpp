@@ -1,21 +1,24 @@
+#include "io/file_scan.hpp"
+
+#include "tests/io/io_support.hpp"
+
 #include <cmath>
 
 #include <catch2/catch.hpp>
-
-#include "io/file_scan.hpp"
-#include "tests/io/io_support.hpp"
 
 namespace lacuna::test {
 namespace {
 
 const std::string kIntegers =
-    "ply\nformat ascii 1.0\nelement vertex 2\nproperty uchar x\nproperty short y\nproperty int z\nend_header\n"
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty uchar x\nproperty short y\nproperty int "
+    "z\nend_header\n"
     "255 -300 70000\n1 2 3\n";
 const std::string kNormals =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float nz\nproperty float x\nproperty float y\n"
     "property float z\nproperty float nx\nproperty float ny\nend_header\n1 0.1 5 6 0 0.5\n";
 const std::string kEmpty =
-    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+    "z\nend_header\n";
 
 struct Points {
   std::vector<Eigen::Vector3d> positions, normals;
@@ -38,7 +41,8 @@ Points read_all(PointSource& source) {
 
 TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
   const TempFolder folder;
-  FileScan scan({folder.put("a.ply", kIntegers), folder.put("b.ply", kEmpty), folder.put("c.ply", kNormals)}, {});
+  FileScan scan({folder.put("a.ply", kIntegers), folder.put("b.ply", kEmpty), folder.put("c.ply", kNormals)},
+                {});
   CHECK(scan.expected_points() == 3u);
   CHECK(scan.has_normals());
   CHECK_FALSE(scan.single_precision());
@@ -93,7 +97,9 @@ TEST_CASE("a scan is read in batches of bounded size", "[io]") {
 TEST_CASE("a missing or broken file is an error before any point is read", "[io]") {
   const TempFolder folder;
   const auto good = folder.put("a.ply", kNormals);
-  CHECK(error_of([&] { FileScan({good, folder.path() / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
+  CHECK(error_of([&] {
+          FileScan({good, folder.path() / "none.ply"}, {});
+        }).find("none.ply") != std::string::npos);
   const auto cut = folder.put("cut.ply", kNormals.substr(0, kNormals.size() - 8));
   CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
 }

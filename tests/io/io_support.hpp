@@ -1,6 +1,10 @@
 // The vocabulary of the tests of io/: folders that vanish, files drawn as text or bytes, rows as numbers.
 #pragma once
 
+#include "engine/core/error.hpp"
+#include "io/scalar.hpp"
+#include "io/scan_reader.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,10 +16,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "engine/core/error.hpp"
-#include "io/scalar.hpp"
-#include "io/scan_reader.hpp"
 
 namespace lacuna::test {
 

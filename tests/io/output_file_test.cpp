@@ -1,8 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "io/output_file.hpp"
+
 #include "io/ply_writer.hpp"
 #include "tests/io/io_support.hpp"
+
+#include <catch2/catch.hpp>
 
 namespace lacuna::test {
 
@@ -112,7 +113,8 @@ TEST_CASE("what the PLY writer writes, the PLY reader reads", "[io]") {
   out.commit();
   const Table table = read_table(folder.path() / "a.ply");
   CHECK(table.names == std::vector<std::string>{"x", "y", "z", "id"});
-  CHECK(table.rows == std::vector<std::vector<double>>{{0.5, 1e300, -7, 4294967295.0}, {-0.5, -1e300, 7, 4294967295.0}});
+  CHECK(table.rows ==
+        std::vector<std::vector<double>>{{0.5, 1e300, -7, 4294967295.0}, {-0.5, -1e300, 7, 4294967295.0}});
 }
 
 }  // namespace lacuna::test

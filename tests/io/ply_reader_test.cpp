@@ -1,9 +1,9 @@
+#include "tests/io/io_support.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
-
-#include "tests/io/io_support.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -24,7 +24,8 @@ std::string format_of(std::endian order) {
 const std::string kCrowded =
     "comment made by hand\nobj_info nothing\n"
     "element camera 2\nproperty uchar id\nproperty list uchar double matrix\n"
-    "element vertex 2\nproperty short x\nproperty list int8 int16 near\nproperty float32 y\nproperty double z\n"
+    "element vertex 2\nproperty short x\nproperty list int8 int16 near\nproperty float32 y\nproperty double "
+    "z\n"
     "element face 3\nproperty list uchar int vertex_indices\nproperty uchar flag\n"
     "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
 
@@ -50,8 +51,8 @@ const Rows kCrowdedRows = {{-300, 0.5, 1e300}, {301, -0.25, 2}};
 
 TEST_CASE("lists and other elements are passed over in every encoding", "[io]") {
   const TempFolder folder;
-  for (const std::string& content : {kCrowdedAscii, crowded_binary(std::endian::little),
-                                     crowded_binary(std::endian::big)}) {
+  for (const std::string& content :
+       {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
     const Table table = read_table(folder.put("a.ply", content));
     CHECK(table.names == std::vector<std::string>{"x", "y", "z"});
     CHECK(table.rows == kCrowdedRows);
@@ -80,6 +81,24 @@ TEST_CASE("a file cut at any byte is an error, and never a crash", "[io]") {
   }
 }
 
+TEST_CASE("a file with any byte changed gives rows or an error, and never a crash", "[io]") {
+  const TempFolder folder;
+  for (const std::string& whole :
+       {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
+    for (std::size_t place = 0; place < whole.size(); ++place) {
+      for (const char c : {'\0', '\n', ' ', '9', '-', '\xff'}) {
+        std::string changed = whole;
+        changed[place] = c;
+        const auto file = folder.put("a.ply", changed);
+        const std::string error = read_error(file);
+        INFO("byte " << place << ": " << error);
+        CHECK(error.find('\n') == std::string::npos);
+        if (error.empty()) CHECK(read_table(file).rows.size() == 2);
+      }
+    }
+  }
+}
+
 TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]") {
   const TempFolder folder;
   const std::string names[] = {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
@@ -95,7 +114,8 @@ TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]"
         for (const std::endian order : {std::endian::little, std::endian::big}) {
           Bytes bytes(order);
           bytes << 1.f << 2.f << 3.f << low << 4.f << 5.f << 6.f << high;
-          CHECK(read_table(folder.put("a.ply", header(format_of(order), body) + bytes.str())).rows == expected);
+          CHECK(read_table(folder.put("a.ply", header(format_of(order), body) + bytes.str())).rows ==
+                expected);
         }
         std::ostringstream text;
         text.precision(17);
@@ -119,7 +139,8 @@ TEST_CASE("a number as text is rounded once, to the type of its property", "[io]
 
 TEST_CASE("what a float cannot hold becomes infinite or zero, and nan and inf are read", "[io]") {
   const TempFolder folder;
-  const auto file = folder.put("a.ply", header("ascii", "element vertex 2\n" + kXyz) + "1e39 -1e400 1e-60\nnan inf -inf\n");
+  const auto file =
+      folder.put("a.ply", header("ascii", "element vertex 2\n" + kXyz) + "1e39 -1e400 1e-60\nnan inf -inf\n");
   const Rows rows = read_table(file).rows;
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(rows.at(0) == std::vector<double>{infinity, -infinity, 0});
@@ -137,8 +158,10 @@ TEST_CASE("CR LF, blank lines, tabs and a missing last line end are accepted", "
   CHECK(read_table(folder.put("b.ply", dos)).rows == Rows{{1, 2, 3}, {4, 5, 6}});
   Bytes bytes;
   bytes << 1.f << 2.f << 3.f;
-  std::string binary = "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty float x\r\n"
-                       "property float y\r\nproperty float z\r\nend_header\r\n" + bytes.str();
+  std::string binary =
+      "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty float x\r\n"
+      "property float y\r\nproperty float z\r\nend_header\r\n" +
+      bytes.str();
   CHECK(read_table(folder.put("c.ply", binary)).rows == Rows{{1, 2, 3}});
 }
 
@@ -156,17 +179,21 @@ TEST_CASE("a count that no file can hold is an error where the data ends", "[io]
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const std::string count : {"1000000000000000000", "18446744073709551615", "2"}) {
       for (const std::string list : {"", "property list uchar int near\n"}) {
-        const std::string content = header(format, "element vertex " + count + "\n" + kXyz + list) + "1 2 3 0\n";
+        const std::string content =
+            header(format, "element vertex " + count + "\n" + kXyz + list) + "1 2 3 0\n";
         const std::string error = read_error(folder.put("a.ply", content));
         CHECK(error.find("a.ply: byte " + std::to_string(content.size()) + ": ") != std::string::npos);
         CHECK(error.find(count + " rows") != std::string::npos);
       }
     }
   }
-  const std::string behind = header("ascii", "element vertex 1\n" + kXyz + "element face 1000000000000000000\n" +
-                                                 "property list uchar int vertex_indices\n") + "1 2 3\n";
+  const std::string behind =
+      header("ascii", "element vertex 1\n" + kXyz + "element face 1000000000000000000\n" +
+                          "property list uchar int vertex_indices\n") +
+      "1 2 3\n";
   CHECK(read_error(folder.put("a.ply", behind)).find("'face'") != std::string::npos);
-  const std::string nothing = header("ascii", "element void 1000000000000000000\nelement vertex 1\n" + kXyz) + "1 2 3\n";
+  const std::string nothing =
+      header("ascii", "element void 1000000000000000000\nelement vertex 1\n" + kXyz) + "1 2 3\n";
   CHECK(read_table(folder.put("a.ply", nothing)).rows == Rows{{1, 2, 3}});
 }
 
@@ -183,7 +210,8 @@ TEST_CASE("rows beyond the declared count are an error, since their points would
 
 TEST_CASE("a wrong value in a row is an error that names its line", "[io]") {
   const TempFolder folder;
-  const std::string head = header("ascii", "element vertex 2\n" + kXyz + "property uchar red\nproperty list char int near\n");
+  const std::string head =
+      header("ascii", "element vertex 2\n" + kXyz + "property uchar red\nproperty list char int near\n");
   const std::pair<std::string, std::string> cases[] = {
       {"1 2 3 255 0\n1 2 3 256 0\n", "line 11: '256' for property 'red' is not a whole number from 0 to 255"},
       {"1 2 3 255 0\n1 2 3 2.5 0\n", "line 11: '2.5'"},
@@ -242,7 +270,8 @@ TEST_CASE("a header without an end is given up", "[io]") {
 
 TEST_CASE("a list with a negative count, or one that leaves the file, is an error", "[io]") {
   const TempFolder folder;
-  const std::string head = header("binary_big_endian", "element vertex 1\n" + kXyz + "property list int double near\n");
+  const std::string head =
+      header("binary_big_endian", "element vertex 1\n" + kXyz + "property list int double near\n");
   for (const std::int32_t count : {-1, 1, std::numeric_limits<std::int32_t>::max()}) {
     Bytes bytes(std::endian::big);
     bytes << 1.f << 2.f << 3.f << count;
@@ -253,7 +282,8 @@ TEST_CASE("a list with a negative count, or one that leaves the file, is an erro
 TEST_CASE("rows stay whole across buffers and batches", "[io]") {
   const TempFolder folder;
   constexpr std::uint32_t kRows = 150'000;  // several buffers
-  const std::string body = "element vertex " + std::to_string(kRows) + "\nproperty uint x\nproperty float y\n"
+  const std::string body = "element vertex " + std::to_string(kRows) +
+                           "\nproperty uint x\nproperty float y\n"
                            "property double z\n";
   const std::string list = "property list uchar ushort near\n";
   Bytes plain(std::endian::big);
@@ -273,7 +303,8 @@ TEST_CASE("rows stay whole across buffers and batches", "[io]") {
       const Rows rows = read_table(file, max_rows).rows;
       REQUIRE(rows.size() == kRows);
       bool all = true;
-      for (std::uint32_t i = 0; i < kRows; ++i) all = all && rows[i] == std::vector<double>{1.0 * i, 0.5 * i, -1.0 * i};
+      for (std::uint32_t i = 0; i < kRows; ++i)
+        all = all && rows[i] == std::vector<double>{1.0 * i, 0.5 * i, -1.0 * i};
       CHECK(all);
     }
   }
@@ -281,20 +312,22 @@ TEST_CASE("rows stay whole across buffers and batches", "[io]") {
 
 TEST_CASE("a list longer than any buffer is passed over", "[io]") {
   const TempFolder folder;
-  const std::string body = "element strips 1\nproperty list int int vertex_indices\nelement vertex 1\n" + kXyz;
+  const std::string body =
+      "element strips 1\nproperty list int int vertex_indices\nelement vertex 1\n" + kXyz;
   constexpr int kLength = 1'000'000;
   std::string ascii = std::to_string(kLength);
   for (int i = 0; i < kLength; ++i) ascii += " 12";
   CHECK(read_table(folder.put("a.ply", header("ascii", body) + ascii + "\n1 2 3\n")).rows == Rows{{1, 2, 3}});
-  CHECK(read_error(folder.put("a.ply", header("ascii", body) + ascii + " 1\n1 2 3\n")).find("line 10: more values") !=
-        std::string::npos);
+  CHECK(read_error(folder.put("a.ply", header("ascii", body) + ascii + " 1\n1 2 3\n"))
+            .find("line 10: more values") != std::string::npos);
 }
 
 TEST_CASE("a batch is bounded in bytes, however many properties a row has", "[io]") {
   const TempFolder folder;
   std::string body = "element vertex 4000\n" + kXyz;
   for (int i = 0; i < 4000; ++i) body += "property double p" + std::to_string(i) + "\n";
-  const auto file = folder.put("a.ply", header("binary_little_endian", body) + std::string(4000u * 32012u, '\0'));
+  const auto file =
+      folder.put("a.ply", header("binary_little_endian", body) + std::string(4000u * 32012u, '\0'));
   const auto reader = open_scan(file, {});
   RowBatch batch;
   REQUIRE(reader->next(batch, 65536));

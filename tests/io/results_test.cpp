@@ -1,10 +1,11 @@
+#include "io/results.hpp"
+
+#include "tests/io/io_support.hpp"
+
 #include <cmath>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-
-#include "io/results.hpp"
-#include "tests/io/io_support.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -26,7 +27,8 @@ class FakeDetection final : public Detection {
     for (const std::uint64_t id : ids) {
       loop.points.push_back({.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}});
     }
-    loop.measures = {.kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
+    loop.measures = {
+        .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
     found.push_back(loop);
     measures_.push_back(loop.measures);
     return *this;
@@ -66,7 +68,8 @@ class FakeDetection final : public Detection {
 };
 
 std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" + properties + "end_header\n" + rows;
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" + properties +
+         "end_header\n" + rows;
 }
 
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
@@ -128,10 +131,11 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[0].at("points") == nlohmann::json{1, 5, 3});
   CHECK(json.at("loops")[1].at("kind") == "rim");
   CHECK(json.at("loops")[1].at("area").is_null());
-  CHECK(content_of(folder.path() / "holes.json")
-            .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
-                  "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
-                  "\"mean_probability\":0.0,\"tiles\":0},\n") != std::string::npos);
+  CHECK(
+      content_of(folder.path() / "holes.json")
+          .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
+                "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
+                "\"mean_probability\":0.0,\"tiles\":0},\n") != std::string::npos);
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
@@ -157,7 +161,8 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
   detection.numbers.counts.points = 5'000'000'002;
   detection.numbers.counts.boundary_points = 1;
-  detection.boundary = {{.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
+  detection.boundary = {
+      {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
   write_results(detection, scan, Config{}, folder.path());
   CHECK(read_table(folder.path() / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
   const Table boundary = read_table(folder.path() / "boundary.ply");
@@ -175,7 +180,8 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
   const Table table = read_table(folder.path() / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
-                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny", "nz"});
+                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny",
+                             "nz"});
   REQUIRE(table.rows.size() == 3);
   CHECK(table.rows[0][1] == 0.1f);
   CHECK(std::isnan(table.rows[0][2]));
@@ -188,9 +194,11 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
 
 TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
   const TempFolder folder;
-  const auto a = folder.put("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3, "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
+  const auto a = folder.put("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
+                                         "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
   const auto b = folder.put("b.ply", ply(kXyz, 0, ""));
-  const auto c = folder.put("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2, "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+  const auto c = folder.put("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2,
+                                         "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
   for (const std::size_t block : {1u, 2u, 4u, 100u}) {
     FileScan scan({a, b, c}, {});
     FakeDetection detection;
@@ -200,7 +208,8 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
     write_results(detection, scan, config, folder.path() / "out");
     const Table table = read_table(folder.path() / "out" / "points.ply");
     REQUIRE(table.rows.size() == 5);
-    CHECK(Names(table.names.begin(), table.names.begin() + 7) == Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
+    CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
+          Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
     CHECK(table.names.size() == 6 + 7);
     CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1});
     CHECK(table.rows[3][0] == 0.1);
@@ -213,7 +222,8 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
 
 TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
   const TempFolder folder;
-  const auto file = folder.put("a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
+  const auto file = folder.put(
+      "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
   FileScan scan({file}, {});
   Config config;
   config.output = {.points = true, .normals = true};
@@ -236,8 +246,9 @@ TEST_CASE("an input in the place of a result is refused, and stays", "[io]") {
   const TempFolder folder;
   const auto file = folder.put("points.ply", ply(kXyz, 1, "1 2 3\n"));
   FileScan scan({file}, {});
-  CHECK(error_of([&] { write_results(FakeDetection().with_results(1), scan, Config{}, folder.path()); })
-            .find("points.ply: is an input") != std::string::npos);
+  CHECK(error_of([&] {
+          write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
+        }).find("points.ply: is an input") != std::string::npos);
   CHECK(folder.names() == Names{"points.ply"});
 }
 
@@ -247,8 +258,9 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   Config config;
   config.output.points = true;
   for (const std::size_t results : {1u, 3u}) {
-    CHECK(error_of([&] { write_results(FakeDetection().with_results(results), scan, config, folder.path()); })
-              .find("the input has changed") != std::string::npos);
+    CHECK(error_of([&] {
+            write_results(FakeDetection().with_results(results), scan, config, folder.path());
+          }).find("the input has changed") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
 }
@@ -260,8 +272,9 @@ TEST_CASE("a full disk while writing any result leaves none", "[io]") {
   config.output.points = true;
   for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
     std::filesystem::create_symlink("/dev/full", folder.path() / (name + ".partial"));
-    CHECK(error_of([&] { write_results(FakeDetection().with_results(1), scan, config, folder.path()); })
-              .find(name + ": cannot be written: No space left") != std::string::npos);
+    CHECK(error_of([&] {
+            write_results(FakeDetection().with_results(1), scan, config, folder.path());
+          }).find(name + ": cannot be written: No space left") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
 }

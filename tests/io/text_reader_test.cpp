@@ -1,8 +1,8 @@
+#include "tests/io/io_support.hpp"
+
 #include <cmath>
 
 #include <catch2/catch.hpp>
-
-#include "tests/io/io_support.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -14,8 +14,10 @@ using Names = std::vector<std::string>;
 
 TEST_CASE("blanks, commas and semicolons divide the values of a row", "[io]") {
   const TempFolder folder;
-  for (const std::string content : {"1 2 3\n4 5 6\n", "  1\t2  3 \r\n4 5 6", "1,2,3\n4,5,6\n", "1, 2 ,3,\n 4,5,6\n", "1;2;3\r\n4; 5;6\n",
-                                    "\xef\xbb\xbf" "1 2 3\n\n4 5 6\n\n"}) {
+  for (const std::string content :
+       {"1 2 3\n4 5 6\n", "  1\t2  3 \r\n4 5 6", "1,2,3\n4,5,6\n", "1, 2 ,3,\n 4,5,6\n", "1;2;3\r\n4; 5;6\n",
+        "\xef\xbb\xbf"
+        "1 2 3\n\n4 5 6\n\n"}) {
     INFO(content);
     const Table table = read_table(folder.put("a.xyz", content));
     CHECK(table.names == Names{"x", "y", "z"});
@@ -36,11 +38,14 @@ TEST_CASE("columns are named by the options, else by a header line, else by plac
 
 TEST_CASE("comments are passed over, but may name the columns of the first row", "[io]") {
   const TempFolder folder;
-  const Table plain = read_table(folder.put("a.txt", "# by hand\n// and more\n1 2 3 4\n#5 6 7 8\n  // 9\n5 6 7 8\n"));
+  const Table plain =
+      read_table(folder.put("a.txt", "# by hand\n// and more\n1 2 3 4\n#5 6 7 8\n  // 9\n5 6 7 8\n"));
   CHECK(plain.names == Names{"x", "y", "z", "column_4"});
   CHECK(plain.rows == Rows{{1, 2, 3, 4}, {5, 6, 7, 8}});
-  CHECK(read_table(folder.put("a.txt", "//X Y Z Nx Ny Nz\n1 2 3 4 5 6\n")).names == Names{"x", "y", "z", "nx", "ny", "nz"});
-  CHECK(read_table(folder.put("a.txt", "# four words of prose\n1 2 3 4\n")).names == Names{"x", "y", "z", "column_4"});
+  CHECK(read_table(folder.put("a.txt", "//X Y Z Nx Ny Nz\n1 2 3 4 5 6\n")).names ==
+        Names{"x", "y", "z", "nx", "ny", "nz"});
+  CHECK(read_table(folder.put("a.txt", "# four words of prose\n1 2 3 4\n")).names ==
+        Names{"x", "y", "z", "column_4"});
 }
 
 TEST_CASE("a bare count on the first line is passed over", "[io]") {
@@ -84,7 +89,9 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
       {"VERSION 0.7\n1 2 3\n", "line 1: 2 values"},
-      {"1 2 3\n4 5 \x01\x02\n", "line 2: '?" "?' is not a number"},
+      {"1 2 3\n4 5 \x01\x02\n",
+       "line 2: '?"
+       "?' is not a number"},
   };
   for (const auto& [content, expected] : cases) {
     INFO(content);
@@ -92,8 +99,10 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
     INFO(error);
     CHECK(error.find("a.txt: " + expected) != std::string::npos);
   }
-  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y z w"}).find("line 1: fewer") != std::string::npos);
-  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y"}).find("no columns") != std::string::npos);
+  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y z w"}).find("line 1: fewer") !=
+        std::string::npos);
+  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y"}).find("no columns") !=
+        std::string::npos);
 }
 
 TEST_CASE("text cut at any byte gives rows or an error", "[io]") {
