@@ -275,7 +275,10 @@ TEST_CASE("a list with a negative count, or one that leaves the file, is an erro
   for (const std::int32_t count : {-1, 1, std::numeric_limits<std::int32_t>::max()}) {
     Bytes bytes(std::endian::big);
     bytes << 1.f << 2.f << 3.f << count;
-    CHECK(read_error(folder.put("a.ply", head + bytes.str())).find("a.ply: byte ") != std::string::npos);
+    const std::string expected = count < 0 ? "list 'near' has a negative count" : "the file ends here";
+    const std::string error = read_error(folder.put("a.ply", head + bytes.str()));
+    CHECK(error.find("a.ply: byte ") != std::string::npos);
+    CHECK(error.find(expected) != std::string::npos);
   }
 }
 
