@@ -1,15 +1,17 @@
 // Several scan files as one registered scan: the engine's view of the input.
 #pragma once
 
+#include "engine/data/points.hpp"
+#include "io/scan_reader.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <vector>
 
-#include "engine/data/points.hpp"
-#include "io/scan_reader.hpp"
-
 namespace lacuna {
 
+// Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
+// points of one that has none get NaN.
 class FileScan : public PointSource {
  public:
   // Opens every file once, so that a missing or broken one is an `Error` before any work is done.
@@ -22,6 +24,8 @@ class FileScan : public PointSource {
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   const std::vector<RowLayout>& layouts() const { return layouts_; }  // one per file
+  // Rows that each file's header declares; text files declare none.
+  const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
   const ReadOptions& options() const { return options_; }
   bool single_precision() const;  // x, y and z are 32-bit floats in every file
 
@@ -29,6 +33,7 @@ class FileScan : public PointSource {
   std::vector<std::filesystem::path> files_;
   ReadOptions options_;
   std::vector<RowLayout> layouts_;
+  std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
   // where reading stands
   std::size_t file_ = 0;

@@ -1,0 +1,190 @@
+#include "io/input_file.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+// Up to `count` bytes, fewer only at the end of the file.
+std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_t count) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t got = ::read(descriptor, to + done, count - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) in.fail(std::string("cannot be read: ") + std::strerror(errno));
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
+}
+
+}  // namespace
+
+InputFile::InputFile(std::filesystem::path file) : file_(std::move(file)) {
+  // Looked at before it is opened: to open a named pipe would wait for a writer.
+  struct stat status {};
+  if (::stat(file_.c_str(), &status) != 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) fail("is a folder; a scan file is needed");
+  if (!S_ISREG(status.st_mode)) fail("is not a regular file; a scan is read several times");
+  descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
+  size_ = static_cast<std::uint64_t>(status.st_size);
+  buffer_.resize(kBufferBytes);
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::uint64_t InputFile::remaining() const {
+  return size_ > position() ? size_ - position() : 0;
+}
+
+bool InputFile::fill() {
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  const std::size_t got = read_fully(*this, descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  end_ += got;
+  end_position_ += got;
+  return got > 0;
+}
+
+std::string_view InputFile::peek(std::size_t count) {
+  if (end_ - begin_ < count) fill();
+  return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
+}
+
+void InputFile::read(std::byte* to, std::size_t count) {
+  const std::size_t buffered = std::min(count, end_ - begin_);
+  std::memcpy(to, buffer_.data() + begin_, buffered);
+  begin_ += buffered;
+  std::size_t missing = count - buffered;
+  if (missing == 0) return;
+  if (missing < buffer_.size() / 4) {
+    fill();
+    if (end_ >= missing) return read(to + buffered, missing);
+    begin_ = end_;
+  } else {
+    const std::size_t got = read_fully(*this, descriptor_, reinterpret_cast<char*>(to) + buffered, missing);
+    end_position_ += got;
+    missing -= got;
+    if (missing == 0) return;
+  }
+  fail_at_byte(position(), "the file ends here, in the middle of a row; it must be complete");
+}
+
+void InputFile::skip(std::uint64_t count) {
+  if (count <= end_ - begin_) {
+    begin_ += count;
+    return;
+  }
+  if (count > remaining()) {
+    fail_at_byte(size_, "the file ends here, but " + std::to_string(count - remaining()) +
+                            " more bytes should follow; it must be complete");
+  }
+  const std::uint64_t target = position() + count;
+  if (::lseek(descriptor_, static_cast<off_t>(target), SEEK_SET) < 0) {
+    fail(std::string("cannot be read: ") + std::strerror(errno));
+  }
+  begin_ = end_ = 0;
+  end_position_ = target;
+}
+
+std::optional<std::string_view> InputFile::next_line() {
+  std::size_t searched = 0;
+  for (;;) {
+    const char* start = buffer_.data() + begin_;
+    const std::size_t have = end_ - begin_;
+    const void* found = std::memchr(start + searched, '\n', have - searched);
+    if (found == nullptr) {
+      searched = have;
+      if (have == buffer_.size()) {
+        fail_at_line(line_ + 1, "longer than the " + std::to_string(kBufferBytes) + " bytes allowed");
+      }
+      if (fill()) continue;
+      if (have == 0) return std::nullopt;
+    }
+    const std::size_t length = found ? static_cast<const char*>(found) - start : have;
+    std::string_view line(buffer_.data() + begin_, length);
+    begin_ += length + (found ? 1 : 0);
+    ++line_;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+}
+
+void InputFile::pass_blanks() {
+  do {
+    while (begin_ < end_ && is_blank(buffer_[begin_])) ++begin_;
+  } while (begin_ == end_ && fill());
+}
+
+bool InputFile::next_row() {
+  for (;;) {
+    pass_blanks();
+    if (begin_ == end_) return false;
+    if (buffer_[begin_] != '\n') return true;
+    ++begin_;
+    ++line_;
+  }
+}
+
+std::optional<std::string_view> InputFile::next_word() {
+  pass_blanks();
+  std::size_t length = 0;
+  for (;;) {
+    const char* start = buffer_.data() + begin_;
+    const std::size_t have = end_ - begin_;
+    while (length < have && !is_blank(start[length]) && start[length] != '\n') ++length;
+    if (length < have || have == buffer_.size() || !fill()) break;
+  }
+  if (length == 0) return std::nullopt;
+  if (length == buffer_.size()) fail_at_line(line_ + 1, "a value without an end");
+  begin_ += length;
+  return std::string_view(buffer_.data() + begin_ - length, length);
+}
+
+bool InputFile::end_row() {
+  pass_blanks();
+  if (begin_ < end_ && buffer_[begin_] != '\n') return false;
+  if (begin_ < end_) ++begin_;
+  ++line_;
+  return true;
+}
+
+void InputFile::fail(const std::string& reason) const {
+  throw Error(file_.string() + ": " + reason);
+}
+
+void InputFile::fail_at_line(std::uint64_t line, const std::string& reason) const {
+  fail("line " + std::to_string(line) + ": " + reason);
+}
+
+void InputFile::fail_at_byte(std::uint64_t byte, const std::string& reason) const {
+  fail("byte " + std::to_string(byte) + ": " + reason);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest)) result += c >= 0x20 && c < 0x7f ? c : '?';
+  return result + (text.size() > kLongest ? "...'" : "'");
+}
+
+}  // namespace lacuna

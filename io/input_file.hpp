@@ -1,0 +1,65 @@
+// A file read front to back through one buffer: bytes, lines or words, whatever the format needs next.
+// Memory is bounded by the buffer, so that a line without an end is an error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna {
+
+class InputFile {
+ public:
+  // Throws `Error` if the file is missing, not readable or not a regular file (it is read several times).
+  explicit InputFile(std::filesystem::path file);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  std::uint64_t position() const { return end_position_ - (end_ - begin_); }
+  std::uint64_t remaining() const;
+  std::uint64_t line() const { return line_; }  // lines passed, by next_line and next_row
+
+  // The next bytes without passing them: `count` or, at the end of the file, fewer; at most the buffer's
+  // size.
+  std::string_view peek(std::size_t count);
+  // Throws `Error` where the file ends before.
+  void read(std::byte* to, std::size_t count);
+  void skip(std::uint64_t count);
+
+  // The next line without its end (LF or CR LF), valid until the next call; none at the end of the file.
+  std::optional<std::string_view> next_line();
+
+  // Rows of words, however long the row. next_row passes blank lines, false at the end of the file; next_word
+  // is valid until the next call, none at the end of the line; end_row passes the line's end, false when a
+  // word is left before it.
+  bool next_row();
+  std::optional<std::string_view> next_word();
+  bool end_row();
+
+  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail_at_line(std::uint64_t line, const std::string& reason) const;
+  [[noreturn]] void fail_at_byte(std::uint64_t byte, const std::string& reason) const;
+
+ private:
+  bool fill();  // more bytes into the buffer behind those not yet passed; false at the end of the file
+  void pass_blanks();
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::uint64_t end_position_ = 0;  // in the file, of the buffer's end
+  std::uint64_t line_ = 0;
+};
+
+// Text from a file for an error message: one line, printable, not long, in quotes.
+std::string in_quotes(std::string_view text);
+
+}  // namespace lacuna

@@ -1,0 +1,62 @@
+// Numbers written as text.
+#pragma once
+
+#include <charconv>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace lacuna {
+
+// What std::from_chars leaves open: infinite where a number is too large for the type, 0 or denormal where
+// it is too small.
+float parse_extreme(std::string_view text, float);
+double parse_extreme(std::string_view text, double);
+
+// False unless all of `text` is one number that fits the type. Rounded once, to the type asked for. "nan"
+// and "inf" are floating point numbers; a leading + is allowed.
+template <class T>
+bool parse_number(std::string_view text, T& value) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  if (stop != end || text.empty()) return false;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (status == std::errc::result_out_of_range) value = parse_extreme(text, T{});
+    return status != std::errc::invalid_argument;
+  }
+  return status == std::errc{};
+}
+
+// What `parse_number<T>` takes, for error messages.
+template <class T>
+std::string describe_number() {
+  if constexpr (std::is_floating_point_v<T>) return "a number";
+  return "a whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+         std::to_string(std::numeric_limits<T>::max());
+}
+
+// Takes the next field off `rest`. Separator ' ': fields are divided by any run of blanks; any other: by
+// that character, with blanks around it not part of the field, and nothing expected after a last separator.
+// False when there is none left.
+inline bool next_field(std::string_view& rest, char separator, std::string_view& field) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
+  std::size_t begin = 0;
+  while (begin < rest.size() && is_blank(rest[begin])) ++begin;
+  if (begin == rest.size()) return false;
+  std::size_t end = begin;
+  if (separator == ' ') {
+    while (end < rest.size() && !is_blank(rest[end])) ++end;
+    field = rest.substr(begin, end - begin);
+    rest.remove_prefix(end);
+    return true;
+  }
+  while (end < rest.size() && rest[end] != separator) ++end;
+  field = rest.substr(begin, end - begin);
+  rest.remove_prefix(end < rest.size() ? end + 1 : end);
+  while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
+  return true;
+}
+
+}  // namespace lacuna

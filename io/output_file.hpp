@@ -1,0 +1,60 @@
+// Result files that appear under their final name only when complete. Until then each is `<name>.partial`,
+// and is removed when the job fails.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+
+class OutputFile {
+ public:
+  // Creates the partial file, over one that a killed run has left. Throws `Error`.
+  explicit OutputFile(std::filesystem::path file);
+  ~OutputFile();  // removes the partial file unless it was committed
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::filesystem::path& path() const { return file_; }
+
+  // Buffered. Throws `Error`: a full disk is noticed here or in close, never later.
+  void write(const void* bytes, std::size_t count);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+
+  void close();   // nothing can be written after it
+  void commit();  // closes, and gives the file its final name
+
+ private:
+  void flush();
+  [[noreturn]] void fail(const char* what) const;
+
+  std::filesystem::path file_;
+  std::filesystem::path partial_;
+  int descriptor_ = -1;
+  bool committed_ = false;
+  std::vector<std::byte> buffer_;
+};
+
+// The results of one run: none of them is in place before all are complete.
+class OutputSet {
+ public:
+  explicit OutputSet(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  OutputFile& add(const std::string& name);
+
+  // Removes what an earlier run has left under the names of this set and of `stale`, then puts the files in
+  // place in the order in which they were added. Results of two runs never stand side by side, and the last
+  // file says that all the others are there.
+  void commit(const std::vector<std::string>& stale);
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
+
+}  // namespace lacuna

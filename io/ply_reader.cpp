@@ -1,0 +1,152 @@
+#include "io/ply_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/ply_header.hpp"
+#include "io/ply_rows.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace lacuna {
+namespace {
+
+// A batch is no larger than this, however many properties a row has.
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+
+std::size_t find_vertex(const InputFile& in, const PlyHeader& header) {
+  for (std::size_t i = 0; i < header.elements.size(); ++i) {
+    if (header.elements[i].name == "vertex") return i;
+  }
+  in.fail_at_line(in.line(), "the header has no element 'vertex'; points are needed");
+}
+
+void require_position(const InputFile& in, const PlyElement& vertex) {
+  const RowLayout layout = vertex.layout();
+  for (const char* name : {"x", "y", "z"}) {
+    if (!layout.find(name)) {
+      in.fail_at_line(in.line(), "element 'vertex' has no scalar property " + in_quotes(name) +
+                                     "; x, y and z are needed");
+    }
+  }
+}
+
+// A row takes at least so many bytes. ASCII: a digit and a blank for each value.
+std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
+  if (format == PlyFormat::kAscii) return 2 * element.properties.size();
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    bytes += size_of(property.count_type.value_or(property.type));
+  }
+  return bytes;
+}
+
+// Whether the file can hold the rows that the header declares. Afterwards their number is safe to count to.
+void require_size(const InputFile& in, const PlyHeader& header) {
+  const std::uint64_t size = in.position() + in.remaining();
+  std::uint64_t left = in.remaining();
+  if (header.format == PlyFormat::kAscii) ++left;  // the last line may have no end
+  for (const PlyElement& element : header.elements) {
+    const std::uint64_t least = least_row_bytes(element, header.format);
+    if (least > 0 && element.count > left / least) {
+      in.fail_at_byte(size, "the file ends here, too early for the " + std::to_string(element.count) +
+                                " rows of element " + in_quotes(element.name) +
+                                " that its header declares; it must be complete");
+    }
+    left -= element.count * least;
+  }
+}
+
+// Rows that the header does not count would be lost points.
+void require_end(InputFile& in) {
+  constexpr std::size_t kBlock = 4096;
+  while (in.remaining() > 0) {
+    const std::uint64_t place = in.position();
+    const std::string_view block = in.peek(kBlock);
+    const std::size_t data = block.find_first_not_of(" \t\r\n\v\f");
+    if (data != std::string_view::npos) {
+      in.fail_at_byte(place + data,
+                      "more data after the last row that the header declares; its counts must hold");
+    }
+    if (block.empty()) return;
+    in.skip(block.size());
+  }
+}
+
+class PlyReader final : public ScanReader {
+ public:
+  explicit PlyReader(const std::filesystem::path& file) : in_(file), header_(read_ply_header(in_)) {
+    const std::size_t vertex = find_vertex(in_, header_);
+    require_position(in_, header_.elements[vertex]);
+    require_size(in_, header_);
+    element_ = vertex;
+    layout_ = header_.elements[vertex].layout();
+    left_ = header_.elements[vertex].count;
+    for (std::size_t i = 0; i < vertex; ++i) skip(header_.elements[i]);
+  }
+
+  const RowLayout& layout() const override { return layout_; }
+
+  std::optional<std::uint64_t> expected_rows() const override { return header_.elements[element_].count; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / layout_.stride);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
+    batch.bytes.resize(batch.count * layout_.stride);
+    if (batch.count == 0) {
+      finish();
+      return false;
+    }
+    const PlyElement& vertex = header_.elements[element_];
+    if (header_.format == PlyFormat::kAscii) {
+      read_ascii_rows(in_, vertex, batch.count, batch.bytes.data());
+    } else {
+      read_binary_rows(in_, vertex, swapped(), batch.count, batch.bytes.data());
+    }
+    left_ -= batch.count;
+    return true;
+  }
+
+ private:
+  bool swapped() const {
+    return (header_.format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
+  }
+
+  void skip(const PlyElement& element) {
+    if (header_.format == PlyFormat::kAscii) {
+      skip_ascii_rows(in_, element, element.count);
+    } else {
+      skip_binary_rows(in_, element, swapped(), element.count);
+    }
+  }
+
+  void finish() {
+    if (finished_) return;
+    for (std::size_t i = element_ + 1; i < header_.elements.size(); ++i) skip(header_.elements[i]);
+    require_end(in_);
+    finished_ = true;
+  }
+
+  InputFile in_;
+  PlyHeader header_;
+  std::size_t element_ = 0;  // of the header, the vertices
+  RowLayout layout_;
+  std::uint64_t left_ = 0;  // vertices not yet read
+  bool finished_ = false;
+};
+
+}  // namespace
+
+bool looks_like_ply(std::string_view first_bytes) {
+  if (!first_bytes.starts_with("ply")) return false;
+  return first_bytes.size() == 3 ||
+         std::string_view(" \t\r\n").find(first_bytes[3]) != std::string_view::npos;
+}
+
+std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<PlyReader>(file);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,18 @@
+// PLY, ASCII and binary: the points are the rows of element "vertex".
+#pragma once
+
+#include "io/scan_reader.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace lacuna {
+
+bool looks_like_ply(std::string_view first_bytes);
+
+// Any scalar types; lists and other elements are passed over, but must be complete, and nothing may follow
+// the last one. A file too short for what its header declares is an `Error` at once.
+std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions& options);
+
+}  // namespace lacuna

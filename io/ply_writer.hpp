@@ -1,0 +1,37 @@
+// Binary little endian PLY, as a stream of values.
+#pragma once
+
+#include "io/output_file.hpp"
+#include "io/ply_header.hpp"
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace lacuna {
+
+class PlyWriter {
+ public:
+  // Writes the header. The elements have no lists; their counts are final.
+  PlyWriter(OutputFile& out, std::vector<PlyElement> elements);
+
+  // Values must follow in the order and with the types of the header.
+  template <class T>
+  void put(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    put_bytes(std::as_bytes(std::span(&value, 1)));
+  }
+  // Some values, as `Scalar` type of the header.
+  void put_as(Scalar type, double value);
+  void put_bytes(std::span<const std::byte> bytes);
+
+  // Asserts that all that the header declares was put.
+  void finish();
+
+ private:
+  OutputFile& out_;
+  std::uint64_t missing_bytes_ = 0;
+};
+
+}  // namespace lacuna

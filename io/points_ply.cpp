@@ -1,0 +1,151 @@
+#include "engine/core/error.hpp"
+#include "io/ply_writer.hpp"
+#include "io/results.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <set>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBlockRows = std::size_t{1} << 14;
+
+// A result: its name, its type and where it stands in a PointResult.
+struct ResultColumn {
+  std::string name;
+  Scalar type;
+  const void* (*find)(const PointResult& result);
+};
+
+std::vector<ResultColumn> result_columns(bool with_normals) {
+  using R = const PointResult&;
+  using P = const void*;
+  std::vector<ResultColumn> columns = {
+      {"scalar_probability", Scalar::kFloat32, [](R r) -> P { return &r.probability; }},
+      {"scalar_angle", Scalar::kFloat32, [](R r) -> P { return &r.angle; }},
+      {"scalar_halfdisc", Scalar::kFloat32, [](R r) -> P { return &r.halfdisc; }},
+      {"scalar_shape", Scalar::kFloat32, [](R r) -> P { return &r.shape; }},
+      {"scalar_boundary", Scalar::kUint8, [](R r) -> P { return &r.boundary; }},
+      {"scalar_coherent", Scalar::kUint8, [](R r) -> P { return &r.coherent; }},
+      {"scalar_loop", Scalar::kInt32, [](R r) -> P { return &r.loop; }}};
+  if (with_normals) {
+    columns.push_back({"nx", Scalar::kFloat32, [](R r) -> P { return &r.normal.x(); }});
+    columns.push_back({"ny", Scalar::kFloat32, [](R r) -> P { return &r.normal.y(); }});
+    columns.push_back({"nz", Scalar::kFloat32, [](R r) -> P { return &r.normal.z(); }});
+  }
+  return columns;
+}
+
+// The union of the files' properties, in order of first appearance.
+std::vector<std::pair<std::string, Scalar>> join_properties(const std::vector<RowLayout>& layouts,
+                                                            const std::vector<ResultColumn>& results) {
+  std::vector<std::pair<std::string, Scalar>> joined;
+  for (const RowLayout& layout : layouts) {
+    for (const Property& property : layout.properties) {
+      if (std::any_of(results.begin(), results.end(),
+                      [&](const auto& r) { return r.name == property.name; })) {
+        continue;
+      }
+      const auto known = std::find_if(joined.begin(), joined.end(),
+                                      [&](const auto& entry) { return entry.first == property.name; });
+      if (known == joined.end()) {
+        joined.emplace_back(property.name, property.type);
+      } else if (known->second != property.type) {
+        known->second = Scalar::kFloat64;
+      }
+    }
+  }
+  return joined;
+}
+
+// The rows of all files once more, in order.
+class RowStream {
+ public:
+  explicit RowStream(const FileScan& scan) : scan_(scan) {}
+
+  // At most `max_rows` of one file; empty at the end.
+  const RowBatch& next(std::size_t max_rows) {
+    for (; file_ < scan_.files().size(); ++file_, reader_.reset()) {
+      if (!reader_) reader_ = open_scan(scan_.files()[file_], scan_.options());
+      if (reader_->next(rows_, max_rows)) return rows_;
+    }
+    rows_.count = 0;
+    return rows_;
+  }
+
+  const RowLayout& layout() const { return reader_->layout(); }  // of the rows last returned
+
+ private:
+  const FileScan& scan_;
+  std::size_t file_ = 0;
+  std::unique_ptr<ScanReader> reader_;
+  RowBatch rows_;
+};
+
+void copy_input(const RowBatch& rows, const RowLayout& from, const RowLayout& to, std::size_t properties,
+                std::byte* out) {
+  for (std::size_t i = 0; i < properties; ++i) {
+    const Property& target = to.properties[i];
+    const Column column{.data = out + target.offset, .stride = to.stride, .type = target.type};
+    if (const Property* source = from.find(target.name)) {
+      copy_column({.data = rows.bytes.data() + source->offset, .stride = from.stride, .type = source->type},
+                  column, rows.count);
+    } else {
+      fill_missing(column, rows.count);
+    }
+  }
+}
+
+void copy_results(std::span<const PointResult> results, const std::vector<ResultColumn>& columns,
+                  const RowLayout& to, std::byte* out) {
+  const std::size_t before = to.properties.size() - columns.size();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::size_t bytes = size_of(columns[i].type);
+    std::byte* place = out + to.properties[before + i].offset;
+    for (const PointResult& result : results) {
+      std::memcpy(place, columns[i].find(result), bytes);
+      place += to.stride;
+    }
+  }
+}
+
+[[noreturn]] void fail_changed(const OutputFile& out) {
+  throw Error(out.path().string() + ": the input has changed during the run; it must stay as it is");
+}
+
+}  // namespace
+
+void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                  OutputFile& out) {
+  const auto results = result_columns(config.normals && !scan.has_normals());
+  auto columns = join_properties(scan.layouts(), results);
+  const std::size_t input_columns = columns.size();
+  for (const ResultColumn& result : results) columns.emplace_back(result.name, result.type);
+  const RowLayout layout = packed_layout(columns);
+
+  PlyElement vertex{.name = "vertex", .count = detection.summary().counts.points, .properties = {}};
+  for (const auto& [name, type] : columns) vertex.properties.push_back({name, type, {}});
+  PlyWriter writer(out, {vertex});
+
+  RowStream input(scan);
+  std::vector<std::byte> block;
+  detection.for_each_result_block([&](PointId, std::span<const PointResult> left) {
+    while (!left.empty()) {
+      const RowBatch& rows = input.next(std::min(left.size(), kBlockRows));
+      if (rows.count == 0) fail_changed(out);
+      block.resize(rows.count * layout.stride);
+      copy_input(rows, input.layout(), layout, input_columns, block.data());
+      copy_results(left.first(rows.count), results, layout, block.data());
+      writer.put_bytes(block);
+      left = left.subspan(rows.count);
+    }
+  });
+  if (input.next(1).count != 0) fail_changed(out);
+  writer.finish();
+}
+
+}  // namespace lacuna

@@ -1,0 +1,44 @@
+#include "io/scan_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/ply_reader.hpp"
+#include "io/text_reader.hpp"
+
+#include <array>
+
+namespace lacuna {
+namespace {
+
+struct Format {
+  const char* name;
+  bool (*recognises)(std::string_view first_bytes);
+  std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
+};
+
+// Tried in this order.
+constexpr std::array kFormats = {
+    Format{"PLY", looks_like_ply, open_ply},
+    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+};
+
+constexpr std::size_t kFirstBytes = 4096;
+
+std::string format_names() {
+  std::string names;
+  for (const Format& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
+  InputFile in(file);
+  const std::string_view first_bytes = in.peek(kFirstBytes);
+  if (first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
+  for (const Format& format : kFormats) {
+    if (format.recognises(first_bytes)) return format.open(file, options);
+  }
+  in.fail_at_byte(0, "unknown format; allowed are " + format_names());
+}
+
+}  // namespace lacuna

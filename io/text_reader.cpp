@@ -1,0 +1,217 @@
+#include "io/text_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/number.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <set>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+constexpr const char* kAllowed = "rows of numbers divided by blanks, commas or semicolons are allowed";
+
+using Fields = std::vector<std::string_view>;
+
+char find_separator(std::string_view line) {
+  for (const char separator : {';', ','}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ' ';
+}
+
+Fields split(std::string_view line, char separator) {
+  Fields fields;
+  for (std::string_view field; next_field(line, separator, field);) fields.push_back(field);
+  return fields;
+}
+
+std::string_view without_blanks(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(" \t\r\v\f"), line.size());
+  return line.substr(begin);
+}
+
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with("//");
+}
+
+// A number, or meant to be one.
+bool is_numeric(std::string_view field) {
+  double value;
+  return parse_number(field, value) || field.find_first_of("0123456789+-.") == 0;
+}
+
+// A name that can stand in a PLY header too.
+std::string column_name(std::string_view field, std::size_t index) {
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+    field = field.substr(1, field.size() - 2);
+  }
+  if (field.empty()) return "column_" + std::to_string(index + 1);
+  std::string name(field);
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
+  }
+  std::string lower = name;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char* known : {"x", "y", "z", "nx", "ny", "nz"}) {
+    if (lower == known) return lower;
+  }
+  return name;
+}
+
+std::vector<std::string> column_names(const Fields& fields) {
+  std::vector<std::string> names;
+  for (const std::string_view field : fields) names.push_back(column_name(field, names.size()));
+  return names;
+}
+
+std::vector<std::string> default_names(std::size_t count) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  while (names.size() < count) names.push_back("column_" + std::to_string(names.size() + 1));
+  return names;
+}
+
+bool has_position(const std::vector<std::string>& names) {
+  for (const char* needed : {"x", "y", "z"}) {
+    if (std::find(names.begin(), names.end(), needed) == names.end()) return false;
+  }
+  return true;
+}
+
+// What stands before the rows.
+struct Preamble {
+  std::string comment;                 // the last, without its sign
+  std::optional<std::uint64_t> count;  // on a line of its own
+  std::string first;                   // the first line that is neither; empty: there is none
+};
+
+Preamble read_preamble(InputFile& in) {
+  Preamble preamble;
+  if (in.peek(3) == "\xef\xbb\xbf") in.skip(3);  // byte order mark of UTF-8
+  while (const auto line = in.next_line()) {
+    const std::string_view text = without_blanks(*line);
+    std::uint64_t count = 0;
+    const Fields words = split(text, ' ');
+    if (words.empty()) continue;
+    if (is_comment(text)) {
+      preamble.comment = text.substr(std::min(text.find_first_not_of("#/"), text.size()));
+    } else if (!preamble.count && words.size() == 1 && parse_number(words[0], count)) {
+      preamble.count = count;
+    } else {
+      preamble.first = text;
+      break;
+    }
+  }
+  return preamble;
+}
+
+class TextReader final : public ScanReader {
+ public:
+  TextReader(const std::filesystem::path& file, const ReadOptions& options) : in_(file) {
+    const Preamble preamble = read_preamble(in_);
+    separator_ = find_separator(preamble.first);
+    const Fields first = split(preamble.first, separator_);
+    const bool has_header = !first.empty() && std::none_of(first.begin(), first.end(), is_numeric);
+    if (first.empty() && preamble.count != std::uint64_t{0}) {
+      in_.fail_at_line(in_.line(), std::string("the file ends here without a row; ") + kAllowed);
+    }
+    set_columns(find_names(preamble, first, has_header, options));
+    if (!has_header) pending_ = preamble.first;
+  }
+
+  const RowLayout& layout() const override { return layout_; }
+
+  std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t rows = std::min(max_rows, std::max<std::size_t>(1, kBatchBytes / layout_.stride));
+    batch.bytes.resize(rows * layout_.stride);
+    batch.count = 0;
+    std::byte* to = batch.bytes.data();
+    if (!pending_.empty()) {
+      parse_row(pending_, to);
+      pending_.clear();
+      ++batch.count;
+    }
+    while (batch.count < rows) {
+      const auto line = in_.next_line();
+      if (!line) break;
+      const std::string_view text = without_blanks(*line);
+      if (text.empty() || is_comment(text)) continue;
+      parse_row(text, to + batch.count * layout_.stride);
+      ++batch.count;
+    }
+    batch.bytes.resize(batch.count * layout_.stride);
+    return batch.count > 0;
+  }
+
+ private:
+  std::vector<std::string> find_names(const Preamble& preamble, const Fields& first, bool has_header,
+                                      const ReadOptions& options) const {
+    const Fields given = split(options.columns, ' ');
+    if (!given.empty()) return column_names(given);
+    if (has_header) return column_names(first);
+    const auto in_comment = column_names(split(preamble.comment, find_separator(preamble.comment)));
+    if (in_comment.size() == first.size() && has_position(in_comment)) return in_comment;
+    if (!first.empty() && first.size() < 3) {
+      in_.fail_at_line(in_.line(), std::to_string(first.size()) + " values; at least x y z are needed");
+    }
+    return default_names(first.size());
+  }
+
+  void set_columns(const std::vector<std::string>& names) {
+    std::set<std::string> seen;
+    std::vector<std::pair<std::string, Scalar>> columns;
+    for (const std::string& name : names) {
+      if (!seen.insert(name).second) {
+        in_.fail_at_line(in_.line(), "a second column " + in_quotes(name) + "; names must differ");
+      }
+      columns.emplace_back(name, Scalar::kFloat64);
+    }
+    if (!has_position(names)) {
+      in_.fail_at_line(
+          in_.line(),
+          "no columns named x, y and z; a header line or the option for columns must name all three");
+    }
+    layout_ = packed_layout(columns);
+  }
+
+  void parse_row(std::string_view rest, std::byte* to) const {
+    std::string_view field;
+    for (const Property& property : layout_.properties) {
+      if (!next_field(rest, separator_, field)) fail_number_of_values("fewer");
+      double value;
+      if (!parse_number(field, value)) in_.fail_at_line(in_.line(), in_quotes(field) + " is not a number");
+      std::memcpy(to + property.offset, &value, sizeof(value));
+    }
+    if (next_field(rest, separator_, field)) fail_number_of_values("more");
+  }
+
+  [[noreturn]] void fail_number_of_values(const std::string& comparison) const {
+    in_.fail_at_line(in_.line(), comparison + " values than the " +
+                                     std::to_string(layout_.properties.size()) +
+                                     " columns; every row must have one for each");
+  }
+
+  InputFile in_;
+  char separator_ = ' ';
+  RowLayout layout_;
+  std::string pending_;  // the first row, read to find the columns
+};
+
+}  // namespace
+
+bool looks_like_text(std::string_view first_bytes) {
+  return first_bytes.find('\0') == std::string_view::npos;
+}
+
+std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const ReadOptions& options) {
+  return std::make_unique<TextReader>(file, options);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,107 @@
+#include "io/file_scan.hpp"
+
+#include "tests/io/io_support.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+const std::string kIntegers =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty uchar x\nproperty short y\nproperty int "
+    "z\nend_header\n"
+    "255 -300 70000\n1 2 3\n";
+const std::string kNormals =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float nz\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float nx\nproperty float ny\nend_header\n1 0.1 5 6 0 0.5\n";
+const std::string kEmpty =
+    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+    "z\nend_header\n";
+
+struct Points {
+  std::vector<Eigen::Vector3d> positions, normals;
+};
+
+Points read_all(PointSource& source) {
+  Points all;
+  PointBatch batch;
+  while (source.next(batch)) {
+    REQUIRE(value(batch.first) == all.positions.size());
+    all.positions.insert(all.positions.end(), batch.positions.begin(), batch.positions.end());
+    all.normals.insert(all.normals.end(), batch.normals.begin(), batch.normals.end());
+  }
+  CHECK(batch.size() == 0);
+  CHECK(value(batch.first) == all.positions.size());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", kIntegers), folder.put("b.ply", kEmpty), folder.put("c.ply", kNormals)},
+                {});
+  CHECK(scan.expected_points() == 3u);
+  CHECK(scan.has_normals());
+  CHECK_FALSE(scan.single_precision());
+  for (int pass = 0; pass < 2; ++pass) {
+    const Points all = read_all(scan);
+    REQUIRE(all.positions.size() == 3);
+    CHECK(all.positions[0] == Eigen::Vector3d(255, -300, 70000));
+    CHECK(all.positions[1] == Eigen::Vector3d(1, 2, 3));
+    CHECK(all.positions[2] == Eigen::Vector3d(0.1f, 5, 6));
+    REQUIRE(all.normals.size() == 3);
+    CHECK(std::isnan(all.normals[0].x()));
+    CHECK(std::isnan(all.normals[1].z()));
+    CHECK(all.normals[2] == Eigen::Vector3d(0, 0.5, 1));
+    scan.rewind();
+  }
+}
+
+TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", kNormals), folder.put("c.ply", kNormals)}, {});
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  scan.rewind();
+  CHECK(read_all(scan).positions.size() == 2);
+  CHECK(scan.single_precision());
+}
+
+TEST_CASE("a scan without normals has none, and a text file does not tell its size", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", kEmpty), folder.put("b.xyz", "1 2 3\n")}, {});
+  CHECK_FALSE(scan.has_normals());
+  CHECK_FALSE(scan.expected_points());
+  const Points all = read_all(scan);
+  CHECK(all.positions.size() == 1);
+  CHECK(all.normals.empty());
+}
+
+TEST_CASE("a scan is read in batches of bounded size", "[io]") {
+  const TempFolder folder;
+  std::string text;
+  for (int i = 0; i < 70'000; ++i) text += "1 2 3\n";
+  FileScan scan({folder.put("a.xyz", text)}, {});
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  CHECK(batch.size() == 65'536);
+  REQUIRE(scan.next(batch));
+  CHECK(batch.size() == 70'000 - 65'536);
+  CHECK(value(batch.first) == 65'536);
+  CHECK_FALSE(scan.next(batch));
+}
+
+TEST_CASE("a missing or broken file is an error before any point is read", "[io]") {
+  const TempFolder folder;
+  const auto good = folder.put("a.ply", kNormals);
+  CHECK(error_of([&] {
+          FileScan({good, folder.path() / "none.ply"}, {});
+        }).find("none.ply") != std::string::npos);
+  const auto cut = folder.put("cut.ply", kNormals.substr(0, kNormals.size() - 8));
+  CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,126 @@
+// The vocabulary of the tests of io/: folders that vanish, files drawn as text or bytes, rows as numbers.
+#pragma once
+
+#include "engine/core/error.hpp"
+#include "io/scalar.hpp"
+#include "io/scan_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::test {
+
+// A folder of its own, removed with all that is in it.
+class TempFolder {
+ public:
+  TempFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lacuna-io-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TempFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  std::filesystem::path put(const std::string& name, std::string_view content) const {
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path_ / name;
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Bytes of values, in the order asked for.
+class Bytes {
+ public:
+  explicit Bytes(std::endian order = std::endian::little) : order_(order) {}
+
+  template <class T>
+  Bytes& operator<<(T value) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if (order_ != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+    text_.append(bytes.data(), bytes.size());
+    return *this;
+  }
+
+  const std::string& str() const { return text_; }
+
+ private:
+  std::endian order_;
+  std::string text_;
+};
+
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+};
+
+inline Table read_table(const std::filesystem::path& file, std::size_t max_rows = 1000,
+                        const ReadOptions& options = {}) {
+  const auto reader = open_scan(file, options);
+  const RowLayout& layout = reader->layout();
+  Table table;
+  for (const Property& property : layout.properties) table.names.push_back(property.name);
+  RowBatch batch;
+  while (reader->next(batch, max_rows)) {
+    for (std::size_t row = 0; row < batch.count; ++row) {
+      std::vector<double>& values = table.rows.emplace_back();
+      for (const Property& property : layout.properties) {
+        double value = 0;
+        copy_column({.data = batch.bytes.data() + row * layout.stride + property.offset,
+                     .stride = layout.stride,
+                     .type = property.type},
+                    {.data = reinterpret_cast<std::byte*>(&value), .stride = 8, .type = Scalar::kFloat64}, 1);
+        values.push_back(value);
+      }
+    }
+  }
+  return table;
+}
+
+// What the job ends with; empty: it does not.
+template <class Job>
+std::string error_of(Job&& job) {
+  try {
+    job();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline std::string read_error(const std::filesystem::path& file, const ReadOptions& options = {}) {
+  return error_of([&] { read_table(file, 1000, options); });
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,120 @@
+#include "io/output_file.hpp"
+
+#include "io/ply_writer.hpp"
+#include "tests/io/io_support.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+
+TEST_CASE("a file has its final name only once it is committed", "[io]") {
+  const TempFolder folder;
+  std::string expected;
+  {
+    OutputFile out(folder.path() / "a.bin");
+    for (int i = 0; i < 300'000; ++i) {
+      const std::string word = std::to_string(i) + ' ';
+      out.write(word);
+      expected += word;
+    }
+    out.write(std::string(5u << 20, 'x'));
+    expected += std::string(5u << 20, 'x');
+    CHECK(folder.names() == std::vector<std::string>{"a.bin.partial"});
+    out.commit();
+  }
+  CHECK(folder.names() == std::vector<std::string>{"a.bin"});
+  CHECK(content_of(folder.path() / "a.bin") == expected);
+}
+
+TEST_CASE("without commit nothing is left, and an older result stays", "[io]") {
+  const TempFolder folder;
+  folder.put("a.bin", "old");
+  {
+    OutputFile out(folder.path() / "a.bin");
+    out.write("new");
+    out.close();
+  }
+  CHECK(folder.names() == std::vector<std::string>{"a.bin"});
+  CHECK(content_of(folder.path() / "a.bin") == "old");
+}
+
+TEST_CASE("a full disk is an error that names the file, and leaves nothing", "[io]") {
+  const TempFolder folder;
+  for (const std::size_t bytes : {std::size_t{1}, std::size_t{3} << 20}) {
+    std::filesystem::create_symlink("/dev/full", folder.path() / "a.bin.partial");
+    const std::string error = error_of([&] {
+      OutputFile out(folder.path() / "a.bin");
+      out.write(std::string(bytes, 'x'));
+      out.commit();
+    });
+    CHECK(error == (folder.path() / "a.bin").string() + ": cannot be written: No space left on device");
+    CHECK(folder.names().empty());
+  }
+}
+
+TEST_CASE("a place that cannot be written is an error", "[io]") {
+  const TempFolder folder;
+  CHECK(error_of([&] { OutputFile(folder.path() / "none" / "a.bin"); }).find("a.bin: cannot be created") !=
+        std::string::npos);
+  std::filesystem::create_directory(folder.path() / "a.bin");
+  CHECK(error_of([&] { OutputFile(folder.path() / "a.bin"); }).find("is a folder") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"a.bin"});
+}
+
+TEST_CASE("a set of results appears together and takes the place of older ones", "[io]") {
+  const TempFolder folder;
+  folder.put("a", "old");
+  folder.put("stale", "old");
+  folder.put("other", "kept");
+  {
+    OutputSet set(folder.path());
+    set.add("a").write("new a");
+    set.add("b").write("new b");
+    CHECK(content_of(folder.path() / "a") == "old");
+    set.commit({"stale", "not there"});
+  }
+  CHECK(folder.names() == std::vector<std::string>{"a", "b", "other"});
+  CHECK(content_of(folder.path() / "a") == "new a");
+}
+
+TEST_CASE("a set with one unfinished file leaves the folder as it was", "[io]") {
+  const TempFolder folder;
+  folder.put("a", "old");
+  std::filesystem::create_symlink("/dev/full", folder.path() / "b.partial");
+  CHECK(error_of([&] {
+          OutputSet set(folder.path());
+          set.add("a").write("new a");
+          set.add("b").write("new b");
+          set.commit({"a"});
+        }).find("No space left") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"a"});
+  CHECK(content_of(folder.path() / "a") == "old");
+}
+
+TEST_CASE("what the PLY writer writes, the PLY reader reads", "[io]") {
+  const TempFolder folder;
+  OutputFile out(folder.path() / "a.ply");
+  const PlyElement vertex{.name = "vertex",
+                          .count = 2,
+                          .properties = {{"x", Scalar::kFloat32, {}},
+                                         {"y", Scalar::kFloat64, {}},
+                                         {"z", Scalar::kInt16, {}},
+                                         {"id", Scalar::kUint32, {}}}};
+  const PlyElement edge{.name = "edge", .count = 1, .properties = {{"vertex1", Scalar::kInt32, {}}}};
+  PlyWriter writer(out, {vertex, edge});
+  for (const int sign : {1, -1}) {
+    writer.put(0.5f * static_cast<float>(sign));
+    writer.put(1e300 * sign);
+    writer.put(static_cast<std::int16_t>(-7 * sign));
+    writer.put_as(Scalar::kUint32, 4294967295.0);
+  }
+  writer.put(std::int32_t{1});
+  writer.finish();
+  out.commit();
+  const Table table = read_table(folder.path() / "a.ply");
+  CHECK(table.names == std::vector<std::string>{"x", "y", "z", "id"});
+  CHECK(table.rows ==
+        std::vector<std::vector<double>>{{0.5, 1e300, -7, 4294967295.0}, {-0.5, -1e300, 7, 4294967295.0}});
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,282 @@
+#include "io/results.hpp"
+
+#include "tests/io/io_support.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+using Names = std::vector<std::string>;
+
+// A run that has found what the test says.
+class FakeDetection final : public Detection {
+ public:
+  Summary numbers;
+  std::vector<ReportedLoop> found;
+  std::vector<BoundaryPoint> boundary;
+  std::vector<PointResult> results;
+  std::size_t block = 2;
+
+  FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
+    ReportedLoop loop;
+    for (const std::uint64_t id : ids) {
+      loop.points.push_back({.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}});
+    }
+    loop.measures = {
+        .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
+    found.push_back(loop);
+    measures_.push_back(loop.measures);
+    return *this;
+  }
+
+  // As many results as the input has rows, each with its id as probability.
+  FakeDetection& with_results(std::size_t count) {
+    numbers.counts.points = count;
+    for (std::size_t id = 0; id < count; ++id) {
+      results.push_back({.probability = static_cast<float>(id),
+                         .angle = 0.25f,
+                         .halfdisc = 0.5f,
+                         .shape = 0.75f,
+                         .boundary = 1,
+                         .coherent = 0,
+                         .loop = -1,
+                         .normal = {0, 0, 1}});
+    }
+    return *this;
+  }
+
+  const Summary& summary() const override { return numbers; }
+  const std::vector<LoopMeasures>& loops() const override { return measures_; }
+  ReportedLoop read_loop(std::size_t index) const override { return found.at(index); }
+  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
+    for (const BoundaryPoint& point : boundary) visit(point);
+  }
+  void for_each_result_block(
+      const std::function<void(PointId, std::span<const PointResult>)>& visit) const override {
+    for (std::size_t first = 0; first < results.size(); first += block) {
+      visit(PointId{first}, std::span(results).subspan(first, std::min(block, results.size() - first)));
+    }
+  }
+
+ private:
+  std::vector<LoopMeasures> measures_;
+};
+
+std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" + properties +
+         "end_header\n" + rows;
+}
+
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string kWide = "property double x\nproperty double y\nproperty double z\n";
+
+nlohmann::json report(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(content_of(folder / "holes.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const auto out = folder.path() / "new" / "out";
+  write_results(FakeDetection().with_results(1), scan, Config{}, out);
+  CHECK(read_table(out / "loops.ply").rows.empty());
+  CHECK(read_table(out / "boundary.ply").rows.empty());
+  CHECK_FALSE(std::filesystem::exists(out / "points.ply"));
+  const auto json = report(out);
+  CHECK(json.at("loops").empty());
+  CHECK(json.at("bounds").is_null());
+  CHECK(json.at("points_per_second").is_null());
+  CHECK(json.at("peak_memory_bytes") > 0);
+  CHECK(json.at("inputs")[0].at("points") == 1);
+  CHECK(json.at("inputs")[0].at("properties").at("z") == "float");
+}
+
+TEST_CASE("the report has every parameter, every count and one line per loop", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.xyz", "1 2 3\n")}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
+  detection.numbers.counts.points = 10;
+  detection.numbers.counts.candidates = 7;
+  detection.numbers.bounds = {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(3, 4, 5)};
+  detection.numbers.phases = {{"survey", 2}, {"evaluate", 3}};
+  detection.found[1].measures.area = std::nan("");
+  Config config;
+  config.neighbourhood.k = 21;
+  config.selection.holes_only = true;
+  write_results(detection, scan, config, folder.path());
+
+  const auto json = report(folder.path());
+  CHECK(json.at("lacuna") == "0.1.0");
+  for (const Parameter& parameter : parameters(config)) {
+    CHECK(json.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
+  }
+  CHECK(json.at("parameters").at("neighbourhood").at("k") == 21);
+  CHECK(json.at("parameters").at("selection").at("holes_only") == true);
+  CHECK(json.at("inputs")[0].at("points").is_null());
+  CHECK(json.at("counts").at("candidates") == 7);
+  CHECK(json.at("counts").at("loops") == 2);
+  CHECK(json.at("counts").at("holes") == 1);
+  CHECK(json.at("counts").at("rims") == 1);
+  CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
+  CHECK(json.at("phases")[0].at("points_per_second") == 5);
+  CHECK(json.at("total_seconds") == 5);
+  CHECK(json.at("loops")[0].at("points") == nlohmann::json{1, 5, 3});
+  CHECK(json.at("loops")[1].at("kind") == "rim");
+  CHECK(json.at("loops")[1].at("area").is_null());
+  CHECK(
+      content_of(folder.path() / "holes.json")
+          .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
+                "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
+                "\"mean_probability\":0.0,\"tiles\":0},\n") != std::string::npos);
+}
+
+TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
+  write_results(detection, scan, Config{}, folder.path());
+  const Table table = read_table(folder.path() / "loops.ply");
+  CHECK(table.names == Names{"x", "y", "z", "id", "loop"});
+  REQUIRE(table.rows.size() == 7);
+  CHECK(table.rows[1] == std::vector<double>{0.5f, 2, 3, 5, 0});
+  CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 6, 1});
+  Bytes edges;
+  for (const std::int32_t end : {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 6, 6, 3}) edges << end;
+  CHECK(content_of(folder.path() / "loops.ply").ends_with(edges.str()));
+}
+
+TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kWide, 1, "1 2 3\n"))}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
+  detection.numbers.counts.points = 5'000'000'002;
+  detection.numbers.counts.boundary_points = 1;
+  detection.boundary = {
+      {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
+  write_results(detection, scan, Config{}, folder.path());
+  CHECK(read_table(folder.path() / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
+  const Table boundary = read_table(folder.path() / "boundary.ply");
+  CHECK(boundary.names == Names{"x", "y", "z", "id", "scalar_probability", "scalar_loop"});
+  CHECK(boundary.rows == Rows{{0.1, 2, 3, 5'000'000'001.0, 0.75, 0}});
+}
+
+TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
+  const TempFolder folder;
+  const auto file = folder.put("a.ply", ply("property uchar red\n" + kXyz + "property int scalar_loop\n", 3,
+                                            "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
+  FileScan scan({file}, {});
+  Config config;
+  config.output = {.points = true, .normals = true};
+  write_results(FakeDetection().with_results(3), scan, config, folder.path());
+  const Table table = read_table(folder.path() / "points.ply");
+  CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
+                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny",
+                             "nz"});
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.rows[0][1] == 0.1f);
+  CHECK(std::isnan(table.rows[0][2]));
+  CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 0, 0, 1});
+  const auto reader = open_scan(folder.path() / "points.ply", {});
+  CHECK(reader->layout().find("red")->type == Scalar::kUint8);
+  CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
+  CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
+}
+
+TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
+  const TempFolder folder;
+  const auto a = folder.put("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
+                                         "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
+  const auto b = folder.put("b.ply", ply(kXyz, 0, ""));
+  const auto c = folder.put("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2,
+                                         "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+  for (const std::size_t block : {1u, 2u, 4u, 100u}) {
+    FileScan scan({a, b, c}, {});
+    FakeDetection detection;
+    detection.with_results(5).block = block;
+    Config config;
+    config.output.points = true;
+    write_results(detection, scan, config, folder.path() / "out");
+    const Table table = read_table(folder.path() / "out" / "points.ply");
+    REQUIRE(table.rows.size() == 5);
+    CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
+          Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
+    CHECK(table.names.size() == 6 + 7);
+    CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1});
+    CHECK(table.rows[3][0] == 0.1);
+    CHECK(table.rows[3][3] == 300);
+    CHECK(std::isnan(table.rows[3][4]));
+    CHECK(table.rows[4][5] == -6);
+    CHECK(table.rows[4][6] == 4);
+  }
+}
+
+TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
+  const TempFolder folder;
+  const auto file = folder.put(
+      "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
+  FileScan scan({file}, {});
+  Config config;
+  config.output = {.points = true, .normals = true};
+  write_results(FakeDetection().with_results(1), scan, config, folder.path());
+  const Table table = read_table(folder.path() / "points.ply");
+  CHECK(table.names.size() == 6 + 7);
+  CHECK(table.rows.at(0)[3] == 1);
+}
+
+TEST_CASE("results of an earlier run do not outlive a new one", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  folder.put("points.ply", "old");
+  folder.put("loops.ply", "old");
+  write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
+  CHECK(folder.names() == Names{"a.ply", "boundary.ply", "holes.json", "loops.ply"});
+}
+
+TEST_CASE("an input in the place of a result is refused, and stays", "[io]") {
+  const TempFolder folder;
+  const auto file = folder.put("points.ply", ply(kXyz, 1, "1 2 3\n"));
+  FileScan scan({file}, {});
+  CHECK(error_of([&] {
+          write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
+        }).find("points.ply: is an input") != std::string::npos);
+  CHECK(folder.names() == Names{"points.ply"});
+}
+
+TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
+  Config config;
+  config.output.points = true;
+  for (const std::size_t results : {1u, 3u}) {
+    CHECK(error_of([&] {
+            write_results(FakeDetection().with_results(results), scan, config, folder.path());
+          }).find("the input has changed") != std::string::npos);
+    CHECK(folder.names() == Names{"a.ply"});
+  }
+}
+
+TEST_CASE("a full disk while writing any result leaves none", "[io]") {
+  const TempFolder folder;
+  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  Config config;
+  config.output.points = true;
+  for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
+    std::filesystem::create_symlink("/dev/full", folder.path() / (name + ".partial"));
+    CHECK(error_of([&] {
+            write_results(FakeDetection().with_results(1), scan, config, folder.path());
+          }).find(name + ": cannot be written: No space left") != std::string::npos);
+    CHECK(folder.names() == Names{"a.ply"});
+  }
+}
+
+}  // namespace lacuna::test
