@@ -6,6 +6,7 @@
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/workspace.hpp"
@@ -47,7 +48,11 @@ std::string detect_to(const fs::path& out, const DetectArguments& arguments, con
   const Clock::time_point start = Clock::now();
   FileScan scan(arguments.scans, {.columns = config.input.columns});
 
+  check_output_folder(scan, out);
   const MadeFolder out_folder(out);
+  for (const std::string_view name : kResultFiles) {
+    remove_on_signal(out / (std::string(name) + ".partial"));  // as the writers name what is not complete
+  }
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
   const std::string prefix = config.run.workspace.empty() ? ".lacuna-" : "lacuna-";
   const Workspace workspace(parent.path(), prefix, arguments.keep_workspace);

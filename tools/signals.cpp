@@ -17,16 +17,16 @@
 namespace lacuna {
 namespace {
 
-std::mutex folders_mutex;
-std::vector<std::filesystem::path> folders;
+std::mutex paths_mutex;
+std::vector<std::filesystem::path> paths;
 std::atomic<bool> interrupted = false;
 
 // Other threads may still be adding files, so removing takes several rounds.
-void remove_persistently(const std::filesystem::path& folder) {
+void remove_persistently(const std::filesystem::path& path) {
   for (int round = 0; round < 100; ++round) {
     std::error_code error;
-    std::filesystem::remove_all(folder, error);
-    if (!error && !std::filesystem::exists(folder, error)) return;
+    std::filesystem::remove_all(path, error);
+    if (!error && !std::filesystem::exists(path, error)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
@@ -36,8 +36,8 @@ void wait_for_signal(sigset_t signals) {
   sigwait(&signals, &signal);
   interrupted = true;
   clear_progress();
-  const std::lock_guard lock(folders_mutex);  // kept: no folder is added any more
-  for (const auto& folder : folders) remove_persistently(folder);
+  const std::lock_guard lock(paths_mutex);  // kept: nothing is added any more
+  for (const auto& path : paths) remove_persistently(path);
   _exit(128 + signal);
 }
 
@@ -56,14 +56,14 @@ void handle_signals() {
   std::thread(wait_for_signal, signals).detach();
 }
 
-void remove_on_signal(const std::filesystem::path& folder) {
-  const std::lock_guard lock(folders_mutex);
-  folders.push_back(std::filesystem::absolute(folder));
+void remove_on_signal(const std::filesystem::path& path) {
+  const std::lock_guard lock(paths_mutex);
+  paths.push_back(std::filesystem::absolute(path));
 }
 
-void keep_on_signal(const std::filesystem::path& folder) {
-  const std::lock_guard lock(folders_mutex);
-  std::erase(folders, std::filesystem::absolute(folder));
+void keep_on_signal(const std::filesystem::path& path) {
+  const std::lock_guard lock(paths_mutex);
+  std::erase(paths, std::filesystem::absolute(path));
 }
 
 void wait_if_interrupted() {

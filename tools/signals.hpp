@@ -1,17 +1,18 @@
-// Ctrl-C and kill: the program ends at once, but not before its folders on disk are gone.
+// Ctrl-C and kill: the program ends at once, but not before what it keeps on disk meanwhile is gone.
 #pragma once
 
 #include <filesystem>
 
 namespace lacuna {
 
-// From now on SIGINT, SIGTERM and SIGHUP remove the folders named below and end the program with exit code
+// From now on SIGINT, SIGTERM and SIGHUP remove what is named below and end the program with exit code
 // 128 + signal. Call before any other thread starts: the signals are blocked in all threads and waited for
 // in one of its own, where, unlike in a signal handler, removing files is safe.
 void handle_signals();
 
-void remove_on_signal(const std::filesystem::path& folder);
-void keep_on_signal(const std::filesystem::path& folder);
+// A file, or a folder with all it holds; it need not exist.
+void remove_on_signal(const std::filesystem::path& path);
+void keep_on_signal(const std::filesystem::path& path);
 
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
 void wait_if_interrupted();

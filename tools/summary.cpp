@@ -138,7 +138,7 @@ std::string print_summary(const Detection& detection, const std::vector<std::fil
 
 std::string print_result_files(const std::filesystem::path& folder) {
   std::string text;
-  for (const std::string_view name : {"holes.json", "loops.ply", "boundary.ply", "points.ply"}) {
+  for (const std::string_view name : kResultFiles) {
     const std::filesystem::path file = folder / name;
     if (std::filesystem::exists(file)) text += "written: " + file.string() + "\n";
   }

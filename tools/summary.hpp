@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna {
+
+// What a run may leave in its output folder.
+inline constexpr std::string_view kResultFiles[] = {"holes.json", "loops.ply", "boundary.ply", "points.ply"};
 
 struct RunTimes {
   double write_seconds = 0;

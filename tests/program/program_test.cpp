@@ -1,0 +1,219 @@
+#include "engine/config.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <csignal>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+// A wavy sheet of n by n points with a square hole in its middle.
+std::string sheet(int n) {
+  std::ostringstream out;
+  out << "x y z\n";
+  const int from = n / 2 - n / 8;
+  const int to = n / 2 + n / 8;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const bool in_hole = from <= i && i < to && from <= j && j < to;
+      if (!in_hole) out << i + 0.1 * ((i * 7 + j * 3) % 5) << ' ' << j + 0.1 * ((i + j * 5) % 7) << " 0\n";
+    }
+  }
+  return out.str();
+}
+
+void check_failure(const ProgramResult& result, int exit_code, const std::string& named) {
+  INFO(result.err);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
+  CHECK(test::count_lines(result.err) == 1);
+}
+
+std::size_t count_entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
+}
+
+TEST_CASE("help is for everything and version is one line") {
+  CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
+  CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info") && Contains("synth"));
+  const ProgramResult help = run_program({"detect", "--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.err.empty());
+  Config config;
+  for (const Parameter& parameter : parameters(config)) {
+    CHECK_THAT(help.out, Contains(parameter.option()) && Contains(std::string(parameter.section)));
+  }
+}
+
+TEST_CASE("wrong usage has exit code 2 and one line that names it") {
+  check_failure(run_program({}), 2, "subcommand");
+  check_failure(run_program({"detetc"}), 2, "detetc");
+  check_failure(run_program({"detect"}), 2, "SCAN");
+  check_failure(run_program({"detect", "a.ply"}), 2, "--out");
+  check_failure(run_program({"detect", "a.ply", "--out"}), 2, "--out");
+  check_failure(run_program({"detect", "a.ply", "--out", ""}), 2, "--out");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--colour"}), 2, "--colour");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--k", "0"}), 2, "k = 0");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--k", "many"}), 2,
+                "a whole number from 1 to 1000");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "-1"}), 2, "eps = -1");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "nan"}), 2, "eps = nan");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--k", "3", "--k", "4"}), 2, "--k");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "loud"}), 2, "--progress");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
+                "eps");
+  check_failure(run_program({"info"}), 2, "SCAN");
+  CHECK_FALSE(fs::exists("d"));
+}
+
+TEST_CASE("the printed config is the default one, and needs no scan") {
+  const ProgramResult result = run_program({"detect", "--print-config"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.err.empty());
+  CHECK(result.out == test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml"));
+}
+
+TEST_CASE("a printed config read again prints the same") {
+  const ScratchFolder scratch;
+  const ProgramResult first =
+      run_program({"detect", "--print-config", "--k", "20", "--eps", "0.25", "--points", "--memory-limit",
+                   "512MiB", "--columns", "x", "y", "z", "--workspace", "/a b/c"});
+  REQUIRE(first.exit_code == 0);
+  CHECK_THAT(first.out, Contains("\nk = 20\n") && Contains("\npoints = true\n") &&
+                            Contains("columns = \"x y z\"") && Contains("memory_limit = \"512MiB\""));
+  const std::string file = scratch.write("c.toml", first.out);
+  CHECK(run_program({"detect", "--print-config", "--config", file}).out == first.out);
+}
+
+TEST_CASE("the command line counts over the config file, the file over the defaults") {
+  const ScratchFolder scratch;
+  const std::string file =
+      scratch.write("c.toml", "[neighbourhood]\nk = 20\n[output]\npoints = true\n[spanning]\ne = 9\n");
+  const ProgramResult result =
+      run_program({"detect", "--print-config", "--config", file, "--k", "30", "--points=false"});
+  CHECK_THAT(result.out, Contains("\nk = 30\n") && Contains("\npoints = false\n") && Contains("\ne = 9\n") &&
+                             Contains("\ncone = 15.0\n"));
+}
+
+TEST_CASE("what is wrong in a config file is told with file, line and key") {
+  const ScratchFolder scratch;
+  const std::string unknown = scratch.write("unknown.toml", "[criteria]\nsigmas = 1\n");
+  check_failure(run_program({"detect", "--print-config", "--config", unknown}), 1,
+                "unknown.toml:2: unknown key \"sigmas\" in [criteria] (did you mean \"sigma\"?)");
+  const std::string impossible = scratch.write("impossible.toml", "[criteria]\ncone = 90\n");
+  check_failure(run_program({"detect", "--print-config", "--config", impossible}), 1,
+                "impossible.toml:2: cone");
+  check_failure(run_program({"detect", "--print-config", "--config", (scratch / "no.toml").string()}), 1,
+                "no.toml");
+}
+
+TEST_CASE("an input that cannot be read leaves no output folder") {
+  const ScratchFolder scratch;
+  const std::string out = (scratch / "a/b/out").string();
+  for (const std::string& scan :
+       {(scratch / "none.ply").string(), (scratch / ".").string(), scratch.write("empty.ply", ""),
+        scratch.write("cut.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                      "property float y\nproperty float z\nend_header\n0 0 0\n")}) {
+    check_failure(run_program({"detect", scan, "--out", out, "--progress", "none"}), 1, scan);
+    check_failure(run_program({"info", scan}), 1, scan);
+    CHECK_FALSE(fs::exists(scratch / "a"));
+  }
+}
+
+TEST_CASE("an output folder that cannot be is an error") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(8));
+  check_failure(run_program({"detect", scan, "--out", scan}), 1, "scan.txt: not a folder");
+  check_failure(run_program({"detect", scan, "--out", scan + "/below"}), 1, "scan.txt");
+  check_failure(run_program({"detect", scan, "--out", "/proc/lacuna"}), 1, "/proc/lacuna");
+  CHECK(test::read_file(scan) == sheet(8));
+}
+
+TEST_CASE("a run makes its folder, tells what it found and leaves nothing else") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(40));
+  const fs::path out = scratch / "new/folder";
+  const ProgramResult result = run_program({"detect", scan, "--out", out.string()});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.out, Contains("1,500 points") && Contains("peak memory") && Contains("points/s") &&
+                             Contains("first id") && Contains((out / "holes.json").string()));
+  CHECK_THAT(result.err, Contains("done in") && !Contains("\r"));
+  CHECK(fs::exists(out / "holes.json"));
+  CHECK(count_entries(out) == 3);  // and no workspace
+}
+
+TEST_CASE("a quiet run says nothing") {
+  const ScratchFolder scratch;
+  const ProgramResult result = run_program(
+      {"detect", scratch.write("scan.txt", sheet(20)), "--out", (scratch / "out").string(), "--quiet"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.empty());
+  CHECK(result.err.empty());
+}
+
+TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  const fs::path work = scratch / "work";
+  std::vector<std::string> arguments = {"detect",      scan,         "--out", (scratch / "out").string(),
+                                        "--workspace", work.string()};
+  REQUIRE(run_program(arguments).exit_code == 0);
+  CHECK_FALSE(fs::exists(work));  // made for the run, empty after it
+  arguments.push_back("--keep-workspace");
+  const ProgramResult result = run_program(arguments);
+  CHECK_THAT(result.out, Contains("workspace kept: "));
+  CHECK(count_entries(work) == 1);
+}
+
+TEST_CASE("a signal ends the run and removes the workspace") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const ScratchFolder scratch;
+    const std::string scan = scratch.write("scan.txt", sheet(600));
+    const fs::path out = scratch / "out";
+    const auto has_workspace = [&out] { return fs::exists(out) && count_entries(out) > 0; };
+    const ProgramResult result =
+        test::run_program_until({"detect", scan, "--out", out.string()}, signal, has_workspace);
+    CHECK(result.exit_code == 128 + signal);
+    CHECK_THAT(result.err, !Contains("error"));
+    CHECK((!fs::exists(out) || count_entries(out) == 0));
+  }
+}
+
+TEST_CASE("info tells what files hold and what a run would take, and writes nothing") {
+  const ScratchFolder scratch;
+  const std::string text = scratch.write("scan.txt", sheet(8));
+  const std::string ply = scratch.write("one.ply",
+                                        "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\n"
+                                        "property double y\nproperty double z\n"
+                                        "property uchar red\nend_header\n100 0 -5 7\n");
+  const ProgramResult told = run_program({"info", text, ply});
+  INFO(told.err);
+  REQUIRE(told.exit_code == 0);
+  CHECK_THAT(told.out, Contains("PLY, ascii") && Contains("red (uchar)") && Contains("points        61"));
+
+  const ProgramResult result = run_program({"info", text, ply, "--json", "--points"});
+  const auto root = nlohmann::json::parse(result.out);
+  CHECK(root.at("points") == 61);
+  CHECK(root.at("files").at(0).at("format") == "text");
+  CHECK(root.at("files").at(1).at("points") == 1);
+  CHECK(root.at("files").at(1).at("properties").at(3).at("type") == "uchar");
+  CHECK(root.at("bounds").at("max").at(0) == 100);
+  CHECK(root.at("bounds").at("min").at(2) == -5);
+}
+
+}  // namespace
+}  // namespace lacuna
