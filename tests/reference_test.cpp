@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -375,6 +376,24 @@ TEST_CASE("neighbours along the normal line have no direction") {
   }
 }
 
+TEST_CASE("neighbours in one direction count each, but the nearest alone stands for them, across pi too") {
+  // Two neighbours to the right, 1e-10 rad to either side; the others at 100 and 200 degrees.
+  const auto at = [](double degrees, double r) {
+    return Vector3d(r * std::cos(degrees * kDegree), r * std::sin(degrees * kDegree), 0);
+  };
+  for (double side : {-1e-10, 1e-10}) {
+    Cloud cloud{{{0, 0, 0}, {1, side, 0}, {2, -2 * side, 0}, at(100, 1.5), at(200, 1.6)}, {}};
+    cloud.normals.assign(5, Vector3d(0, 0, 1));
+    for (int quarter = 0; quarter < 4; ++quarter) {  // in one of them they lie across pi
+      const Point point = detect(cloud).points[0];
+      CHECK(point.angle == Approx((160. - 90.) / (180. - 90.)).epsilon(1e-8));
+      REQUIRE(point.gap);
+      CHECK(*point.gap == std::array{PointId{1}, PointId{4}});
+      for (Vector3d& p : cloud.positions) p = Vector3d(-p.y(), p.x(), 0);
+    }
+  }
+}
+
 TEST_CASE("of gaps that tie the pair that comes first in the order of neighbours is taken") {
   Config config;
   config.neighbourhood.k = 8;
@@ -468,6 +487,65 @@ TEST_CASE(
     }
     CHECK(wrong == 0);
   }
+}
+
+TEST_CASE("a point at the threshold exactly is no candidate") {
+  const Cloud cloud = open_cylinder(40, 12);
+  const Detection before = detect(cloud);
+  Config config;
+  config.coherence.threshold = 1;
+  for (const Point& p : before.points) {
+    if (p.coherent) config.coherence.threshold = std::min(config.coherence.threshold, p.probability);
+  }
+  const Detection after = detect(cloud, config);
+  CHECK(config.coherence.threshold < 1);
+  for (const Point& p : after.points) {
+    if (p.probability == config.coherence.threshold) CHECK(!p.coherent);
+  }
+}
+
+TEST_CASE("edges are eligible strictly below both thresholds, and taken by weight and ids") {
+  const Cloud cloud = plane(16).punched({8, 8}, 3);
+  const Detection before = detect(cloud);
+  REQUIRE(before.eligible.size() > 20);
+  const auto prob_weight = [&](const Edge& edge) {
+    return 2 - before.points[index(edge.low)].probability - before.points[index(edge.high)].probability;
+  };
+  std::size_t ties = 0;
+  for (std::size_t i = 0; i < before.eligible.size(); ++i) {
+    const Edge& edge = before.eligible[i];
+    CHECK(edge.low < edge.high);
+    CHECK(edge.weight * 0x1p24 == std::floor(edge.weight * 0x1p24));
+    if (i == 0) continue;
+    const Edge& last = before.eligible[i - 1];
+    ties += last.weight == edge.weight;
+    CHECK(std::tie(last.weight, last.low, last.high) < std::tie(edge.weight, edge.low, edge.high));
+  }
+  CHECK(ties > 0);
+
+  const Edge& middle = before.eligible[before.eligible.size() / 2];
+  Config by_prob, by_total;
+  by_prob.spanning.max_prob_weight = prob_weight(middle);
+  by_total.spanning.max_total_weight = middle.weight;
+  for (const Edge& edge : detect(cloud, by_prob).eligible) CHECK(prob_weight(edge) < prob_weight(middle));
+  for (const Edge& edge : detect(cloud, by_total).eligible) CHECK(edge.weight < middle.weight);
+}
+
+TEST_CASE("e is rounded, not cut off") {
+  CHECK(detect(line(2)).e == 4);  // K = 1: 2 sqrt(pi) = 3.54
+}
+
+TEST_CASE("an edge may close a loop of e + 1 edges, not one of e") {
+  // A ring of points that each see their two neighbours only; sparse enough to be eligible all round.
+  Config config;
+  config.neighbourhood.k = 2;
+  config.spanning.max_prob_weight = 3;
+  const Cloud ring = open_cylinder(24, 1);
+  config.spanning.e = 23;
+  REQUIRE(detect(ring, config).loops.size() == 1);
+  CHECK(detect(ring, config).loops[0].size() == 24);
+  config.spanning.e = 24;
+  CHECK(detect(ring, config).loops.empty());
 }
 
 TEST_CASE(
