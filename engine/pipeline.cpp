@@ -16,7 +16,9 @@
 namespace lacuna {
 namespace {
 
-double diagonal(const Eigen::AlignedBox3d& bounds) { return bounds.isEmpty() ? 0 : bounds.diagonal().norm(); }
+double diagonal(const Eigen::AlignedBox3d& bounds) {
+  return bounds.isEmpty() ? 0 : std::sqrt(squared_distance(bounds.max(), bounds.min()));
+}
 
 double eps_length(const NeighbourhoodConfig& config, double extent) {
   return config.eps > 0 ? config.eps : config.eps_fraction * extent;

@@ -10,18 +10,13 @@
 namespace lacuna {
 namespace {
 
-// Directions nearer than this are one direction, gaps nearer than this are equally large: exact symmetries
+// Directions nearer than this are one direction (its nearest neighbour stands for it), gaps nearer than this are equally large: exact symmetries
 // of the points must not be decided by rounding.
 constexpr double kSame = 1e-9;
 
 // A neighbour whose projection is shorter than this share of its distance projects onto p.
 constexpr double kNoDirection = 1e-12;
 
-// Sorted directions, of which each run within kSame is one: its last angle and its nearest neighbour.
-struct Merged {
-  double first, last;
-  std::uint32_t rank;
-};
 
 std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
@@ -62,16 +57,15 @@ DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<con
   while (start < m && before(start) <= kSame) ++start;
   if (start == m) start = 0;  // all are one direction
 
-  thread_local std::vector<Merged> merged;
+  thread_local std::vector<Direction> merged;
   merged.clear();
   for (std::size_t step = 0; step < m; ++step) {
     const std::size_t i = (start + step) % m;
-    const double angle = directions[i].angle + (i < start ? kTurn : 0.0);
-    if (step > 0 && before(i) <= kSame) {
-      merged.back().last = angle;
-      merged.back().rank = std::min(merged.back().rank, directions[i].rank);
-    } else {
-      merged.push_back({angle, angle, directions[i].rank});
+    const Direction direction{directions[i].angle + (i < start ? kTurn : 0.0), directions[i].rank};
+    if (step == 0 || before(i) > kSame) {
+      merged.push_back(direction);
+    } else if (direction.rank < merged.back().rank) {
+      merged.back() = direction;
     }
   }
 
@@ -81,8 +75,8 @@ DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<con
     return gap;
   }
   const auto gap_after = [&](std::size_t i) {
-    return i + 1 < merged.size() ? merged[i + 1].first - merged[i].last
-                                 : merged[0].first + kTurn - merged[i].last;
+    return i + 1 < merged.size() ? merged[i + 1].angle - merged[i].angle
+                                 : merged[0].angle + kTurn - merged[i].angle;
   };
   for (std::size_t i = 0; i < merged.size(); ++i) gap.size = std::max(gap.size, gap_after(i));
   auto best = std::make_pair(DirectionGap::kNone, DirectionGap::kNone);

@@ -64,7 +64,7 @@ void Tiling::recount() {
 }
 
 void Tiling::check() const {
-  std::uint32_t cell = 0;
+  [[maybe_unused]] std::uint32_t cell = 0;
   for (const Tile& tile : tiles) {
     assert(tile.first_cell == cell && tile.last_cell > cell);
     assert(tile.points <= tile.raw);
