@@ -22,16 +22,18 @@ Weights normalised_weights(const CriteriaConfig& config) {
 // Working space of one thread, used again from point to point.
 struct Workspace {
   std::vector<Eigen::Vector3d> offsets;
-  std::vector<double> distances, weights;
+  std::vector<double> squared_distances, distances, weights;
   std::vector<Direction> directions;
 };
 
 void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const LocalIndex> neighbours, Workspace& w) {
   w.offsets.clear();
+  w.squared_distances.clear();
   w.distances.clear();
   for (const LocalIndex q : neighbours) {
     w.offsets.push_back(points.positions[q] - points.positions[p]);
-    w.distances.push_back(std::sqrt(squared_distance(points.positions[q], points.positions[p])));
+    w.squared_distances.push_back(squared_distance(points.positions[q], points.positions[p]));
+    w.distances.push_back(std::sqrt(w.squared_distances.back()));
   }
 }
 
@@ -55,7 +57,7 @@ Moments weighted_moments(double sigma, Workspace& w) {
   double total = 0;
   w.weights.clear();
   for (std::size_t i = 0; i < w.offsets.size(); ++i) {
-    w.weights.push_back(std::exp(-(w.distances[i] * w.distances[i]) / (sigma * sigma)));
+    w.weights.push_back(std::exp(-w.squared_distances[i] / (sigma * sigma)));
     total += w.weights[i];
     moments.mean += w.weights[i] * w.offsets[i];
   }
