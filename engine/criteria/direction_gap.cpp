@@ -22,22 +22,16 @@ std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b
 
 }  // namespace
 
-TangentPlane::TangentPlane(const Eigen::Vector3d& normal) {
-  int smallest;
-  normal.cwiseAbs().minCoeff(&smallest);
-  u = normal.cross(Eigen::Vector3d::Unit(smallest)).normalized();
-  v = normal.cross(u);
-}
-
 DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<const double> distances,
                          const Eigen::Vector3d& normal, double cos_cone, std::vector<Direction>& directions) {
   constexpr double kTurn = 2 * std::numbers::pi;
-  const TangentPlane plane(normal);
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
   directions.clear();
   for (std::uint32_t rank = 0; rank < offsets.size(); ++rank) {
     const Eigen::Vector3d& offset = offsets[rank];
     if (std::abs(normal.dot(offset)) > cos_cone * distances[rank]) continue;
-    const double x = plane.u.dot(offset), y = plane.v.dot(offset);
+    const double x = u.dot(offset), y = v.dot(offset);
     if (std::sqrt(x * x + y * y) <= kNoDirection * distances[rank]) continue;
     directions.push_back({std::atan2(y, x), rank});
   }

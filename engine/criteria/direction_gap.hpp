@@ -30,10 +30,4 @@ struct Direction {
 DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<const double> distances,
                          const Eigen::Vector3d& normal, double cos_cone, std::vector<Direction>& directions);
 
-// Two axes that span the plane with this unit normal.
-struct TangentPlane {
-  explicit TangentPlane(const Eigen::Vector3d& normal);
-  Eigen::Vector3d u, v;
-};
-
 }  // namespace lacuna
