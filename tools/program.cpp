@@ -37,7 +37,20 @@ int flush_output() {
   return fail("cannot write to standard output", kFailed);
 }
 
-int run_command(CLI::App& app, std::vector<std::string> arguments) {
+// Without it a misspelt command is told as a missing one.
+void check_command_name(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->check_name(arguments.front())) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw CLI::ParseError("unknown command \"" + arguments.front() + "\"; allowed: " + known,
+                        CLI::ExitCodes::ExtrasError);
+}
+
+int run_command(CLI::App& app, const std::vector<std::string>& arguments) {
+  check_command_name(app, arguments);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   return flush_output();
 }

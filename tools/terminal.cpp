@@ -28,21 +28,17 @@ class Console {
  public:
   void print_line(std::string_view line) {
     const std::lock_guard lock(mutex_);
-    erase();
-    write(std::string(line) + '\n');
-    write(bar_);
+    write(erased() + std::string(line) + '\n' + bar_);
   }
   void show_bar(std::string bar) {
     const std::lock_guard lock(mutex_);
-    erase();
+    const std::string before = erased();
     bar_ = std::move(bar);
-    write(bar_);
+    write(before + bar_);
   }
 
  private:
-  void erase() {
-    if (!bar_.empty()) write("\r\033[K");
-  }
+  std::string erased() const { return bar_.empty() ? "" : "\r\033[K"; }
   static void write(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);

@@ -55,11 +55,10 @@ DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<con
   merged.clear();
   for (std::size_t step = 0; step < m; ++step) {
     const std::size_t i = (start + step) % m;
-    const Direction direction{directions[i].angle + (i < start ? kTurn : 0.0), directions[i].rank};
     if (step == 0 || before(i) > kSame) {
-      merged.push_back(direction);
-    } else if (direction.rank < merged.back().rank) {
-      merged.back() = direction;
+      merged.push_back(directions[i]);
+    } else if (directions[i].rank < merged.back().rank) {
+      merged.back() = directions[i];
     }
   }
 
@@ -69,8 +68,8 @@ DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<con
     return gap;
   }
   const auto gap_after = [&](std::size_t i) {
-    return i + 1 < merged.size() ? merged[i + 1].angle - merged[i].angle
-                                 : merged[0].angle + kTurn - merged[i].angle;
+    const double turn = merged[(i + 1) % merged.size()].angle - merged[i].angle;
+    return turn > 0 ? turn : turn + kTurn;
   };
   for (std::size_t i = 0; i < merged.size(); ++i) gap.size = std::max(gap.size, gap_after(i));
   auto best = std::make_pair(DirectionGap::kNone, DirectionGap::kNone);

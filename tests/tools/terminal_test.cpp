@@ -12,7 +12,7 @@ using Words = std::vector<std::string>;
 
 TEST_CASE("the progress bar shows phase, share, rate and time left") {
   CHECK(progress_bar("evaluate", 500'000, 1'000'000, 2.0, 72) ==
-        "evaluate   [==============              ]  50 %  0.25 M points/s  2.00 s left");
+        "evaluate   [===========           ]  50 %  0.25 M points/s  2.00 s left");
   CHECK(progress_bar("evaluate", 5, 0, 2.0, 80) == "evaluate    0.00 M points/s");
 }
 
