@@ -113,7 +113,7 @@ class TileRecorder {
       totals.candidates += e.probability > job_.config.coherence.threshold;
       totals.undefined_normals += !e.normal.allFinite();
       const double length = e.mean_distance * static_cast<double>(neighbourhoods_[p].size());
-      totals.edge_length += static_cast<__int128>(length / scan_.totals.length_unit);
+      totals.edge_length += static_cast<Int128>(length / scan_.totals.length_unit);
     }
     return totals;
   }

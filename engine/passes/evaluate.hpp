@@ -52,12 +52,14 @@ struct OrientationCrossing {
   PointId foreign_id;
 };
 
+__extension__ using Int128 = __int128;
+
 struct Totals {
   std::uint64_t neighbours = 0;       // sum of |N_p|
   std::uint64_t points = 0;           // distinct ones
   std::uint64_t candidates = 0;
   std::uint64_t undefined_normals = 0;
-  __int128 edge_length = 0;           // sum over N_p of all p, in units of `length_unit`: exact in any order
+  Int128 edge_length = 0;           // sum over N_p of all p, in units of `length_unit`: exact in any order
   double length_unit = 1;
 };
 
