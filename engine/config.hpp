@@ -76,7 +76,6 @@ struct Config {
   RunConfig run;
 };
 
-
 // One line of the list: `[section] key = value`, on the command line `--key` with dashes.
 struct Parameter {
   using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*>;

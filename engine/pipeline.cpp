@@ -1,8 +1,5 @@
 #include "engine/pipeline.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "engine/passes/bucket.hpp"
 #include "engine/passes/coherence.hpp"
 #include "engine/passes/evaluate.hpp"
@@ -12,6 +9,9 @@
 #include "engine/passes/publish.hpp"
 #include "engine/passes/trace.hpp"
 #include "engine/stages/split.hpp"
+
+#include <cmath>
+#include <numbers>
 
 namespace lacuna {
 namespace {
@@ -29,7 +29,8 @@ std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) 
   return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
 }
 
-Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_t tile_points, const Job& job) {
+Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_t tile_points,
+                  const Job& job) {
   Summary summary;
   summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
@@ -43,8 +44,8 @@ Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_
 
 }  // namespace
 
-std::unique_ptr<Detection> detect(PointSource& scan, const Config& config, const std::filesystem::path& workspace,
-                                  Progress& progress) {
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
+                                  const std::filesystem::path& workspace, Progress& progress) {
   check_config(config);
   Job job(config, workspace, progress);
 
@@ -79,7 +80,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config, const
   summary.mean_edge_length = evaluated.mean_edge_length();
   summary.eps = eps;
   summary.e = e;
-  return publish(std::move(evaluated), store, coherent, std::move(loops), std::move(turned), std::move(summary), job);
+  return publish(std::move(evaluated), store, coherent, std::move(loops), std::move(turned),
+                 std::move(summary), job);
 }
 
 Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {

@@ -1,13 +1,13 @@
 // The whole method, from a scan to its holes, in bounded memory.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-
 #include "engine/config.hpp"
 #include "engine/core/progress.hpp"
 #include "engine/data/detection.hpp"
 #include "engine/data/points.hpp"
+
+#include <filesystem>
+#include <memory>
 
 namespace lacuna {
 

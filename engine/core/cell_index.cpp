@@ -1,8 +1,8 @@
 #include "engine/core/cell_index.hpp"
 
-#include <openvdb/openvdb.h>
-
 #include "engine/core/error.hpp"
+
+#include <openvdb/openvdb.h>
 
 namespace lacuna {
 

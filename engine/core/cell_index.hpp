@@ -1,11 +1,11 @@
 // From a place to the cell that holds it: an OpenVDB grid of cell numbers.
 #pragma once
 
+#include "engine/data/tiling.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-
-#include "engine/data/tiling.hpp"
 
 namespace lacuna {
 

@@ -1,6 +1,8 @@
 // Sorts more records than fit in memory: sorted runs in one file, then a merge.
 #pragma once
 
+#include "engine/core/file.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -8,8 +10,6 @@
 #include <span>
 #include <type_traits>
 #include <vector>
-
-#include "engine/core/file.hpp"
 
 namespace lacuna {
 
@@ -21,7 +21,9 @@ class ExternalSort {
 
  public:
   ExternalSort(std::filesystem::path path, std::uint64_t budget, Less less = {})
-      : file_(std::move(path)), capacity_(std::max<std::uint64_t>(budget / sizeof(Record), 1024)), less_(less) {}
+      : file_(std::move(path)),
+        capacity_(std::max<std::uint64_t>(budget / sizeof(Record), 1024)),
+        less_(less) {}
 
   void add(const Record& record) {
     if (buffer_.size() == capacity_) write_run();

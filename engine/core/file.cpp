@@ -1,13 +1,14 @@
 #include "engine/core/file.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <string>
-#include <unistd.h>
 #include <utility>
 
-#include "engine/core/error.hpp"
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace lacuna {
 namespace {

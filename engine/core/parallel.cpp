@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -75,7 +76,13 @@ struct Crew::Arena {
 Crew::Crew(std::size_t threads) : arena_(std::make_unique<Arena>(resolve(threads))) {}
 Crew::~Crew() = default;
 
-std::size_t Crew::threads() const { return static_cast<std::size_t>(arena_->arena.max_concurrency()); }
+std::size_t Crew::threads() const {
+  return static_cast<std::size_t>(arena_->arena.max_concurrency());
+}
+
+void Crew::in_arena(const std::function<void()>& work) const {
+  arena_->arena.execute(work);
+}
 
 void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
   arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });

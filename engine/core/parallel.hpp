@@ -8,6 +8,8 @@
 #include <memory>
 #include <span>
 
+#include <tbb/parallel_sort.h>
+
 namespace lacuna {
 
 // Threads to work with. Bodies of `run` and `for_each` may call each other's results, never each other.
@@ -30,6 +32,12 @@ class Crew {
   void for_blocks(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) const;
 
+  // std::sort by all threads that have nothing else to do. `less` must be a total order of what occurs.
+  template <class T, class Less>
+  void sort(std::span<T> values, Less less) const {
+    in_arena([&] { tbb::parallel_sort(values.begin(), values.end(), less); });
+  }
+
   // Both at once: `consume(value)` for each value that `produce` delivers, in their order, while `produce`
   // already fetches the next ones. produce: false at the end.
   void pipeline(const std::function<bool(std::size_t slot)>& produce,
@@ -37,6 +45,8 @@ class Crew {
                 const std::function<void(std::size_t slot)>& consume, std::size_t slots) const;
 
  private:
+  void in_arena(const std::function<void()>& work) const;
+
   struct Arena;
   std::unique_ptr<Arena> arena_;
 };

@@ -1,17 +1,18 @@
 #include "engine/core/scratch.hpp"
 
+#include "engine/core/error.hpp"
+#include "engine/core/file.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <string>
+
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
-
-#include "engine/core/error.hpp"
-#include "engine/core/file.hpp"
 
 namespace lacuna {
 

@@ -7,6 +7,8 @@
 // a list depends on threads and budget: a reader sorts them by what they hold.
 #pragma once
 
+#include "engine/core/file.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +18,6 @@
 #include <span>
 #include <type_traits>
 #include <vector>
-
-#include "engine/core/file.hpp"
 
 namespace lacuna {
 
@@ -81,7 +81,8 @@ class Spill {
     std::vector<Record> part;
     for (std::uint64_t from = 0; from < count(list); from += part.size()) {
       part.resize(std::min(kPart, count(list) - from));
-      bytes_.read(list, from * sizeof(Record), part.size() * sizeof(Record), reinterpret_cast<std::byte*>(part.data()));
+      bytes_.read(list, from * sizeof(Record), part.size() * sizeof(Record),
+                  reinterpret_cast<std::byte*>(part.data()));
       for (const Record& record : part) visit(record);
     }
   }

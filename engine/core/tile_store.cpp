@@ -24,7 +24,8 @@ std::vector<Eigen::Vector3d> TileStore::normals(TileIndex index) const {
   std::vector<Eigen::Vector3d> normals;
   if (!has_normals_) return normals;
   const Tile& tile = tiling_.tiles[index];
-  for (const StoredNormal& n : normals_.read(value(tile.first_row), tile.points)) normals.emplace_back(n.x, n.y, n.z);
+  for (const StoredNormal& n : normals_.read(value(tile.first_row), tile.points))
+    normals.emplace_back(n.x, n.y, n.z);
   return normals;
 }
 
@@ -46,7 +47,8 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
     // Cells whose points follow each other in the store are one read.
     const std::uint64_t first = value(tiling_.cell_rows[cells[i]]);
     std::uint64_t end = first;
-    for (; i < cells.size() && value(tiling_.cell_rows[cells[i]]) == end; ++i) end += tiling_.cells[cells[i]].points;
+    for (; i < cells.size() && value(tiling_.cell_rows[cells[i]]) == end; ++i)
+      end += tiling_.cells[cells[i]].points;
     const std::size_t at = points.size();
     points.resize(at + (end - first));
     points_.read(first, std::span(points).subspan(at));
@@ -54,8 +56,9 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   }
 }
 
-void TileStore::put(TileIndex index, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
-                    std::span<const std::uint64_t> cell_points, std::span<const Duplicate> duplicates) {
+void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
+                    std::span<const StoredNormal> normals, std::span<const std::uint64_t> cell_points,
+                    std::span<const Duplicate> duplicates) {
   Tile& tile = tiling_.tiles[index];
   assert(cell_points.size() == tile.last_cell - tile.first_cell);
   tile.points = points.size();

@@ -2,16 +2,16 @@
 // the cells around it are a few.
 #pragma once
 
+#include "engine/core/file.hpp"
+#include "engine/core/spill.hpp"
+#include "engine/data/tiling.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "engine/core/file.hpp"
-#include "engine/core/spill.hpp"
-#include "engine/data/tiling.hpp"
 
 namespace lacuna {
 
@@ -36,7 +36,8 @@ struct Duplicate {
 // Written tile by tile while bucketing, read only from then on. Reads may come from several threads.
 class TileStore {
  public:
-  TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals, std::uint64_t duplicate_budget);
+  TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals,
+            std::uint64_t duplicate_budget);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }

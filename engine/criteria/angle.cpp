@@ -1,8 +1,8 @@
 // Angle criterion (paper, 4.2): a boundary point sees its neighbours on one side only.
+#include "engine/criteria/criterion.hpp"
+
 #include <algorithm>
 #include <numbers>
-
-#include "engine/criteria/criterion.hpp"
 
 namespace lacuna {
 

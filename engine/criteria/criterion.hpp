@@ -1,14 +1,15 @@
-// The criteria: how likely a point is to lie on a boundary, judged from its neighbourhood (paper, 4.2 to 4.5).
+// The criteria: how likely a point is to lie on a boundary, judged from its neighbourhood (paper, 4.2
+// to 4.5).
 #pragma once
+
+#include "engine/config.hpp"
+#include "engine/criteria/direction_gap.hpp"
 
 #include <array>
 #include <cstddef>
 #include <span>
 
 #include <Eigen/Core>
-
-#include "engine/config.hpp"
-#include "engine/criteria/direction_gap.hpp"
 
 namespace lacuna {
 

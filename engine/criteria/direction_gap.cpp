@@ -5,20 +5,22 @@
 #include <numbers>
 #include <tuple>
 #include <utility>
+
 #include <Eigen/Geometry>
 
 namespace lacuna {
 namespace {
 
-// Directions nearer than this are one direction (its nearest neighbour stands for it), gaps nearer than this are equally large: exact symmetries
-// of the points must not be decided by rounding.
+// Directions nearer than this are one direction (its nearest neighbour stands for it), gaps nearer than this
+// are equally large: exact symmetries of the points must not be decided by rounding.
 constexpr double kSame = 1e-9;
 
 // A neighbour whose projection is shorter than this share of its distance projects onto p.
 constexpr double kNoDirection = 1e-12;
 
-
-std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
+std::pair<std::uint32_t, std::uint32_t> ordered(std::uint32_t a, std::uint32_t b) {
+  return std::minmax(a, b);
+}
 
 }  // namespace
 

@@ -15,8 +15,8 @@ namespace lacuna {
 struct DirectionGap {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  double size = 0;           // radians; 2 pi with one direction
-  std::size_t used = 0;      // m: neighbours that have a stable direction
+  double size = 0;             // radians; 2 pi with one direction
+  std::size_t used = 0;        // m: neighbours that have a stable direction
   std::uint32_t near = kNone;  // gap neighbours, nearer first; equal with one direction, none without any
   std::uint32_t far = kNone;
 };

@@ -1,8 +1,8 @@
 // Halfdisc criterion (paper, 4.3): the neighbours of a boundary point fill half a disc.
+#include "engine/criteria/criterion.hpp"
+
 #include <algorithm>
 #include <numbers>
-
-#include "engine/criteria/criterion.hpp"
 
 namespace lacuna {
 

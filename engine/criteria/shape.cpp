@@ -1,8 +1,8 @@
 // Shape criterion (paper, 4.4): the eigenvalues of the neighbourhood's covariance tell what shape it has.
+#include "engine/criteria/criterion.hpp"
+
 #include <array>
 #include <cmath>
-
-#include "engine/criteria/criterion.hpp"
 
 namespace lacuna {
 

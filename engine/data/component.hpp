@@ -1,10 +1,10 @@
 // Parts of the graph of eligible edges, on their way to the spanning graph and its loops.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <cstdint>
 #include <tuple>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

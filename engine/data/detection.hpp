@@ -2,6 +2,8 @@
 // from the workspace.
 #pragma once
 
+#include "engine/data/loop.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -9,8 +11,6 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-
-#include "engine/data/loop.hpp"
 
 namespace lacuna {
 
@@ -22,8 +22,8 @@ struct Counts {
   std::uint64_t coherent = 0;         // distinct points left by the coherence step
   std::uint64_t boundary_points = 0;  // points of the input (duplicates too) coherent or on a loop
   std::uint64_t eligible_edges = 0;
-  std::uint64_t components = 0;       // of the graph of eligible edges
-  std::uint64_t raw_loops = 0;        // before selection
+  std::uint64_t components = 0;  // of the graph of eligible edges
+  std::uint64_t raw_loops = 0;   // before selection
   std::uint64_t undefined_normals = 0;
 };
 
@@ -34,15 +34,15 @@ struct PhaseTime {
 
 struct Summary {
   Counts counts;
-  Eigen::AlignedBox3d bounds;    // of the finite points; empty without any
-  double mean_neighbours = 0;    // K
-  double mean_edge_length = 0;   // over the edges of G
-  double eps = 0;                // in effect
-  std::int64_t e = 0;            // in effect
+  Eigen::AlignedBox3d bounds;   // of the finite points; empty without any
+  double mean_neighbours = 0;   // K
+  double mean_edge_length = 0;  // over the edges of G
+  double eps = 0;               // in effect
+  std::int64_t e = 0;           // in effect
   std::uint64_t tiles = 0;
-  std::uint64_t tile_points = 0;  // in effect
-  std::uint64_t threads = 0;      // in effect
-  std::uint64_t memory_limit = 0; // bytes, in effect
+  std::uint64_t tile_points = 0;   // in effect
+  std::uint64_t threads = 0;       // in effect
+  std::uint64_t memory_limit = 0;  // bytes, in effect
   std::vector<PhaseTime> phases;
 };
 

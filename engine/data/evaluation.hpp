@@ -1,13 +1,13 @@
 // What the criteria say of one point.
 #pragma once
 
+#include "engine/criteria/criterion.hpp"
+#include "engine/data/ids.hpp"
+
 #include <array>
 #include <limits>
 
 #include <Eigen/Core>
-
-#include "engine/criteria/criterion.hpp"
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

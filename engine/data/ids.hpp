@@ -18,7 +18,11 @@ using LocalIndex = std::uint32_t;
 inline constexpr Row kNoRow{std::numeric_limits<std::uint64_t>::max()};
 inline constexpr LocalIndex kNoIndex = std::numeric_limits<LocalIndex>::max();
 
-constexpr std::uint64_t value(PointId id) { return static_cast<std::uint64_t>(id); }
-constexpr std::uint64_t value(Row row) { return static_cast<std::uint64_t>(row); }
+constexpr std::uint64_t value(PointId id) {
+  return static_cast<std::uint64_t>(id);
+}
+constexpr std::uint64_t value(Row row) {
+  return static_cast<std::uint64_t>(row);
+}
 
 }  // namespace lacuna

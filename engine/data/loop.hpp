@@ -1,12 +1,12 @@
 // Loops: what the method returns for each hole.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 
@@ -31,14 +31,15 @@ enum class LoopKind : std::uint8_t {
 struct LoopMeasures {
   LoopKind kind = LoopKind::kHole;
   std::uint64_t points = 0;
-  double perimeter = 0;                // sum of its edges' lengths
-  double area = 0;                     // of the loop seen along its normal
-  double diameter = 0;                 // largest distance between two of its points
-  Eigen::Vector3d centroid{0, 0, 0};   // of its points
-  Eigen::Vector3d normal{0, 0, 0};     // unit; right hand rule about the loop's direction; 0 where it encloses nothing
-  double planarity = 0;                // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
+  double perimeter = 0;               // sum of its edges' lengths
+  double area = 0;                    // of the loop seen along its normal
+  double diameter = 0;                // largest distance between two of its points
+  Eigen::Vector3d centroid{0, 0, 0};  // of its points
+  Eigen::Vector3d normal{0, 0,
+                         0};  // unit; right hand rule about the loop's direction; 0 where it encloses nothing
+  double planarity = 0;       // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
-  std::uint64_t tiles = 0;             // blocks of the reference lattice that it passes through
+  std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 
 }  // namespace lacuna

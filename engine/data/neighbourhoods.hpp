@@ -1,14 +1,14 @@
 // What a tile sees, and the proximity graph over it.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

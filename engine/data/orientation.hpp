@@ -1,9 +1,9 @@
 // What the orientation of normals is decided by.
 #pragma once
 
-#include <cstdint>
-
 #include "engine/data/ids.hpp"
+
+#include <cstdint>
 
 namespace lacuna {
 

@@ -1,13 +1,13 @@
 // Points on their way from the input to the tile store.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

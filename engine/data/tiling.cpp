@@ -6,7 +6,9 @@
 
 namespace lacuna {
 
-double CellGrid::edge() const { return std::ldexp(1.0, finest + shift); }
+double CellGrid::edge() const {
+  return std::ldexp(1.0, finest + shift);
+}
 
 CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
   // By a power of two: exact, so every pass finds the same cell.
@@ -23,8 +25,10 @@ Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) c
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min()[axis] = low[axis] == -(kLast >> shift) ? -kEverywhere : std::ldexp(low[axis] * 1.0, finest + shift);
-    box.max()[axis] = high[axis] == kLast >> shift ? kEverywhere : std::ldexp(high[axis] + 1.0, finest + shift);
+    box.min()[axis] =
+        low[axis] == -(kLast >> shift) ? -kEverywhere : std::ldexp(low[axis] * 1.0, finest + shift);
+    box.max()[axis] =
+        high[axis] == kLast >> shift ? kEverywhere : std::ldexp(high[axis] + 1.0, finest + shift);
   }
   return box;
 }

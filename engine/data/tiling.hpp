@@ -1,14 +1,14 @@
 // Where the points are: cells that hold them, a tree over the cells, and tiles cut from it.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 
@@ -38,7 +38,7 @@ struct CountedCell {
 
 // A run of cells in store order. A node's children are its two halves; leaves have none.
 struct CellNode {
-  CellCoord low{}, high{};  // tight bounds of its cells
+  CellCoord low{}, high{};            // tight bounds of its cells
   std::uint32_t first = 0, last = 0;  // cells [first, last)
   std::uint32_t left = 0, right = 0;  // nodes; 0: a leaf
   std::uint64_t points = 0;
@@ -68,10 +68,12 @@ struct Tiling {
   TileIndex tile_of_cell(std::uint32_t cell) const;
   TileIndex tile_of_row(Row row) const;
   Eigen::AlignedBox3d box(const CellNode& node) const { return grid.box(node.low, node.high); }
-  Eigen::AlignedBox3d cell_box(std::uint32_t cell) const { return grid.box(cells[cell].coord, cells[cell].coord); }
+  Eigen::AlignedBox3d cell_box(std::uint32_t cell) const {
+    return grid.box(cells[cell].coord, cells[cell].coord);
+  }
   std::uint64_t row_count() const;  // rows up to the last used one
   std::uint64_t points() const;     // distinct ones
-  void recount();  // nodes' points from the cells'
+  void recount();                   // nodes' points from the cells'
   void check() const;
 };
 

@@ -1,25 +1,23 @@
 #include "engine/passes/bucket.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "engine/core/cell_index.hpp"
 #include "engine/core/error.hpp"
 #include "engine/stages/order_tile.hpp"
+
+#include <algorithm>
+#include <numeric>
 
 namespace lacuna {
 namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-constexpr std::uint64_t kBytesPerCell = 128;  // grid, index, tree; measured 100 to 120
-
 // The points of one batch, sorted by tile.
 struct Scattered {
   PointBatch batch;
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;
-  std::vector<TileIndex> tiles;     // of each point
+  std::vector<TileIndex> tiles;      // of each point
   std::vector<std::uint32_t> order;  // by tile
 
   void scatter(CellIndex::Reader& cells, const Tiling& tiling);
@@ -43,7 +41,8 @@ void Scattered::scatter(CellIndex::Reader& cells, const Tiling& tiling) {
   }
   order.resize(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return tiles[a] < tiles[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return tiles[a] < tiles[b]; });
 }
 
 template <class Visit>
@@ -64,7 +63,8 @@ std::vector<Record> pick(const std::vector<Record>& records, std::span<const std
 }
 
 // Cells of a tile's points, counted from its first cell.
-std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index, const Tile& tile) {
+std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index,
+                                    const Tile& tile) {
   CellIndex::Reader reader(index);
   std::vector<std::uint32_t> cells;
   cells.reserve(points.size());
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
 SurveyedScan survey_scan(PointSource& scan, Job& job) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
   Phase phase(job, "survey", expected);
-  Survey survey(job.memory.cells / kBytesPerCell, expected);
+  Survey survey(job.memory.cells, expected);
   std::vector<PointBatch> batches(kBatches);
   scan.rewind();
   job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot]); }, [](std::size_t) {},

@@ -33,7 +33,8 @@ RowSet make_coherent(const EvaluatedScan& scan, const TileStore& store, Job& job
     });
     std::vector<TileIndex> next;
     for (std::size_t i = 0; i < unsettled.size(); ++i) {
-      if (changed[i]) next.insert(next.end(), scan.leaning[unsettled[i]].begin(), scan.leaning[unsettled[i]].end());
+      if (changed[i])
+        next.insert(next.end(), scan.leaning[unsettled[i]].begin(), scan.leaning[unsettled[i]].end());
     }
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());

@@ -1,13 +1,13 @@
 #include "engine/passes/evaluate.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <mutex>
-
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
 #include "engine/stages/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
 
 namespace lacuna {
 namespace {
@@ -41,15 +41,17 @@ struct Sight {
   }
 };
 
-Sight foreign_sight(const TileStore& store, std::span<const Link> links, std::span<const std::uint32_t> halo) {
+Sight foreign_sight(const TileStore& store, std::span<const Link> links,
+                    std::span<const std::uint32_t> halo) {
   Sight sight;
   store.read_cells(halo, sight.points, sight.rows);
   std::vector<std::pair<Row, StoredPoint>> seen;
   for (std::size_t i = 0; i < sight.rows.size(); ++i) seen.emplace_back(sight.rows[i], sight.points[i]);
   for (const Link& link : links) seen.emplace_back(link.row, link.foreign);
   std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  seen.erase(std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
-             seen.end());
+  seen.erase(
+      std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+      seen.end());
   sight.points.clear();
   sight.rows.clear();
   for (const auto& [row, point] : seen) {
@@ -91,9 +93,15 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& li
 // One tile's share of the evaluated scan.
 class TileRecorder {
  public:
-  TileRecorder(EvaluatedScan& scan, const TileStore& store, const Job& job, TileIndex tile, const TilePoints& points,
-               const Rows& neighbourhoods, const std::vector<Evaluation>& evaluations)
-      : scan_(scan), store_(store), job_(job), tile_(tile), points_(points), neighbourhoods_(neighbourhoods),
+  TileRecorder(EvaluatedScan& scan, const TileStore& store, const Job& job, TileIndex tile,
+               const TilePoints& points, const Rows& neighbourhoods,
+               const std::vector<Evaluation>& evaluations)
+      : scan_(scan),
+        store_(store),
+        job_(job),
+        tile_(tile),
+        points_(points),
+        neighbourhoods_(neighbourhoods),
         evaluations_(evaluations) {}
 
   void record() {
@@ -244,7 +252,9 @@ void operator+=(Totals& totals, const Totals& more) {
 }
 
 // A power of two that no edge is lost beside: 2^-60 of the scan's extent.
-double length_unit(double extent) { return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0; }
+double length_unit(double extent) {
+  return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
+}
 
 std::uint64_t blocks(std::uint64_t ids, const Job& job) {
   return job.config.output.points ? (ids + kResultBlock - 1) / kResultBlock : 0;
@@ -260,7 +270,8 @@ EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks
       strengths(job.file("strengths")),
       results(job.file("results"), result_blocks, job.memory.spills / 8),
       orientation(job.file("orientation"), store.tiling().tiles.size(), job.memory.spills / 16),
-      orientation_crossings(job.file("orientation-crossings"), store.tiling().tiles.size(), job.memory.spills / 16),
+      orientation_crossings(job.file("orientation-crossings"), store.tiling().tiles.size(),
+                            job.memory.spills / 16),
       normals(job.file("oriented-normals")),
       leaning(store.tiling().tiles.size()) {}
 
@@ -270,11 +281,12 @@ double EvaluatedScan::mean_neighbours() const {
 
 double EvaluatedScan::mean_edge_length() const {
   if (totals.neighbours == 0) return 0;
-  return static_cast<double>(totals.edge_length) / static_cast<double>(totals.neighbours) * totals.length_unit;
+  return static_cast<double>(totals.edge_length) / static_cast<double>(totals.neighbours) *
+         totals.length_unit;
 }
 
-EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps, double extent,
-                             Job& job) {
+EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps,
+                             double extent, Job& job) {
   const Tiling& tiling = store.tiling();
   EvaluatedScan scan(store, blocks(ids, job), job);
   scan.totals.length_unit = length_unit(extent);
@@ -283,7 +295,8 @@ EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uin
   std::vector<std::uint64_t> needs(tiling.tiles.size());
   for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
     std::uint64_t foreign = links.count(t);
-    for (const std::uint32_t cell : halo_cells(tiling, tiling.tiles[t], eps)) foreign += tiling.cells[cell].points;
+    for (const std::uint32_t cell : halo_cells(tiling, tiling.tiles[t], eps))
+      foreign += tiling.cells[cell].points;
     needs[t] = job.tile_bytes(tiling.tiles[t].points) + foreign * 120;
   }
   std::mutex mutex;

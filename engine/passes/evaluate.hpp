@@ -1,8 +1,6 @@
 // Every point evaluated, and what the global stage needs of the points: a small part of the scan.
 #pragma once
 
-#include <cstdint>
-
 #include "engine/core/spill.hpp"
 #include "engine/core/tile_store.hpp"
 #include "engine/data/orientation.hpp"
@@ -10,6 +8,8 @@
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"
 #include "engine/stages/eligible_edges.hpp"
+
+#include <cstdint>
 
 namespace lacuna {
 
@@ -55,11 +55,11 @@ struct OrientationCrossing {
 __extension__ using Int128 = __int128;
 
 struct Totals {
-  std::uint64_t neighbours = 0;       // sum of |N_p|
-  std::uint64_t points = 0;           // distinct ones
+  std::uint64_t neighbours = 0;  // sum of |N_p|
+  std::uint64_t points = 0;      // distinct ones
   std::uint64_t candidates = 0;
   std::uint64_t undefined_normals = 0;
-  Int128 edge_length = 0;           // sum over N_p of all p, in units of `length_unit`: exact in any order
+  Int128 edge_length = 0;  // sum over N_p of all p, in units of `length_unit`: exact in any order
   double length_unit = 1;
 };
 
@@ -67,15 +67,15 @@ struct Totals {
 struct EvaluatedScan {
   EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job);
 
-  Spill<TileEdge> edges;              // eligible, inside the tile
+  Spill<TileEdge> edges;  // eligible, inside the tile
   Spill<StoredCrossing> crossings;
-  Spill<StoredVertex> vertices;       // in ascending owned index
-  Spill<StoredCandidate> candidates;  // in ascending row
-  Column<Strength> strengths;         // by row
-  Spill<StoredResult> results;        // by block of ids; empty without output.points
+  Spill<StoredVertex> vertices;        // in ascending owned index
+  Spill<StoredCandidate> candidates;   // in ascending row
+  Column<Strength> strengths;          // by row
+  Spill<StoredResult> results;         // by block of ids; empty without output.points
   Spill<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
   Spill<OrientationCrossing> orientation_crossings;
-  Column<StoredNormal> normals;       // by row; likewise
+  Column<StoredNormal> normals;                 // by row; likewise
   std::vector<std::vector<TileIndex>> leaning;  // tiles with candidates whose gap neighbours are in this one
   Totals totals;
 
@@ -87,7 +87,7 @@ struct EvaluatedScan {
 inline constexpr std::uint64_t kResultBlock = 1 << 17;
 
 // Consumes the links. `eps`: a length, 0: off. `extent`: the largest distance between points.
-EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps, double extent,
-                             Job& job);
+EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps,
+                             double extent, Job& job);
 
 }  // namespace lacuna

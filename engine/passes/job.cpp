@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+
 #include <malloc.h>
 #include <unistd.h>
 
@@ -18,7 +19,8 @@ double now() {
 }
 
 std::uint64_t machine_memory() {
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
@@ -28,7 +30,8 @@ Memory Memory::share(std::uint64_t limit) {
   const std::uint64_t rest = limit > kProgram + 16 * kMiB ? limit - kProgram : 16 * kMiB;
   // Tiles and the global stage are not at work at the same time. What is left over is for what the
   // allocator cannot give back at once.
-  return {.limit = limit, .cells = rest / 6, .tiles = rest * 2 / 5, .spills = rest / 8, .global = rest * 2 / 5};
+  return {
+      .limit = limit, .cells = rest / 6, .tiles = rest * 2 / 5, .spills = rest / 8, .global = rest * 2 / 5};
 }
 
 Job::Job(const Config& config, std::filesystem::path workspace, Progress& progress)
@@ -38,9 +41,10 @@ Job::Job(const Config& config, std::filesystem::path workspace, Progress& progre
       crew(static_cast<std::size_t>(config.run.threads)),
       memory(Memory::share(config.run.memory_limit)) {
   // Large arrays come from the system and go back to it; small ones share few arenas. Without this, what
-  // threads free stays with them and the process grows beyond its limit.
-  ::mallopt(M_MMAP_THRESHOLD, 4 * kMiB);
-  ::mallopt(M_TRIM_THRESHOLD, 16 * kMiB);
+  // threads free stays with them and the process grows beyond its limit. Where the limit is far, memory is
+  // kept and used again: fresh pages have to be cleared by the system.
+  ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 256, kMiB, 32 * kMiB)));
+  ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 32, kMiB, 512 * kMiB)));
   ::mallopt(M_ARENA_MAX, static_cast<int>(std::min<std::size_t>(crew.threads(), 4)));
 }
 
@@ -51,12 +55,13 @@ std::uint64_t Job::tile_bytes(std::uint64_t points) const {
 }
 
 std::uint64_t Job::tile_points(std::uint64_t points) const {
-  constexpr std::uint64_t kLeast = 256;           // below, a tile is all border
-  constexpr std::uint64_t kMost = 64 << 10;       // larger tiles leave the cache and gain little
-  constexpr std::uint64_t kTilesPerThread = 4;    // so that the last tiles do not leave threads idle
+  constexpr std::uint64_t kLeast = 256;         // below, a tile is all border
+  constexpr std::uint64_t kMost = 64 << 10;     // larger tiles leave the cache and gain little
+  constexpr std::uint64_t kTilesPerThread = 4;  // so that the last tiles do not leave threads idle
   const std::uint64_t threads = crew.threads();
   const std::uint64_t affordable = std::max(memory.tiles / threads / tile_bytes(1024) * 1024, kLeast);
-  if (config.run.tile_points > 0) return std::min(static_cast<std::uint64_t>(config.run.tile_points), affordable);
+  if (config.run.tile_points > 0)
+    return std::min(static_cast<std::uint64_t>(config.run.tile_points), affordable);
   return std::min(std::clamp(points / (kTilesPerThread * threads), std::uint64_t{4096}, kMost), affordable);
 }
 

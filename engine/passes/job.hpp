@@ -1,16 +1,16 @@
 // What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
 #pragma once
 
+#include "engine/config.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/progress.hpp"
+#include "engine/data/detection.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "engine/config.hpp"
-#include "engine/core/parallel.hpp"
-#include "engine/core/progress.hpp"
-#include "engine/data/detection.hpp"
 
 namespace lacuna {
 

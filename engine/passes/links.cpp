@@ -1,11 +1,11 @@
 #include "engine/passes/links.hpp"
 
+#include "engine/stages/reach.hpp"
+#include "engine/stages/search.hpp"
+
 #include <algorithm>
 #include <queue>
 #include <unordered_map>
-
-#include "engine/stages/reach.hpp"
-#include "engine/stages/search.hpp"
 
 namespace lacuna {
 namespace {
@@ -103,7 +103,8 @@ class Linker {
     std::vector<Neighbour> found;
     for (const std::uint32_t cell : group.border) {
       const Row first = tiling_.cell_rows[cell];
-      const auto begin = static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
+      const auto begin =
+          static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
       for (LocalIndex p = begin; p < begin + tiling_.cells[cell].points; ++p) {
         tree.nearest(p, k_, found);
         for (const Neighbour& q : found) link(stored[p], rows[p], stored[q.index], rows[q.index]);

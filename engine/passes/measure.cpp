@@ -1,9 +1,9 @@
 #include "engine/passes/measure.hpp"
 
+#include "engine/stages/measure_loop.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/stages/measure_loop.hpp"
 
 namespace lacuna {
 namespace {
@@ -18,13 +18,15 @@ Loop to_loop(std::span<const StoredLoopPoint> stored) {
   Loop loop;
   loop.reserve(stored.size());
   for (const StoredLoopPoint& p : stored) {
-    loop.push_back({p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability});
+    loop.push_back(
+        {p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability});
   }
   return loop;
 }
 
 // Tiles' vertices are read once each, in order.
-std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedScan& scan, const Tiling& tiling) {
+std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedScan& scan,
+                                    const Tiling& tiling) {
   std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.row < b.row; });
   std::vector<StoredLoopPoint> points(wanted.size());
   for (auto next = wanted.begin(); next != wanted.end();) {
@@ -36,7 +38,9 @@ std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedS
       const auto owned = static_cast<LocalIndex>(value(next->row) - value(tile.first_row));
       vertex = std::lower_bound(vertex, vertices.end(), owned,
                                 [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
-      points[next->slot] = {vertex->point, next->row, {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
+      points[next->slot] = {vertex->point,
+                            next->row,
+                            {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
                             vertex->probability};
     }
   }
@@ -44,7 +48,9 @@ std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedS
 }
 
 // Cubes of 64 mean edges, as a power of two.
-double lattice_edge(double mean_edge_length) { return std::ldexp(1.0, std::ilogb(64 * mean_edge_length)); }
+double lattice_edge(double mean_edge_length) {
+  return std::ldexp(1.0, std::ilogb(64 * mean_edge_length));
+}
 
 }  // namespace
 
@@ -61,7 +67,8 @@ MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, co
   const std::uint64_t most = job.memory.global / (2 * sizeof(StoredLoopPoint) + 2 * sizeof(Wanted));
   for (std::size_t begin = 0, end; begin < loops.size(); begin = end) {
     std::vector<Wanted> wanted;
-    for (end = begin; end < loops.size() && (end == begin || wanted.size() + loops.points(end) <= most); ++end) {
+    for (end = begin; end < loops.size() && (end == begin || wanted.size() + loops.points(end) <= most);
+         ++end) {
       for (const Vertex& v : loops.read(end)) wanted.push_back({v.row, wanted.size()});
       measured.offsets.push_back(measured.offsets.back() + loops.points(end));
     }

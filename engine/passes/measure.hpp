@@ -1,9 +1,9 @@
 // Loops measured: the points of each joined with what the evaluation said of them.
 #pragma once
 
-#include <vector>
-
 #include "engine/passes/trace.hpp"
+
+#include <vector>
 
 namespace lacuna {
 

@@ -1,16 +1,18 @@
 #include "engine/passes/orient.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/core/external_sort.hpp"
 #include "engine/core/scratch.hpp"
 #include "engine/stages/orient.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lacuna {
 namespace {
 
-Eigen::Vector3d vector(const StoredNormal& n) { return {n.x, n.y, n.z}; }
+Eigen::Vector3d vector(const StoredNormal& n) {
+  return {n.x, n.y, n.z};
+}
 
 // Disjoint sets of rows that know for each row whether its normal opposes that of its root.
 class SignedUnionFind {
@@ -67,8 +69,9 @@ void add_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, Edg
   for (const OrientationCrossing& c : crossings) {
     const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
     if (!other.allFinite()) continue;
-    edges.add(orientation_edge({points[c.owned].id, Row{value(tile.first_row) + c.owned}, vector(own[c.owned])},
-                               {c.foreign_id, c.foreign, other}));
+    edges.add(
+        orientation_edge({points[c.owned].id, Row{value(tile.first_row) + c.owned}, vector(own[c.owned])},
+                         {c.foreign_id, c.foreign, other}));
   }
 }
 

@@ -1,10 +1,10 @@
 #include "engine/passes/publish.hpp"
 
+#include "engine/core/external_sort.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <mutex>
-
-#include "engine/core/external_sort.hpp"
 
 namespace lacuna {
 namespace {
@@ -35,7 +35,8 @@ using BoundarySort = ExternalSort<StoredBoundary, std::less<StoredBoundary>>;
 class WorkspaceDetection final : public Detection {
  public:
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
-                     Column<StoredBoundary> boundary, Spill<StoredResult> results, std::optional<RowSet> turned)
+                     Column<StoredBoundary> boundary, Spill<StoredResult> results,
+                     std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
         selected_(std::move(selected)),
@@ -47,7 +48,9 @@ class WorkspaceDetection final : public Detection {
 
   const Summary& summary() const override { return summary_; }
   const std::vector<LoopMeasures>& loops() const override { return loops_; }
-  ReportedLoop read_loop(std::size_t index) const override { return {loops_[index], raw_loops_.read(selected_[index])}; }
+  ReportedLoop read_loop(std::size_t index) const override {
+    return {loops_[index], raw_loops_.read(selected_[index])};
+  }
 
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     BoundaryReader boundary(*this);
@@ -60,7 +63,10 @@ class WorkspaceDetection final : public Detection {
   void for_each_result_block(
       const std::function<void(PointId first, std::span<const PointResult>)>& visit) const override {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-    const PointResult dropped{.probability = kNaN, .angle = kNaN, .halfdisc = kNaN, .shape = kNaN,
+    const PointResult dropped{.probability = kNaN,
+                              .angle = kNaN,
+                              .halfdisc = kNaN,
+                              .shape = kNaN,
                               .normal = Eigen::Vector3f::Constant(kNaN)};
     BoundaryReader boundary(*this);
     std::uint64_t next_boundary = 0;
@@ -97,7 +103,10 @@ class WorkspaceDetection final : public Detection {
 
   PointResult result(const StoredResult& r) const {
     const float sign = turned_ && turned_->contains(r.row) ? -1.0f : 1.0f;
-    return {.probability = r.probability, .angle = r.criteria[0], .halfdisc = r.criteria[1], .shape = r.criteria[2],
+    return {.probability = r.probability,
+            .angle = r.criteria[0],
+            .halfdisc = r.criteria[1],
+            .shape = r.criteria[2],
             .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
   }
 
@@ -117,7 +126,8 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
     const bool reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = reported ? static_cast<std::int32_t>(next_selected++) : kNoLoop;
-    for (const StoredLoopPoint& p : loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
+    for (const StoredLoopPoint& p :
+         loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = static_cast<LocalIndex>(value(p.row) - value(tiling.tiles[t].first_row));
       marks.append(t, {owned, name, p.probability, 0, p.point});
@@ -126,8 +136,8 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
 }
 
 // A tile's boundary points, each once: coherent or on a loop.
-std::vector<Mark> boundary_of_tile(const EvaluatedScan& scan, const Tile& tile, TileIndex t, const RowSet& boundary,
-                                   const Spill<Mark>& loop_marks) {
+std::vector<Mark> boundary_of_tile(const EvaluatedScan& scan, const Tile& tile, TileIndex t,
+                                   const RowSet& boundary, const Spill<Mark>& loop_marks) {
   std::vector<Mark> marks = loop_marks.read(t);
   for (const StoredCandidate& c : scan.candidates.read(t)) {
     if (!boundary.contains(c.candidate.row)) continue;
@@ -156,7 +166,8 @@ StoredBoundary stored(const Mark& mark) {
 }  // namespace
 
 std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, const RowSet& boundary,
-                                   MeasuredLoops loops, std::optional<RowSet> turned, Summary summary, Job& job) {
+                                   MeasuredLoops loops, std::optional<RowSet> turned, Summary summary,
+                                   Job& job) {
   const Tiling& tiling = store.tiling();
   Column<StoredBoundary> boundary_points(job.file("boundary"));
   std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
@@ -203,7 +214,8 @@ std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, c
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(std::move(summary), std::move(loops), std::move(selected),
-                                              std::move(boundary_points), std::move(scan.results), std::move(turned));
+                                              std::move(boundary_points), std::move(scan.results),
+                                              std::move(turned));
 }
 
 }  // namespace lacuna

@@ -1,14 +1,16 @@
 #include "engine/passes/trace.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <numeric>
-
 #include "engine/core/external_sort.hpp"
+#include "engine/core/row_numbers.hpp"
 #include "engine/core/scratch.hpp"
 #include "engine/stages/loops.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/union_find.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -58,96 +60,102 @@ void judge_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, c
     const Vertex a{id, Row{value(tile.first_row) + c.owned}}, b{c.foreign_id, c.foreign};
     here.push_back({c.owned, a, b, weight});
     const TileIndex there = tiling.tile_of_row(c.foreign);
-    seams.append(there, {static_cast<LocalIndex>(value(c.foreign) - value(tiling.tiles[there].first_row)), b, a, weight});
+    seams.append(there, {static_cast<LocalIndex>(value(c.foreign) - value(tiling.tiles[there].first_row)), b,
+                         a, weight});
   }
   seams.append(t, here);
 }
 
 // ---- one component
 
-void trace(std::span<const Vertex> vertices, const SpanningGraph& graph, Scratch& scratch, RawLoops& loops) {
-  std::vector<Vertex> loop;
-  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
-    loop.clear();
-    for (const LocalIndex v : found) loop.push_back(vertices[v]);
-    loops.add(loop);
-  });
-}
-
-LocalIndex index_of(std::span<const Vertex> vertices, PointId id) {
-  const auto at = std::lower_bound(vertices.begin(), vertices.end(), id,
-                                   [](const Vertex& v, PointId i) { return v.id < i; });
-  return static_cast<LocalIndex>(at - vertices.begin());
-}
-
-bool same_vertex(const Vertex& a, const Vertex& b) { return a.id == b.id; }
-bool lower_id(const Vertex& a, const Vertex& b) { return a.id < b.id; }
+// An edge between numbered vertices; a has the lower id.
+struct WeightedEdge {
+  double weight;
+  LocalIndex a, b;
+};
 
 // A loop of more than e edges needs more than e vertices, and an edge more than a tree.
 bool can_hold_loop(std::uint64_t vertices, std::uint64_t edges, std::int64_t e) {
   return vertices > static_cast<std::uint64_t>(e) && edges >= vertices;
 }
 
+void trace(const RowNumbers& rows, const SpanningGraph& graph, Scratch& scratch, RawLoops& loops) {
+  std::vector<Vertex> loop;
+  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
+    loop.clear();
+    for (const LocalIndex v : found) loop.push_back({graph.ids[v], rows.row(v)});
+    loops.add(loop);
+  });
+}
+
+// Vertices are numbered by row: near in space, near in memory.
 void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const Job& job, RawLoops& loops) {
   if (edges.size() <= static_cast<std::uint64_t>(e)) return;
-  std::vector<Vertex> vertices;
-  vertices.reserve(2 * edges.size());
+  RowNumbers rows;
+  rows.collect(edges.size(), [&](auto&& add) {
+    for (const ComponentEdge& edge : edges) {
+      add(edge.a.row);
+      add(edge.b.row);
+    }
+  });
+  if (!can_hold_loop(rows.size(), edges.size(), e)) return;
+  std::vector<PointId> ids(rows.size());
+  std::vector<WeightedEdge> sorted;
+  sorted.reserve(edges.size());
   for (const ComponentEdge& edge : edges) {
-    vertices.push_back(edge.a);
-    vertices.push_back(edge.b);
+    const LocalIndex a = rows.number(edge.a.row), b = rows.number(edge.b.row);
+    ids[a] = edge.a.id;
+    ids[b] = edge.b.id;
+    sorted.push_back({edge.weight, a, b});
   }
-  std::sort(vertices.begin(), vertices.end(), lower_id);
-  vertices.erase(std::unique(vertices.begin(), vertices.end(), same_vertex), vertices.end());
-  if (!can_hold_loop(vertices.size(), edges.size(), e)) return;
+  job.crew.sort(std::span(sorted), [&](const WeightedEdge& x, const WeightedEdge& y) {
+    return std::tie(x.weight, ids[x.a], ids[x.b]) < std::tie(y.weight, ids[y.a], ids[y.b]);
+  });
   Scratch scratch(job.workspace, job.memory.limit);
-  Spanning spanning(static_cast<LocalIndex>(vertices.size()), edges.size(), e, scratch);
-  for (const ComponentEdge& edge : edges) {
-    spanning.add({index_of(vertices, edge.a.id), index_of(vertices, edge.b.id)});
-  }
-  trace(vertices, spanning.finish(), scratch, loops);
+  Spanning spanning(ids, e, scratch);
+  for (const WeightedEdge& edge : sorted) spanning.add({edge.a, edge.b});
+  std::vector<WeightedEdge>().swap(sorted);
+  trace(rows, spanning.finish(), scratch, loops);
 }
 
 // `edges`: of whole components, in any order.
 void trace_components(std::vector<ComponentEdge>& edges, std::int64_t e, const Job& job, RawLoops& loops) {
-  std::sort(edges.begin(), edges.end());
+  const auto by_component = [](const ComponentEdge& x, const ComponentEdge& y) {
+    return x.component < y.component;
+  };
+  if (!std::is_sorted(edges.begin(), edges.end(), by_component))
+    std::sort(edges.begin(), edges.end(), by_component);
   for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
     for (end = begin; end < edges.size() && edges[end].component == edges[begin].component;) ++end;
     trace_in_memory(std::span(edges).subspan(begin, end - begin), e, job, loops);
   }
 }
 
-struct LowerId {
-  bool operator()(const Vertex& a, const Vertex& b) const { return lower_id(a, b); }
-};
-
-// One component that does not fit in memory. for_each_edge(visit): its edges in any order.
+// One component that does not fit in memory. for_each_edge(visit): its edges in any order, twice.
 void trace_on_disk(const std::function<void(const std::function<void(const ComponentEdge&)>&)>& for_each_edge,
-                   std::int64_t e, const Job& job, RawLoops& loops) {
-  ExternalSort<ComponentEdge, std::less<ComponentEdge>> edges(job.file("large-edges"), job.memory.global / 6);
-  ExternalSort<Vertex, LowerId> ends(job.file("large-vertices"), job.memory.global / 6);
-  for_each_edge([&](const ComponentEdge& edge) {
-    edges.add(edge);
-    ends.add(edge.a);
-    ends.add(edge.b);
-  });
-  std::uint64_t count = 0;
-  PointId last{};
-  const auto for_each_vertex = [&](auto&& visit) {
-    count = 0;
-    ends.for_each([&](const Vertex& v) {
-      if (count == 0 || last != v.id) visit(count++, v);
-      last = v.id;
+                   std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops) {
+  RowNumbers rows;
+  rows.collect(edge_count, [&](auto&& add) {
+    for_each_edge([&](const ComponentEdge& edge) {
+      add(edge.a.row);
+      add(edge.b.row);
     });
-  };
-  for_each_vertex([](std::uint64_t, const Vertex&) {});
-  Scratch scratch(job.workspace, job.memory.global / 2);
-  const std::span<Vertex> vertices = scratch.array<Vertex>(count);
-  for_each_vertex([&](std::uint64_t i, const Vertex& v) { vertices[i] = v; });
-  Spanning spanning(static_cast<LocalIndex>(count), edges.size(), e, scratch);
-  edges.for_each([&](const ComponentEdge& edge) {
-    spanning.add({index_of(vertices, edge.a.id), index_of(vertices, edge.b.id)});
   });
-  trace(vertices, spanning.finish(), scratch, loops);
+  ExternalSort<ComponentEdge, std::less<ComponentEdge>> sorted(job.file("large-edges"),
+                                                               job.memory.global / 4);
+  Scratch scratch(job.workspace, job.memory.global / 2);
+  const std::span<PointId> ids = scratch.array<PointId>(rows.size());
+  for_each_edge([&](const ComponentEdge& edge) {
+    scratch.breathe();
+    sorted.add(edge);
+    ids[rows.number(edge.a.row)] = edge.a.id;
+    ids[rows.number(edge.b.row)] = edge.b.id;
+  });
+  Spanning spanning(ids, e, scratch);
+  sorted.for_each([&](const ComponentEdge& edge) {
+    spanning.add({rows.number(edge.a.row), rows.number(edge.b.row)});
+  });
+  trace(rows, spanning.finish(), scratch, loops);
 }
 
 // ---- components
@@ -173,7 +181,8 @@ class Tracer {
     for (std::size_t t = 0; t < tiles_; ++t) {
       needs[t] = scan_.edges.count(t) * kBytesPerEdge + store_.tiling().tiles[t].points * sizeof(LocalIndex);
     }
-    job_.crew.for_each_within(needs, job_.memory.global, [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
+    job_.crew.for_each_within(needs, job_.memory.global,
+                              [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
     trace_open_components();
     traced_.eligible_edges = eligible_edges_;
     traced_.components = components_;
@@ -211,7 +220,8 @@ class Tracer {
     for (const TileEdge& edge : edges) {
       const LocalIndex part = parts.find(edge.a);
       if (open[part] != kNoIndex) {
-        open_edges.push_back(component_edge(value(row(tile, open[part])), edge.weight, vertex(edge.a), vertex(edge.b)));
+        open_edges.push_back(
+            component_edge(value(row(tile, open[part])), edge.weight, vertex(edge.a), vertex(edge.b)));
       } else {
         closed_edges.push_back(component_edge(part, edge.weight, vertex(edge.a), vertex(edge.b)));
         closed += !counted[part];
@@ -220,8 +230,8 @@ class Tracer {
     }
     for (const SeamEdge& seam : seams) {
       if (!(seam.own.id < seam.foreign.id)) continue;
-      open_edges.push_back(
-          component_edge(value(row(tile, open[parts.find(seam.owned)])), seam.weight, seam.own, seam.foreign));
+      open_edges.push_back(component_edge(value(row(tile, open[parts.find(seam.owned)])), seam.weight,
+                                          seam.own, seam.foreign));
     }
     components_ += closed;
     eligible_edges_ += closed_edges.size() + open_edges.size();
@@ -246,13 +256,16 @@ class Tracer {
     }
 
     const std::span<std::uint64_t> edge_counts = scratch.array<std::uint64_t>(ends.size());
-    const auto component_of = [&](const ComponentEdge& edge) { return components.find(end_of(Row{edge.component})); };
+    const auto component_of = [&](const ComponentEdge& edge) {
+      return components.find(end_of(Row{edge.component}));
+    };
     for (std::size_t t = 0; t < tiles_; ++t) {
       for (const ComponentEdge& edge : open_edges_.read(t)) ++edge_counts[component_of(edge)];
     }
 
     // Batches of whole components, as many as fit.
-    const std::uint64_t most = std::max<std::uint64_t>(job_.memory.global / 2 / kBytesPerEdge / job_.crew.threads(), 1);
+    const std::uint64_t most =
+        std::max<std::uint64_t>(job_.memory.global / 2 / kBytesPerEdge / job_.crew.threads(), 1);
     const std::span<std::uint32_t> batch_of = scratch.array<std::uint32_t>(ends.size());
     std::vector<std::uint64_t> batch_edges;
     for (std::size_t c = 0; c < ends.size(); ++c) {
@@ -275,7 +288,8 @@ class Tracer {
 
     const std::uint64_t fits = job_.memory.global / 2 / kBytesPerEdge;
     std::vector<std::uint64_t> needs(batch_edges.size());
-    for (std::size_t b = 0; b < needs.size(); ++b) needs[b] = batch_edges[b] > fits ? 0 : batch_edges[b] * kBytesPerEdge;
+    for (std::size_t b = 0; b < needs.size(); ++b)
+      needs[b] = batch_edges[b] > fits ? 0 : batch_edges[b] * kBytesPerEdge;
     job_.crew.for_each_within(needs, job_.memory.global / 2, [&](std::size_t b) {
       if (batch_edges[b] > fits) return;
       std::vector<ComponentEdge> edges = batches.read(b);
@@ -284,7 +298,8 @@ class Tracer {
     });
     for (std::size_t b = 0; b < needs.size(); ++b) {
       if (batch_edges[b] > fits) {
-        trace_on_disk([&](const auto& visit) { batches.for_each(b, visit); }, e_, job_, traced_.loops);
+        trace_on_disk([&](const auto& visit) { batches.for_each(b, visit); }, batch_edges[b], e_, job_,
+                      traced_.loops);
       }
     }
   }

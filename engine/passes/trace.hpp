@@ -1,12 +1,12 @@
 // The global stage: the graph of eligible edges stitched across tiles, its components spanned, their loops.
 #pragma once
 
+#include "engine/data/component.hpp"
+#include "engine/passes/evaluate.hpp"
+
 #include <cstdint>
 #include <mutex>
 #include <vector>
-
-#include "engine/data/component.hpp"
-#include "engine/passes/evaluate.hpp"
 
 namespace lacuna {
 

@@ -1,12 +1,12 @@
 // coherence: a candidate stays boundary only while both of its gap neighbours are (paper, 5.1).
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

@@ -1,8 +1,8 @@
 #include "engine/stages/eligible_edges.hpp"
 
-#include <cmath>
-
 #include "engine/stages/evaluate.hpp"
+
+#include <cmath>
 
 namespace lacuna {
 
@@ -15,7 +15,8 @@ double eligible_weight(const Strength& a, const Strength& b, double distance, co
 }
 
 bool is_strong(double probability, const SpanningConfig& config) {
-  return probability > 1 - config.max_prob_weight / 2 - kProbabilityStep;  // one step of slack for the halving
+  return probability >
+         1 - config.max_prob_weight / 2 - kProbabilityStep;  // one step of slack for the halving
 }
 
 TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
@@ -32,7 +33,8 @@ TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
         edges.crossings.push_back({p, q, distance});
         continue;
       }
-      const bool told_by_other = is_strong(evaluations[q].probability, config) && points.ids[q] < points.ids[p];
+      const bool told_by_other =
+          is_strong(evaluations[q].probability, config) && points.ids[q] < points.ids[p];
       if (told_by_other) continue;
       const double weight = eligible_weight(strength(p), strength(q), distance, config);
       if (weight >= 0) edges.inside.push_back({p, q, weight});

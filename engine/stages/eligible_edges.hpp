@@ -1,11 +1,11 @@
 // eligible_edges: which edges of the proximity graph may enter the spanning graph (paper, 5.1).
 #pragma once
 
-#include <vector>
-
 #include "engine/config.hpp"
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
+
+#include <vector>
 
 namespace lacuna {
 

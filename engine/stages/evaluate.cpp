@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+
 #include <Eigen/Eigenvalues>
 
 namespace lacuna {
@@ -26,7 +27,8 @@ struct Workspace {
   std::vector<Direction> directions;
 };
 
-void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const LocalIndex> neighbours, Workspace& w) {
+void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const LocalIndex> neighbours,
+                    Workspace& w) {
   w.offsets.clear();
   w.squared_distances.clear();
   w.distances.clear();
@@ -76,7 +78,8 @@ Moments weighted_moments(double sigma, Workspace& w) {
   moments.smallest_axis = solver.eigenvectors().col(0);
   // No more than rounding noise between them: no plane fits better than another.
   constexpr double kSameEigenvalue = 1e-12;
-  moments.plane = moments.eigenvalues[1] - moments.eigenvalues[2] > kSameEigenvalue * moments.eigenvalues.sum();
+  moments.plane =
+      moments.eigenvalues[1] - moments.eigenvalues[2] > kSameEigenvalue * moments.eigenvalues.sum();
   return moments;
 }
 
@@ -108,11 +111,15 @@ Evaluation lone_point() {
   return lone;
 }
 
-bool usable(const Eigen::Vector3d& normal) { return normal.allFinite() && normal.cwiseAbs().maxCoeff() > 0; }
+bool usable(const Eigen::Vector3d& normal) {
+  return normal.allFinite() && normal.cwiseAbs().maxCoeff() > 0;
+}
 
 }  // namespace
 
-double round_to_step(double value) { return std::nearbyint(value / kProbabilityStep) * kProbabilityStep; }
+double round_to_step(double value) {
+  return std::nearbyint(value / kProbabilityStep) * kProbabilityStep;
+}
 
 std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,

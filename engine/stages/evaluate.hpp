@@ -1,11 +1,11 @@
 // evaluate: normals and criteria of a tile's points (paper, 4.2 to 4.6).
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
+
+#include <span>
+#include <vector>
 
 namespace lacuna {
 

@@ -76,7 +76,7 @@ SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch) {
     }
     offsets[v + 1] = end;
   }
-  return {offsets, indices.first(end)};
+  return {graph.ids, offsets, indices.first(end)};
 }
 
 class Search {
@@ -121,8 +121,9 @@ class Search {
     loop_.push_back(origin);
     std::reverse(loop_.begin(), loop_.end());
     for (LocalIndex at = w; at != origin; at = parent_[at]) loop_.push_back(at);
-    std::rotate(loop_.begin(), std::min_element(loop_.begin(), loop_.end()), loop_.end());
-    if (loop_.back() < loop_[1]) std::reverse(loop_.begin() + 1, loop_.end());
+    const auto lower_id = [&](LocalIndex a, LocalIndex b) { return graph_.ids[a] < graph_.ids[b]; };
+    std::rotate(loop_.begin(), std::min_element(loop_.begin(), loop_.end(), lower_id), loop_.end());
+    if (lower_id(loop_.back(), loop_[1])) std::reverse(loop_.begin() + 1, loop_.end());
   }
 
   const SpanningGraph& graph_;
@@ -138,10 +139,17 @@ void find_loops(const SpanningGraph& graph, Scratch& scratch,
                 const std::function<void(std::span<const LocalIndex>)>& report) {
   const SpanningGraph cycles = keep_cycles(graph, scratch);
   if (cycles.indices.empty()) return;
+  std::vector<LocalIndex> origins;
+  for (LocalIndex v = 0; v < graph.size(); ++v) {
+    scratch.breathe();
+    if (!cycles[v].empty()) origins.push_back(v);
+  }
+  std::sort(origins.begin(), origins.end(),
+            [&](LocalIndex a, LocalIndex b) { return graph.ids[a] < graph.ids[b]; });
   Search search(cycles, scratch);
   const auto on_loop = scratch.array<std::uint8_t>(graph.size());
-  for (LocalIndex origin = 0; origin < graph.size(); ++origin) {
-    if (on_loop[origin] || cycles[origin].empty()) continue;
+  for (const LocalIndex origin : origins) {
+    if (on_loop[origin]) continue;
     const std::span<const LocalIndex> loop = search.loop_through(origin);
     for (const LocalIndex v : loop) on_loop[v] = 1;
     if (!loop.empty()) report(loop);

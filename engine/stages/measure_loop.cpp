@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <vector>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -74,7 +75,9 @@ class Runs {
   double best_ = 0;
 };
 
-const LoopPoint& next(std::span<const LoopPoint> loop, std::size_t i) { return loop[(i + 1) % loop.size()]; }
+const LoopPoint& next(std::span<const LoopPoint> loop, std::size_t i) {
+  return loop[(i + 1) % loop.size()];
+}
 const LoopPoint& previous(std::span<const LoopPoint> loop, std::size_t i) {
   return loop[(i + loop.size() - 1) % loop.size()];
 }
@@ -143,7 +146,9 @@ double mean_probability(std::span<const LoopPoint> loop) {
 
 }  // namespace
 
-double diameter(std::span<const LoopPoint> loop) { return Runs(loop).diameter(); }
+double diameter(std::span<const LoopPoint> loop) {
+  return Runs(loop).diameter();
+}
 
 LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge) {
   LoopMeasures measures;

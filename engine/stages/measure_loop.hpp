@@ -1,10 +1,10 @@
 // measure_loop: what a user sorts and filters loops by.
 #pragma once
 
+#include "engine/data/loop.hpp"
+
 #include <cstdint>
 #include <span>
-
-#include "engine/data/loop.hpp"
 
 namespace lacuna {
 

@@ -1,8 +1,8 @@
 #include "engine/stages/neighbourhoods.hpp"
 
-#include <algorithm>
-
 #include "engine/stages/search.hpp"
+
+#include <algorithm>
 
 namespace lacuna {
 namespace {

@@ -15,7 +15,9 @@ OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std:
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   for (std::uint32_t i = 0; i < points.size(); ++i) by_cell[next[cells[i]]++] = i;
 
-  const auto key = [&](std::uint32_t i) { return std::tie(points[i].x, points[i].y, points[i].z, points[i].id); };
+  const auto key = [&](std::uint32_t i) {
+    return std::tie(points[i].x, points[i].y, points[i].z, points[i].id);
+  };
   const auto same_place = [&](std::uint32_t i, std::uint32_t j) {
     return points[i].x == points[j].x && points[i].y == points[j].y && points[i].z == points[j].z;
   };

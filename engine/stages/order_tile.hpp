@@ -1,11 +1,11 @@
 // order_tile: a tile's points in cell order, without exact duplicates.
 #pragma once
 
+#include "engine/core/tile_store.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "engine/core/tile_store.hpp"
 
 namespace lacuna {
 

@@ -1,9 +1,9 @@
 #include "engine/stages/orient.hpp"
 
+#include "engine/stages/union_find.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/stages/union_find.hpp"
 
 namespace lacuna {
 
@@ -13,7 +13,11 @@ OrientationEdge orientation_edge(const OrientedEnd& a, const OrientedEnd& b) {
   const OrientedEnd& high = a_first ? b : a;
   const double cosine = (low.normal.x() * high.normal.x() + low.normal.y() * high.normal.y()) +
                         low.normal.z() * high.normal.z();
-  return {.weight = 1 - std::abs(cosine), .low_id = low.id, .high_id = high.id, .low = low.row, .high = high.row,
+  return {.weight = 1 - std::abs(cosine),
+          .low_id = low.id,
+          .high_id = high.id,
+          .low = low.row,
+          .high = high.row,
           .opposed = cosine < 0};
 }
 

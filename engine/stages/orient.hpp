@@ -1,11 +1,11 @@
 // orient: consistent orientation of normals by a minimum spanning tree of G (Hoppe et al. 1992).
 #pragma once
 
+#include "engine/data/orientation.hpp"
+
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "engine/data/orientation.hpp"
 
 namespace lacuna {
 

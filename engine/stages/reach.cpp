@@ -74,7 +74,9 @@ struct NearCells {
   std::uint32_t skip_first, skip_last;
   const std::function<bool(std::uint32_t)>& visit;
 
-  bool within(const Eigen::AlignedBox3d& other) const { return min_squared_distance(box, other) <= squared_radius; }
+  bool within(const Eigen::AlignedBox3d& other) const {
+    return min_squared_distance(box, other) <= squared_radius;
+  }
 
   // False when `visit` wants no more.
   bool descend(std::uint32_t index) const {

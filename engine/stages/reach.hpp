@@ -1,11 +1,11 @@
 // reach: how far, at most, the nearest neighbours of a cell's points are, told from the counted cells alone.
 #pragma once
 
+#include "engine/data/tiling.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <vector>
-
-#include "engine/data/tiling.hpp"
 
 namespace lacuna {
 

@@ -1,12 +1,13 @@
 #include "engine/stages/search.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 #include <string>
 
-#include "engine/core/error.hpp"
+#include <nanoflann.hpp>
 
 namespace lacuna {
 namespace {
@@ -30,7 +31,9 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Adaptor, 3, LocalIndex>
 const nanoflann::SearchParams kExact(0, -1e-6f, false);
 
 // nanoflann offers only points strictly nearer than `worstDist`; ties are decided by id here.
-double just_above(double distance) { return std::nextafter(distance, std::numeric_limits<double>::infinity()); }
+double just_above(double distance) {
+  return std::nextafter(distance, std::numeric_limits<double>::infinity());
+}
 
 // The k first neighbours, kept sorted.
 class KNearest {
@@ -55,7 +58,8 @@ class KNearest {
     return true;
   }
   double worstDist() const {
-    return found_.size() < k_ ? std::numeric_limits<double>::infinity() : just_above(found_.back().squared_distance);
+    return found_.size() < k_ ? std::numeric_limits<double>::infinity()
+                              : just_above(found_.back().squared_distance);
   }
   bool full() const { return found_.size() == k_; }
   std::size_t size() const { return found_.size(); }

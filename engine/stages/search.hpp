@@ -1,11 +1,11 @@
 // search: exact nearest neighbours in the order of the method (4.1), by a nanoflann kd-tree.
 #pragma once
 
+#include "engine/data/neighbourhoods.hpp"
+
 #include <memory>
 #include <span>
 #include <vector>
-
-#include "engine/data/neighbourhoods.hpp"
 
 namespace lacuna {
 

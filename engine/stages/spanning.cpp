@@ -1,137 +1,110 @@
 #include "engine/stages/spanning.hpp"
 
 #include <algorithm>
-
-#include "engine/stages/union_find.hpp"
+#include <limits>
+#include <tuple>
 
 namespace lacuna {
-namespace {
 
-// The graph while it grows: half edges in lists, newest first.
-class GrowingGraph {
- public:
-  static constexpr std::uint64_t kEnd = 0;
-
-  GrowingGraph(LocalIndex vertices, std::uint64_t edge_count, Scratch& scratch)
-      : first_(scratch.array<std::uint64_t>(vertices)),
-        next_(scratch.array<std::uint64_t>(2 * edge_count + 1)),
-        to_(scratch.array<LocalIndex>(2 * edge_count + 1)) {}
-
-  void insert(LocalEdge edge) {
-    link(edge.a, edge.b);
-    link(edge.b, edge.a);
-  }
-
-  template <class Visit>
-  void for_each_neighbour(LocalIndex v, Visit&& visit) const {
-    for (std::uint64_t half = first_[v]; half != kEnd; half = next_[half]) visit(to_[half]);
-  }
-
-  std::uint64_t half_edges() const { return used_; }
-
- private:
-  void link(LocalIndex from, LocalIndex to) {
-    const std::uint64_t half = ++used_;
-    to_[half] = to;
-    next_[half] = first_[from];
-    first_[from] = half;
-  }
-
-  std::span<std::uint64_t> first_, next_;
-  std::span<LocalIndex> to_;
-  std::uint64_t used_ = 0;
-};
-
-// Is there a path of at most `limit` edges? Two balls grow towards each other, the smaller front first.
-class PathSearch {
- public:
-  PathSearch(const GrowingGraph& graph, LocalIndex vertices, Scratch& scratch)
-      : graph_(graph), scratch_(scratch), mark_(scratch.array<std::uint64_t>(vertices)) {}
-
-  bool connects(LocalIndex a, LocalIndex b, std::int64_t limit) {
-    stamp_ += 2;
-    std::uint64_t here = stamp_, there = stamp_ + 1;
-    near_.assign(1, a);
-    far_.assign(1, b);
-    mark_[a] = here;
-    mark_[b] = there;
-    for (std::int64_t length = 0; length < limit && !near_.empty() && !far_.empty(); ++length) {
-      if (near_.size() > far_.size()) {
-        near_.swap(far_);
-        std::swap(here, there);
-      }
-      if (advance(here, there)) return true;
-    }
-    return false;
-  }
-
- private:
-  // One step of the near front; true if it meets the far ball.
-  bool advance(std::uint64_t here, std::uint64_t there) {
-    bool met = false;
-    next_.clear();
-    for (const LocalIndex v : near_) {
-      scratch_.breathe();
-      graph_.for_each_neighbour(v, [&](LocalIndex w) {
-        if (mark_[w] == there) met = true;
-        if (mark_[w] >= stamp_) return;
-        mark_[w] = here;
-        next_.push_back(w);
-      });
-      if (met) return true;
-    }
-    near_.swap(next_);
-    return false;
-  }
-
-  const GrowingGraph& graph_;
-  Scratch& scratch_;
-  std::span<std::uint64_t> mark_;
-  std::uint64_t stamp_ = 0;
-  std::vector<LocalIndex> near_, far_, next_;
-};
-
-}  // namespace
-
-struct Spanning::State {
-  State(LocalIndex vertices, std::uint64_t max_edges, std::int64_t e, Scratch& scratch)
-      : vertices(vertices),
-        e(e),
-        trees(scratch.array<LocalIndex>(vertices)),
-        graph(vertices, max_edges, scratch),
-        paths(graph, vertices, scratch) {}
-
-  LocalIndex vertices;
-  std::int64_t e;
-  UnionFind trees;
-  GrowingGraph graph;
-  PathSearch paths;
-};
-
-Spanning::Spanning(LocalIndex vertices, std::uint64_t max_edges, std::int64_t e, Scratch& scratch)
-    : scratch_(scratch), state_(std::make_unique<State>(vertices, max_edges, e, scratch)) {}
-
-Spanning::~Spanning() = default;
+Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch)
+    : ids_(ids),
+      e_(e),
+      scratch_(scratch),
+      trees_(scratch.array<LocalIndex>(ids.size())),
+      nodes_(scratch.array<Node>(ids.size())) {
+  static_assert(sizeof(Node) == 32 && sizeof(MoreNeighbours) == 32);
+}
 
 void Spanning::add(LocalEdge edge) {
   scratch_.breathe();
-  const bool joins = state_->trees.unite(edge.a, edge.b);
-  if (joins || !state_->paths.connects(edge.a, edge.b, state_->e - 1)) state_->graph.insert(edge);
+  if (!trees_.unite(edge.a, edge.b) && connects(edge.a, edge.b, e_ - 1)) return;
+  link(edge.a, edge.b);
+  link(edge.b, edge.a);
 }
 
-SpanningGraph Spanning::finish() const {
-  const GrowingGraph& graph = state_->graph;
-  const auto offsets = scratch_.array<std::uint64_t>(std::size_t{state_->vertices} + 1);
-  const auto indices = scratch_.array<LocalIndex>(graph.half_edges());
+void Spanning::link(LocalIndex from, LocalIndex to) {
+  Node& node = nodes_[from];
+  ++half_edges_;
+  if (node.degree < Node::kInline) {
+    node.neighbours[node.degree++] = to;
+    return;
+  }
+  const std::size_t beyond = node.degree++ - Node::kInline;
+  const std::size_t place = beyond % std::tuple_size_v<decltype(MoreNeighbours::neighbours)>;
+  if (place == 0) {
+    more_.push_back({{}, node.more});
+    node.more = static_cast<std::uint32_t>(more_.size());
+  }
+  more_[node.more - 1].neighbours[place] = to;
+}
+
+template <class Visit>
+void Spanning::for_each_neighbour(const Node& node, Visit&& visit) const {
+  const std::size_t beside = std::min<std::size_t>(node.degree, Node::kInline);
+  for (std::size_t i = 0; i < beside; ++i) visit(node.neighbours[i]);
+  constexpr std::size_t kBlock = std::tuple_size_v<decltype(MoreNeighbours::neighbours)>;
+  std::size_t left = node.degree - beside;
+  for (std::uint32_t block = node.more; block != 0; block = more_[block - 1].next) {
+    const std::size_t here = (left - 1) % kBlock + 1;  // only the newest block is not full
+    for (std::size_t i = 0; i < here; ++i) visit(more_[block - 1].neighbours[i]);
+    left -= here;
+  }
+}
+
+// Is there a path of at most `limit` edges? Two balls grow towards each other, the smaller front first.
+bool Spanning::connects(LocalIndex a, LocalIndex b, std::int64_t limit) {
+  if (stamp_ > std::numeric_limits<std::uint32_t>::max() - 4) {  // every mark is used up
+    for (Node& node : nodes_) node.mark = 0;
+    stamp_ = 0;
+  }
+  stamp_ += 2;
+  std::uint32_t here = stamp_, there = stamp_ + 1;
+  near_.assign(1, a);
+  far_.assign(1, b);
+  nodes_[a].mark = here;
+  nodes_[b].mark = there;
+  for (std::int64_t length = 0; length < limit && !near_.empty() && !far_.empty(); ++length) {
+    if (near_.size() > far_.size()) {
+      near_.swap(far_);
+      std::swap(here, there);
+    }
+    if (advance(here, there)) return true;
+  }
+  return false;
+}
+
+// One step of the near front; true if it meets the far ball.
+bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
+  bool met = false;
+  next_.clear();
+  for (const LocalIndex v : near_) {
+    scratch_.breathe();
+    for_each_neighbour(nodes_[v], [&](LocalIndex w) {
+      std::uint32_t& mark = nodes_[w].mark;
+      if (mark == there) met = true;
+      if (mark >= stamp_) return;
+      mark = here;
+      next_.push_back(w);
+    });
+    if (met) return true;
+  }
+  near_.swap(next_);
+  return false;
+}
+
+SpanningGraph Spanning::finish() {
+  const auto offsets = scratch_.array<std::uint64_t>(nodes_.size() + 1);
+  const auto indices = scratch_.array<LocalIndex>(half_edges_);
   std::uint64_t end = 0;
-  for (LocalIndex v = 0; v < state_->vertices; ++v) {
+  for (std::size_t v = 0; v < nodes_.size(); ++v) {
     scratch_.breathe();
     const std::uint64_t begin = end;
-    graph.for_each_neighbour(v, [&](LocalIndex w) { indices[end++] = w; });
-    std::sort(indices.begin() + static_cast<std::ptrdiff_t>(begin), indices.begin() + static_cast<std::ptrdiff_t>(end));
+    for_each_neighbour(nodes_[v], [&](LocalIndex w) { indices[end++] = w; });
+    const auto row = indices.subspan(begin, end - begin);
+    std::sort(row.begin(), row.end(), [&](LocalIndex a, LocalIndex b) { return ids_[a] < ids_[b]; });
     offsets[v + 1] = end;
   }
-  return {offsets, indices};
+  return {ids_, offsets, indices};
 }
 
 }  // namespace lacuna

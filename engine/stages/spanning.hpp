@@ -1,42 +1,71 @@
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-
 #include "engine/core/scratch.hpp"
 #include "engine/data/component.hpp"
+#include "engine/stages/union_find.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace lacuna {
 
-// Vertices are numbered in ascending order of their ids; row v lists its neighbours in ascending order.
+// Vertices are numbered in any way (near in number, near in memory); row v lists the neighbours of v in
+// ascending order of their ids.
 struct SpanningGraph {
+  std::span<const PointId> ids;            // of each vertex
   std::span<const std::uint64_t> offsets;  // vertices + 1
   std::span<const LocalIndex> indices;
 
-  LocalIndex size() const { return static_cast<LocalIndex>(offsets.size() - 1); }
+  LocalIndex size() const { return static_cast<LocalIndex>(ids.size()); }
   std::span<const LocalIndex> operator[](LocalIndex v) const {
     return indices.subspan(offsets[v], offsets[v + 1] - offsets[v]);
   }
 };
 
-// Built edge by edge, in ascending order of (w_total, lower id, higher id), `max_edges` at most. An edge
-// between two trees joins them; one within a tree is taken only if the loop that it closes has more than e
-// edges: no path of fewer than e edges between its ends so far. The graph lives in `scratch`. Cost: per edge
-// within a tree, the points within e / 2 steps.
+// Built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two trees joins
+// them; one within a tree is taken only if the loop that it closes has more than e edges: no path of fewer
+// than e edges between its ends so far. The graph lives in `scratch`. Cost: per edge within a tree, the
+// vertices within e / 2 steps.
 class Spanning {
  public:
-  Spanning(LocalIndex vertices, std::uint64_t max_edges, std::int64_t e, Scratch& scratch);
-  ~Spanning();
+  Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch);
 
   void add(LocalEdge edge);
-  SpanningGraph finish() const;
+  SpanningGraph finish();
 
  private:
-  struct State;
+  // A vertex with its first neighbours beside it: most of the graph is chains and trees, and a search meets
+  // half a cache line per vertex.
+  struct Node {
+    static constexpr std::size_t kInline = 5;
+    std::uint32_t mark;  // of the search that met it last
+    std::uint32_t degree;
+    std::uint32_t more;  // 1 + place of further neighbours; 0: none
+    std::array<LocalIndex, kInline> neighbours;
+  };
+  struct MoreNeighbours {
+    std::array<LocalIndex, 7> neighbours;
+    std::uint32_t next;  // 1 + place; 0: the last
+  };
+
+  bool connects(LocalIndex a, LocalIndex b, std::int64_t limit);
+  bool advance(std::uint32_t here, std::uint32_t there);
+  void link(LocalIndex from, LocalIndex to);
+  template <class Visit>
+  void for_each_neighbour(const Node& node, Visit&& visit) const;
+
+  std::span<const PointId> ids_;
+  std::int64_t e_;
   Scratch& scratch_;
-  std::unique_ptr<State> state_;
+  UnionFind trees_;
+  std::span<Node> nodes_;
+  std::vector<MoreNeighbours> more_;  // of the few vertices with many edges
+  std::uint64_t half_edges_ = 0;
+  std::uint32_t stamp_ = 0;
+  std::vector<LocalIndex> near_, far_, next_;  // fronts of a search
 };
 
 }  // namespace lacuna

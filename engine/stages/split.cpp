@@ -30,7 +30,8 @@ class Splitter {
 
  private:
   CellNode bound(std::uint32_t first, std::uint32_t last) const {
-    CellNode node{.low = tiling_.cells[first].coord, .high = tiling_.cells[first].coord, .first = first, .last = last};
+    CellNode node{
+        .low = tiling_.cells[first].coord, .high = tiling_.cells[first].coord, .first = first, .last = last};
     for (std::uint32_t i = first; i < last; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         node.low[axis] = std::min(node.low[axis], tiling_.cells[i].coord[axis]);

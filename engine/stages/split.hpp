@@ -1,10 +1,10 @@
 // split: orders the counted cells as a kd-tree and cuts it into tiles.
 #pragma once
 
+#include "engine/data/tiling.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "engine/data/tiling.hpp"
 
 namespace lacuna {
 

@@ -1,10 +1,11 @@
 #include "engine/stages/survey.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <openvdb/openvdb.h>
 
-#include "engine/core/error.hpp"
+#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {
@@ -13,7 +14,15 @@ namespace {
 constexpr int kMinExponent = -500;
 constexpr int kMaxExponent = 500;
 
-bool finite(const Eigen::Vector3d& p) { return p.allFinite(); }
+// Of a scan that does not tell: rather too fine than too coarse.
+constexpr std::uint64_t kUnknownPoints = 1 << 24;
+
+// A cell's share of the index and the tree built from it.
+constexpr std::uint64_t kBytesPerCell = 96;
+
+bool finite(const Eigen::Vector3d& p) {
+  return p.allFinite();
+}
 
 // Twice the widest distance between quartiles: the extent of the points without their outliers.
 double robust_extent(const PointBatch& batch) {
@@ -37,30 +46,42 @@ double robust_extent(const PointBatch& batch) {
 }  // namespace
 
 struct Survey::Counts {
+  using Leaf = openvdb::Int32Tree::LeafNodeType;
+
   openvdb::Int32Grid::Ptr grid = openvdb::Int32Grid::create(0);
   openvdb::Int32Grid::Accessor accessor = grid->getAccessor();
-  std::uint64_t active = 0;
+  std::uint64_t cells = 0;
+  std::uint64_t leaves = 0;
 
   void add(const CellCoord& cell, std::int32_t points) {
-    accessor.modifyValue(openvdb::Coord(cell[0], cell[1], cell[2]), [&](std::int32_t& count) {
-      if (count == 0) ++active;
+    const openvdb::Coord coord(cell[0], cell[1], cell[2]);
+    bool is_new = false;
+    accessor.modifyValue(coord, [&](std::int32_t& count) {
+      is_new = count == 0;
       count += points;
     });
+    if (!is_new) return;
+    ++cells;
+    if (accessor.getNode<Leaf>()->onVoxelCount() == 1) ++leaves;
+  }
+
+  std::uint64_t bytes() const {
+    return leaves * sizeof(Leaf) + leaves * sizeof(Leaf::Buffer::ValueType) * Leaf::SIZE;
   }
 };
 
-Survey::Survey(std::uint64_t max_cells, std::uint64_t expected_points)
-    : max_cells_(std::max<std::uint64_t>(max_cells, 1)), expected_points_(expected_points) {
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
+    : memory_(memory), expected_points_(expected_points > 0 ? expected_points : kUnknownPoints) {
   openvdb::initialize();
   counts_ = std::make_unique<Counts>();
 }
 
 Survey::~Survey() = default;
 
-// A surface of n points and this extent has about sqrt(n / 16) cells of 16 points along it; a quarter of
-// that size leaves room for a first batch that sees only a part of the scan.
+// A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it; half of that size
+// leaves room for a first batch that sees only a part of the scan.
 void Survey::choose_cell_size(const PointBatch& batch) {
-  const double points = static_cast<double>(std::max<std::uint64_t>(expected_points_, batch.size()));
+  const double points = static_cast<double>(expected_points_);
   double extent = robust_extent(batch);
   if (extent == 0) {  // most points at one place: any size will do that is not lost beside the coordinates
     double largest = 0;
@@ -70,7 +91,7 @@ void Survey::choose_cell_size(const PointBatch& batch) {
     if (largest == 0) largest = 1;
     extent = largest;
   }
-  const double edge = extent / (4 * std::sqrt(points / kPointsPerCell) + 1);
+  const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
   scan_.grid.finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), kMinExponent, kMaxExponent);
   sized_ = true;
 }
@@ -85,8 +106,15 @@ void Survey::add(const PointBatch& batch) {
     }
     scan_.bounds.extend(p);
     counts_->add(scan_.grid.cell_of(p), 1);
-    if (counts_->active > max_cells_ && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
+    if (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
   }
+}
+
+bool Survey::is_too_fine() const {
+  // Even with all points to come in the same cells, these would hold too few.
+  const bool sparse =
+      counts_->cells > 1024 && counts_->cells > expected_points_ / 4 && counts_->cells > scan_.points / 4;
+  return sparse || counts_->bytes() + counts_->cells * kBytesPerCell > memory_;
 }
 
 void Survey::coarsen() {
@@ -101,15 +129,15 @@ void Survey::coarsen() {
 
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (static_cast<double>(finite_points) < kPointsPerCell * static_cast<double>(counts_->active) &&
-         counts_->active > 1 && scan_.grid.shift < CellGrid::kMaxShift) {
+  while (static_cast<double>(finite_points) < kPointsPerCell * static_cast<double>(counts_->cells) &&
+         counts_->cells > 1 && scan_.grid.shift < CellGrid::kMaxShift) {
     coarsen();
   }
   if (finite_points > 0 && !std::isfinite(scan_.bounds.diagonal().squaredNorm())) {
     throw Error("the scan spans " + std::to_string(scan_.bounds.diagonal().norm()) +
                 ": squared distances between its points overflow; coordinates must lie within 1e153");
   }
-  scan_.cells.reserve(counts_->active);
+  scan_.cells.reserve(counts_->cells);
   for (auto cell = counts_->grid->cbeginValueOn(); cell; ++cell) {
     const openvdb::Coord coord = cell.getCoord();
     scan_.cells.push_back({{coord[0], coord[1], coord[2]}, static_cast<std::uint64_t>(*cell)});

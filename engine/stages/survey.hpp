@@ -1,14 +1,14 @@
 // survey: counts points per cell while they stream by.
 #pragma once
 
+#include "engine/data/points.hpp"
+#include "engine/data/tiling.hpp"
+
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
-
-#include "engine/data/points.hpp"
-#include "engine/data/tiling.hpp"
 
 namespace lacuna {
 
@@ -20,14 +20,13 @@ struct SurveyedScan {
   std::uint64_t dropped = 0;       // with a non-finite coordinate
 };
 
-// Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever more than `max_cells`
-// cells are active the size doubles and counts merge, and once more at the end until a cell holds about
-// `kPointsPerCell` points on average. Every cell is finer than it needs to be rather than coarser.
-// Memory: about 100 bytes per active cell. Cost: one hashed access per point.
+// Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever the cells need more than
+// `memory` bytes, or hold too few points each, the size doubles and counts merge, and once more at the end
+// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per point.
 class Survey {
  public:
   // `expected_points`: 0 where not known.
-  Survey(std::uint64_t max_cells, std::uint64_t expected_points);
+  Survey(std::uint64_t memory, std::uint64_t expected_points);
   ~Survey();
 
   void add(const PointBatch& batch);
@@ -39,9 +38,10 @@ class Survey {
  private:
   struct Counts;
   void choose_cell_size(const PointBatch& batch);
+  bool is_too_fine() const;
   void coarsen();
 
-  std::uint64_t max_cells_;
+  std::uint64_t memory_;
   std::uint64_t expected_points_;
   SurveyedScan scan_;
   bool sized_ = false;

@@ -1,10 +1,10 @@
 // Disjoint sets over [0, n): union by index, so that a set's root is its smallest element.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <span>
 #include <utility>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 

@@ -1,10 +1,10 @@
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
-#include <algorithm>
-#include <cmath>
-
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace lacuna {
 namespace {
@@ -15,7 +15,9 @@ Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2) 
   return config;
 }
 
-bool near(float value, double expected) { return std::abs(value - expected) <= 1e-6; }
+bool near(float value, double expected) {
+  return std::abs(value - expected) <= 1e-6;
+}
 
 std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointId>> loops) {
   std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
