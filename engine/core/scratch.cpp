@@ -7,7 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <string>
 
 #include <fcntl.h>
@@ -27,11 +27,17 @@ namespace {
 // Breaths between two looks at how much is resident. A fault may map a 64 KiB window of pages.
 constexpr std::uint64_t kBreaths = 256;
 
+// Parts of each mapping that are given back in turn: most of what is in use stays.
+constexpr std::uint64_t kParts = 8;
+
 // Bytes of mapped files that are resident in this process.
 std::uint64_t resident_mapped() {
-  std::ifstream statm("/proc/self/statm");
+  static const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  char text[96] = {};
+  if (::pread(statm, text, sizeof text - 1, 0) <= 0) return 0;
+  std::istringstream fields(text);
   std::uint64_t total = 0, resident = 0, shared = 0;
-  statm >> total >> resident >> shared;
+  fields >> total >> resident >> shared;
   return shared * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
@@ -74,7 +80,13 @@ std::byte* Scratch::allocate(std::size_t bytes) {
 void Scratch::release() {
   breaths_left_ = kBreaths;
   if (mappings_.empty() || resident_mapped() < mapped_before_ + budget_ - in_memory_) return;
-  for (const Mapping& mapping : mappings_) ::madvise(mapping.address, mapping.bytes, MADV_DONTNEED);
+  const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  for (const Mapping& mapping : mappings_) {
+    const std::uint64_t part = (mapping.bytes / kParts / page + 1) * page;
+    const std::uint64_t from = std::min<std::uint64_t>(next_part_ * part, mapping.bytes / page * page);
+    ::madvise(mapping.address + from, std::min<std::uint64_t>(part, mapping.bytes - from), MADV_DONTNEED);
+  }
+  next_part_ = (next_part_ + 1) % kParts;
 }
 
 }  // namespace lacuna

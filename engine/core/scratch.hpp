@@ -27,8 +27,8 @@ class Scratch {
     return {reinterpret_cast<T*>(allocate(count * sizeof(T))), count};
   }
 
-  // To be called now and then from loops over the arrays (every call is one decrement): gives the mapped
-  // pages back to the system once they are more than the budget. What they hold stays.
+  // To be called now and then from loops over the arrays (every call is one decrement): gives part of
+  // the mapped pages back to the system while they are more than the budget. What they hold stays.
   void breathe() {
     if (--breaths_left_ == 0) release();
   }
@@ -42,6 +42,7 @@ class Scratch {
   std::uint64_t budget_;
   std::uint64_t in_memory_ = 0;
   std::uint64_t mapped_before_ = 0;  // of other files: the program and its libraries
+  std::uint64_t next_part_ = 0;
   std::uint64_t breaths_left_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::vector<Mapping> mappings_;

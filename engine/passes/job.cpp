@@ -31,7 +31,7 @@ Memory Memory::share(std::uint64_t limit) {
   // Tiles and the global stage are not at work at the same time. What is left over is for what the
   // allocator cannot give back at once.
   return {
-      .limit = limit, .cells = rest / 6, .tiles = rest * 2 / 5, .spills = rest / 8, .global = rest * 2 / 5};
+      .limit = limit, .cells = rest / 6, .tiles = rest * 2 / 5, .spills = rest / 8, .global = rest * 3 / 5};
 }
 
 Job::Job(const Config& config, std::filesystem::path workspace, Progress& progress)

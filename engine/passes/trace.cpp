@@ -28,7 +28,7 @@ struct Join {
 };
 
 // Measured: edges, vertices and graph of a component while it is traced.
-constexpr std::uint64_t kBytesPerEdge = 200;
+constexpr std::uint64_t kBytesPerEdge = 120;
 
 ComponentEdge component_edge(std::uint64_t component, double weight, const Vertex& a, const Vertex& b) {
   return a.id < b.id ? ComponentEdge{component, weight, a, b} : ComponentEdge{component, weight, b, a};
@@ -143,7 +143,7 @@ void trace_on_disk(const std::function<void(const std::function<void(const Compo
   });
   ExternalSort<ComponentEdge, std::less<ComponentEdge>> sorted(job.file("large-edges"),
                                                                job.memory.global / 4);
-  Scratch scratch(job.workspace, job.memory.global / 2);
+  Scratch scratch(job.workspace, job.memory.global * 5 / 8);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const ComponentEdge& edge) {
     scratch.breathe();
