@@ -1,7 +1,7 @@
 #include "engine/passes/links.hpp"
 
+#include "engine/stages/block_search.hpp"
 #include "engine/stages/reach.hpp"
-#include "engine/stages/search.hpp"
 
 #include <algorithm>
 #include <queue>
@@ -99,16 +99,15 @@ class Linker {
       positions.push_back(p.position());
       ids.push_back(p.id);
     }
-    const PointTree tree(positions, ids);
-    std::vector<Neighbour> found;
+    BlockSearch search(positions, ids);
     for (const std::uint32_t cell : group.border) {
       const Row first = tiling_.cell_rows[cell];
       const auto begin =
           static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
-      for (LocalIndex p = begin; p < begin + tiling_.cells[cell].points; ++p) {
-        tree.nearest(p, k_, found);
+      const auto end = static_cast<LocalIndex>(begin + tiling_.cells[cell].points);
+      search.nearest(begin, end, k_, [&](LocalIndex p, std::span<const Neighbour> found) {
         for (const Neighbour& q : found) link(stored[p], rows[p], stored[q.index], rows[q.index]);
-      }
+      });
     }
     send();
   }

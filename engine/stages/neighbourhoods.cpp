@@ -1,8 +1,10 @@
 #include "engine/stages/neighbourhoods.hpp"
 
+#include "engine/stages/block_search.hpp"
 #include "engine/stages/search.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace lacuna {
 namespace {
@@ -17,18 +19,17 @@ struct NearestLists {
   std::vector<Neighbour> last;
 };
 
-NearestLists nearest_lists(const TilePoints& points, const PointTree& tree, std::size_t k) {
+NearestLists nearest_lists(const TilePoints& points, std::size_t k) {
   NearestLists nearest;
   nearest.lists.offsets.reserve(points.owned + 1);
   nearest.lists.indices.reserve(points.owned * std::min<std::size_t>(k, points.size()));
   nearest.last.reserve(points.owned);
-  std::vector<Neighbour> found;
-  for (LocalIndex p = 0; p < points.owned; ++p) {
-    tree.nearest(p, k, found);
+  BlockSearch search(points.positions, points.ids);
+  search.nearest(0, points.owned, k, [&](LocalIndex, std::span<const Neighbour> found) {
     for (const Neighbour& q : found) nearest.lists.indices.push_back(q.index);
     nearest.lists.offsets.push_back(static_cast<std::uint32_t>(nearest.lists.indices.size()));
     nearest.last.push_back(found.empty() ? Neighbour{-1.0, PointId{0}, kNoIndex} : found.back());
-  }
+  });
   return nearest;
 }
 
@@ -54,10 +55,11 @@ Rows one_sided(const TilePoints& points, const NearestLists& nearest) {
 }  // namespace
 
 Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
-  const PointTree tree(points.positions, points.ids);
-  const NearestLists nearest = nearest_lists(points, tree, k);
+  const NearestLists nearest = nearest_lists(points, k);
   const Rows others = one_sided(points, nearest);
   const double squared_eps = eps * eps;
+  std::optional<PointTree> tree;
+  if (eps > 0) tree.emplace(points.positions, points.ids);
 
   Rows neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
@@ -72,7 +74,7 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
     for (const LocalIndex q : others[p]) add(q);
     for (const LocalIndex q : points.linked[p]) add(q);
     if (eps > 0) {
-      tree.within(p, squared_eps, ball);
+      tree->within(p, squared_eps, ball);
       std::erase_if(added, [&](const Neighbour& q) { return q.squared_distance <= squared_eps; });
       for (const Neighbour& q : ball) {
         if (nearest.last[p] < q) added.push_back(q);

@@ -1,0 +1,9 @@
+// Functions compiled for several instruction sets, the best one that the machine has chosen when the
+// program starts. No fused multiply-add and no reordering (see CMakeLists.txt): the same bits from each.
+#pragma once
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define LACUNA_VECTORISED __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define LACUNA_VECTORISED
+#endif

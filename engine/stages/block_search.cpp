@@ -1,0 +1,291 @@
+#include "engine/stages/block_search.hpp"
+
+#include "engine/core/dispatch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBlock = 16;
+constexpr std::size_t kFan = 8;
+constexpr std::size_t kMostBlocks = 128;      // around a block of queries; more: the order jumps here
+constexpr std::size_t kMostCandidates = 192;  // of one query; more: ranking by counting is slow
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// Bounds are widened by more than rounding can have narrowed them.
+constexpr double kSlack = 1 + 1e-12;
+
+struct Box {
+  std::array<double, 3> low{kInfinite, kInfinite, kInfinite};
+  std::array<double, 3> high{-kInfinite, -kInfinite, -kInfinite};
+
+  void extend(const Eigen::Vector3d& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+};
+
+}  // namespace
+
+// Boxes of one level, one array per side, padded to whole groups with empty boxes.
+struct BlockSearch::Boxes {
+  std::array<std::vector<double>, 3> low, high;
+
+  explicit Boxes(std::size_t count) {
+    const std::size_t padded = (count + kFan - 1) / kFan * kFan;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis].assign(padded, kInfinite);
+      high[axis].assign(padded, -kInfinite);
+    }
+  }
+  std::size_t size() const { return low[0].size(); }
+};
+
+// Blocks within sight of a run of queries, and one query's candidates among their points.
+struct BlockSearch::Candidates {
+  LocalIndex first = 0, last = 0;  // the run
+  double radius = 0;               // around the run's box
+  std::vector<std::uint32_t> blocks;
+  std::array<std::array<double, kMostBlocks>, 3> low, high;  // the blocks' boxes
+  std::array<double, kMostBlocks> gap;                       // squared distance from the query
+
+  std::size_t count = 0;
+  std::array<double, kMostBlocks * kBlock + kBlock> squared_distance;
+  std::array<LocalIndex, kMostBlocks * kBlock + kBlock> index;
+  std::array<std::uint32_t, kMostCandidates> rank;
+};
+
+namespace {
+
+using Group = std::array<double, kFan>;
+
+// Squared distances between a box and eight.
+LACUNA_VECTORISED
+void box_gaps(const Box& box, const double* const low[3], const double* const high[3], Group& gaps) {
+  Group sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < kFan; ++i) {
+      const double below = low[axis][i] - box.high[axis], above = box.low[axis] - high[axis][i];
+      const double gap = std::max(std::max(below, above), 0.0);
+      sum[i] += gap * gap;
+    }
+  }
+  gaps = sum;
+}
+
+LACUNA_VECTORISED
+void point_gaps(double x, double y, double z, std::size_t count, const double* const low[3],
+                const double* const high[3], double* gaps) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double dx = std::max(std::max(low[0][i] - x, x - high[0][i]), 0.0);
+    const double dy = std::max(std::max(low[1][i] - y, y - high[1][i]), 0.0);
+    const double dz = std::max(std::max(low[2][i] - z, z - high[2][i]), 0.0);
+    gaps[i] = (dx * dx + dy * dy) + dz * dz;
+  }
+}
+
+// Appends the points of one block that lie within the radius; returns the new count.
+LACUNA_VECTORISED
+std::size_t within_block(const double* block, double x, double y, double z, double squared_radius,
+                         LocalIndex first_index, double* squared_distances, LocalIndex* indices,
+                         std::size_t count) {
+  std::array<double, kBlock> d;
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const double dx = block[i] - x, dy = block[kBlock + i] - y, dz = block[2 * kBlock + i] - z;
+    d[i] = (dx * dx + dy * dy) + dz * dz;
+  }
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    squared_distances[count] = d[i];
+    indices[count] = first_index + static_cast<LocalIndex>(i);
+    count += d[i] <= squared_radius;
+  }
+  return count;
+}
+
+// rank[i]: how many are nearer.
+LACUNA_VECTORISED
+void count_nearer(const double* squared_distances, std::size_t count, std::uint32_t* ranks) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = squared_distances[i];
+    std::uint64_t nearer = 0;
+    for (std::size_t j = 0; j < count; ++j) nearer += squared_distances[j] < d;
+    ranks[i] = static_cast<std::uint32_t>(nearer);
+  }
+}
+
+}  // namespace
+
+BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
+    : positions_(positions), ids_(ids), candidates_(std::make_unique<Candidates>()) {
+  const std::size_t blocks = (positions.size() + kBlock - 1) / kBlock;
+  coordinates_.assign(blocks * 3 * kBlock, kInfinite);
+  levels_.emplace_back(blocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    Box box;
+    const std::size_t end = std::min((b + 1) * kBlock, positions.size());
+    for (std::size_t i = b * kBlock; i < end; ++i) {
+      box.extend(positions[i]);
+      for (int axis = 0; axis < 3; ++axis) {
+        coordinates_[(b * 3 + static_cast<std::size_t>(axis)) * kBlock + i % kBlock] = positions[i][axis];
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      levels_[0].low[axis][b] = box.low[axis];
+      levels_[0].high[axis][b] = box.high[axis];
+    }
+  }
+  while (levels_.back().size() > kFan) {
+    const Boxes& below = levels_.back();
+    const std::size_t count = below.size() / kFan;
+    Boxes level(count);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto low = below.low[axis].begin() + static_cast<std::ptrdiff_t>(i * kFan);
+        const auto high = below.high[axis].begin() + static_cast<std::ptrdiff_t>(i * kFan);
+        level.low[axis][i] = *std::min_element(low, low + kFan);
+        level.high[axis][i] = *std::max_element(high, high + kFan);
+      }
+    }
+    levels_.push_back(std::move(level));
+  }
+}
+
+BlockSearch::~BlockSearch() = default;
+
+void BlockSearch::find(LocalIndex query, LocalIndex last, std::size_t k) {
+  Candidates& c = *candidates_;
+  const double radius = reach_of(query, k);
+  const bool in_sight = query >= c.first && query < c.last && radius <= c.radius;
+  const LocalIndex block_end = std::min<LocalIndex>(last, (query / kBlock + 1) * kBlock);
+  if (in_sight || look_around(query, block_end, radius) || look_around(query, query + 1, radius)) {
+    rank_candidates(query, radius, k);
+  } else {
+    if (!tree_) tree_.emplace(positions_, ids_);
+    tree_->nearest(query, k, found_);
+  }
+  previous_.reset();
+  if (found_.size() < k || k == 0) return;
+  refuse_underflow(found_.front().squared_distance, ids_[query], found_.front().id);
+  previous_ = query;
+  previous_radius_ = std::sqrt(found_.back().squared_distance);
+}
+
+// No less than the distance to the query's k-th neighbour.
+double BlockSearch::reach_of(LocalIndex query, std::size_t k) const {
+  if (positions_.size() <= k + 1) return kInfinite;
+  // The k neighbours of the query before, and itself, are k + 1 points within its radius: seen from any
+  // other point they lie within that radius and the distance to it.
+  if (previous_) {
+    return (previous_radius_ + std::sqrt(squared_distance(positions_[query], positions_[*previous_]))) *
+           kSlack;
+  }
+  // Any k points will do; those next in the order are near.
+  const std::size_t begin = std::min<std::size_t>(query, positions_.size() - (k + 1));
+  double farthest = 0;
+  for (std::size_t i = begin; i <= begin + k; ++i) {
+    farthest = std::max(farthest, squared_distance(positions_[query], positions_[i]));
+  }
+  return std::sqrt(farthest) * kSlack;
+}
+
+// Finds all blocks that hold a neighbour of any query of [first, last), of which the first has its
+// neighbours within `reach`. False if they are too many.
+bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double reach) {
+  Candidates& c = *candidates_;
+  c.first = c.last = first;
+  c.blocks.clear();
+  Box run;
+  double step = 0;
+  for (LocalIndex q = first; q < last; ++q) {
+    run.extend(positions_[q]);
+    step = std::max(step, squared_distance(positions_[q], positions_[first]));
+  }
+  c.radius = (reach + std::sqrt(step)) * kSlack;
+  const double squared_radius = c.radius * c.radius * kSlack;
+
+  struct Place {
+    std::size_t level, group;
+  };
+  std::array<Place, 128> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {levels_.size() - 1, 0};
+  while (depth > 0) {
+    const auto [level, group] = stack[--depth];
+    const Boxes& boxes = levels_[level];
+    const double* low[3];
+    const double* high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = boxes.low[axis].data() + group * kFan;
+      high[axis] = boxes.high[axis].data() + group * kFan;
+    }
+    Group gaps;
+    box_gaps(run, low, high, gaps);
+    for (std::size_t i = kFan; i-- > 0;) {
+      if (!(gaps[i] <= squared_radius) || !(low[0][i] <= high[0][i])) continue;  // far, or empty
+      if (level > 0) {
+        stack[depth++] = {level - 1, group * kFan + i};
+        continue;
+      }
+      if (c.blocks.size() == kMostBlocks) return false;
+      for (int axis = 0; axis < 3; ++axis) {
+        c.low[axis][c.blocks.size()] = low[axis][i];
+        c.high[axis][c.blocks.size()] = high[axis][i];
+      }
+      c.blocks.push_back(static_cast<std::uint32_t>(group * kFan + i));
+    }
+  }
+  c.last = last;
+  return true;
+}
+
+// The first k of all points within `radius`, which are more than k or all.
+void BlockSearch::rank_candidates(LocalIndex query, double radius, std::size_t k) {
+  Candidates& c = *candidates_;
+  const double squared_radius = radius * radius * kSlack;
+  const Eigen::Vector3d& p = positions_[query];
+  const double* const low[3] = {c.low[0].data(), c.low[1].data(), c.low[2].data()};
+  const double* const high[3] = {c.high[0].data(), c.high[1].data(), c.high[2].data()};
+  point_gaps(p.x(), p.y(), p.z(), c.blocks.size(), low, high, c.gap.data());
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < c.blocks.size(); ++b) {
+    if (c.gap[b] > squared_radius) continue;
+    count = within_block(coordinates_.data() + std::size_t{c.blocks[b]} * 3 * kBlock, p.x(), p.y(), p.z(),
+                         squared_radius, static_cast<LocalIndex>(c.blocks[b] * kBlock),
+                         c.squared_distance.data(), c.index.data(), count);
+  }
+  // Beyond the last point lie the padding's infinite distances.
+  while (count > 0 && c.index[count - 1] >= positions_.size()) --count;
+
+  // Rank 0 is the query itself.
+  const std::size_t wanted = std::min(k + 1, count);
+  found_.assign(wanted, Neighbour{0, PointId{0}, kNoIndex});
+  std::size_t placed = 0;
+  if (count <= kMostCandidates) {
+    count_nearer(c.squared_distance.data(), count, c.rank.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (c.rank[i] >= wanted) continue;
+      found_[c.rank[i]] = {c.squared_distance[i], ids_[c.index[i]], c.index[i]};
+      ++placed;
+    }
+  }
+  // Ties share a rank, and leave another empty: then, and where candidates are many, sort.
+  const bool distinct =
+      placed == wanted &&
+      std::none_of(found_.begin(), found_.end(), [](const Neighbour& n) { return n.index == kNoIndex; });
+  if (!distinct) {
+    found_.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      found_.push_back({c.squared_distance[i], ids_[c.index[i]], c.index[i]});
+    std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(wanted), found_.end());
+    found_.resize(wanted);
+  }
+  found_.erase(found_.begin());
+}
+
+}  // namespace lacuna
