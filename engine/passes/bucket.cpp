@@ -128,8 +128,8 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Job& job) {
     const std::vector<StoredNormal> normals = raw_normals.read(t);
     raw.drop(t);
     raw_normals.drop(t);
-    const OrderedTile ordered =
-        order_tile(tile_points, cells_of(tile_points, index, tile), tile.last_cell - tile.first_cell);
+    const OrderedTile ordered = order_tile(tile_points, cells_of(tile_points, index, tile),
+                                           tile.last_cell - tile.first_cell, store.tiling().grid);
     store.put(static_cast<TileIndex>(t), pick(tile_points, ordered.order),
               with_normals ? pick(normals, ordered.order) : normals, ordered.cell_points, ordered.duplicates);
     phase.advance(tile_points.size());

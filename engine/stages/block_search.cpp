@@ -16,6 +16,11 @@ constexpr std::size_t kMostBlocks = 128;      // around a block of queries; more
 constexpr std::size_t kMostCandidates = 192;  // of one query; more: ranking by counting is slow
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+// A query's neighbours are looked for within this multiple of the last ones' distance, and blocks of a
+// whole run of queries within a little more.
+constexpr double kGuess = 1.2;
+constexpr double kRunGuess = 1.4;
+
 // Bounds are widened by more than rounding can have narrowed them.
 constexpr double kSlack = 1 + 1e-12;
 
@@ -159,55 +164,58 @@ BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<c
 BlockSearch::~BlockSearch() = default;
 
 void BlockSearch::find(LocalIndex query, LocalIndex last, std::size_t k) {
-  Candidates& c = *candidates_;
-  const double radius = reach_of(query, k);
-  const bool in_sight = query >= c.first && query < c.last && radius <= c.radius;
+  const Candidates& c = *candidates_;
   const LocalIndex block_end = std::min<LocalIndex>(last, (query / kBlock + 1) * kBlock);
-  if (in_sight || look_around(query, block_end, radius) || look_around(query, query + 1, radius)) {
-    rank_candidates(query, radius, k);
-  } else {
-    if (!tree_) tree_.emplace(positions_, ids_);
-    tree_->nearest(query, k, found_);
+  const auto in_sight = [&](double radius) {
+    return query >= c.first && query < c.last && radius <= c.radius;
+  };
+
+  // More than k points within any radius, the query among them, hold its k neighbours: so a good guess will
+  // do, and is right or found out. Neighbours of the last queries are about as far as this one's.
+  bool found = false;
+  if (guess_ > 0) {
+    const double radius = kGuess * guess_;
+    if (in_sight(radius) || look_around(query, block_end, kRunGuess * guess_)) found = rank(query, radius, k);
   }
-  previous_.reset();
-  if (found_.size() < k || k == 0) return;
+  if (!found) {
+    const double radius = reach_of(query, k);
+    if (in_sight(radius) || look_around(query, query + 1, radius)) {
+      rank(query, radius, k);
+    } else {
+      if (!tree_) tree_.emplace(positions_, ids_);
+      tree_->nearest(query, k, found_);
+    }
+  }
+  if (found_.empty()) return;
   refuse_underflow(found_.front().squared_distance, ids_[query], found_.front().id);
-  previous_ = query;
-  previous_radius_ = std::sqrt(found_.back().squared_distance);
+  const double radius = std::sqrt(found_.back().squared_distance);
+  guess_ = std::max(radius, last_radius_);
+  last_radius_ = radius;
 }
 
 // No less than the distance to the query's k-th neighbour.
-double BlockSearch::reach_of(LocalIndex query, std::size_t k) const {
+double BlockSearch::reach_of(LocalIndex query, std::size_t k) {
   if (positions_.size() <= k + 1) return kInfinite;
-  // The k neighbours of the query before, and itself, are k + 1 points within its radius: seen from any
-  // other point they lie within that radius and the distance to it.
-  if (previous_) {
-    return (previous_radius_ + std::sqrt(squared_distance(positions_[query], positions_[*previous_]))) *
-           kSlack;
-  }
-  // Any k points will do; those next in the order are near.
-  const std::size_t begin = std::min<std::size_t>(query, positions_.size() - (k + 1));
-  double farthest = 0;
-  for (std::size_t i = begin; i <= begin + k; ++i) {
-    farthest = std::max(farthest, squared_distance(positions_[query], positions_[i]));
-  }
-  return std::sqrt(farthest) * kSlack;
+  // Any k points will do; those beside the query in the order are near. The query itself is at 0.
+  const std::size_t first = query > k ? query - k : 0;
+  const std::size_t last = std::min<std::size_t>(query + k + 1, positions_.size());
+  beside_.clear();
+  for (std::size_t i = first; i < last; ++i)
+    beside_.push_back(squared_distance(positions_[query], positions_[i]));
+  const auto kth = beside_.begin() + static_cast<std::ptrdiff_t>(k);
+  std::nth_element(beside_.begin(), kth, beside_.end());
+  return std::sqrt(*kth) * kSlack;
 }
 
-// Finds all blocks that hold a neighbour of any query of [first, last), of which the first has its
-// neighbours within `reach`. False if they are too many.
-bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double reach) {
+// Finds all blocks within `radius` of any query of [first, last). False if they are too many.
+bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) {
   Candidates& c = *candidates_;
   c.first = c.last = first;
   c.blocks.clear();
+  c.radius = radius;
   Box run;
-  double step = 0;
-  for (LocalIndex q = first; q < last; ++q) {
-    run.extend(positions_[q]);
-    step = std::max(step, squared_distance(positions_[q], positions_[first]));
-  }
-  c.radius = (reach + std::sqrt(step)) * kSlack;
-  const double squared_radius = c.radius * c.radius * kSlack;
+  for (LocalIndex q = first; q < last; ++q) run.extend(positions_[q]);
+  const double squared_radius = radius * radius * kSlack;
 
   struct Place {
     std::size_t level, group;
@@ -244,8 +252,8 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double reach) {
   return true;
 }
 
-// The first k of all points within `radius`, which are more than k or all.
-void BlockSearch::rank_candidates(LocalIndex query, double radius, std::size_t k) {
+// The first k of all points within `radius`; false if these are no more than k and not all.
+bool BlockSearch::rank(LocalIndex query, double radius, std::size_t k) {
   Candidates& c = *candidates_;
   const double squared_radius = radius * radius * kSlack;
   const Eigen::Vector3d& p = positions_[query];
@@ -261,6 +269,8 @@ void BlockSearch::rank_candidates(LocalIndex query, double radius, std::size_t k
   }
   // Beyond the last point lie the padding's infinite distances.
   while (count > 0 && c.index[count - 1] >= positions_.size()) --count;
+
+  if (count <= k && count < positions_.size()) return false;
 
   // Rank 0 is the query itself.
   const std::size_t wanted = std::min(k + 1, count);
@@ -286,6 +296,7 @@ void BlockSearch::rank_candidates(LocalIndex query, double radius, std::size_t k
     found_.resize(wanted);
   }
   found_.erase(found_.begin());
+  return true;
 }
 
 }  // namespace lacuna

@@ -14,9 +14,9 @@ namespace lacuna {
 
 // Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a
 // tree that needs no building beyond its boxes. One walk finds the blocks around a block of queries, within
-// a radius that holds k neighbours of each: that of the query before, plus the step from it. Distances are
-// compared in vectors, and the neighbours ranked by counting how many are nearer. Where the order jumps the
-// query is handed to `PointTree`, built when it is first needed.
+// a radius guessed from the last ones. Distances are compared in vectors, and the neighbours ranked by
+// counting how many are nearer. Where the guess holds too few, the query is looked up again within a bound;
+// where that holds too many (the order jumps far), in a `PointTree`, built when it is first needed.
 //
 // Exact: bounds err on the far side only, and every distance is computed as the method says.
 // Cost: 16 points a block; memory: 32 bytes a point.
@@ -41,9 +41,9 @@ class BlockSearch {
   struct Boxes;
   struct Candidates;
   void find(LocalIndex query, LocalIndex last, std::size_t k);
-  double reach_of(LocalIndex query, std::size_t k) const;
-  bool look_around(LocalIndex first, LocalIndex last, double reach);
-  void rank_candidates(LocalIndex query, double radius, std::size_t k);
+  double reach_of(LocalIndex query, std::size_t k);
+  bool look_around(LocalIndex first, LocalIndex last, double radius);
+  bool rank(LocalIndex query, double radius, std::size_t k);
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const PointId> ids_;
@@ -51,9 +51,9 @@ class BlockSearch {
   std::vector<Boxes> levels_;        // of blocks, of groups of eight, of groups of these, ...
   std::unique_ptr<Candidates> candidates_;
   std::vector<Neighbour> found_;
-  // The query before, whose k-th neighbour bounds the next one's.
-  std::optional<LocalIndex> previous_;
-  double previous_radius_ = 0;
+  double last_radius_ = 0;      // of the query before
+  double guess_ = 0;            // of the last two; 0: none yet
+  std::vector<double> beside_;  // working space
   std::optional<PointTree> tree_;
 };
 
