@@ -1,9 +1,5 @@
 #include "bench/sample.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "engine/core/cell_index.hpp"
 #include "engine/stages/order_tile.hpp"
 #include "engine/stages/split.hpp"
@@ -11,12 +7,16 @@
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/random.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 namespace lacuna {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kJitter = 0.25;          // of the spacing
-constexpr std::uint32_t kHoleCell = 64;   // nodes
+constexpr double kJitter = 0.25;         // of the spacing
+constexpr std::uint32_t kHoleCell = 64;  // nodes
 constexpr double kLeastHole = 4, kMostHole = 12;
 
 // One hole somewhere in each cell of nodes, wholly inside it.
@@ -42,13 +42,15 @@ Eigen::Vector3d place(double u, double v) {
 
 PointBatch sample_surface(std::uint32_t points, SampleOrder order) {
   const synth::Random random(kSeed, 2);
-  const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(1.1 * points)));  // a tenth for the holes
+  const auto columns =
+      static_cast<std::uint32_t>(std::ceil(std::sqrt(1.1 * points)));  // a tenth for the holes
   PointBatch batch;
   batch.positions.resize(points);
   const synth::Permutation shuffled(points, kSeed);
   std::uint64_t count = 0;
   for (std::uint64_t node = 0; count < points; ++node) {
-    const auto row = static_cast<std::uint32_t>(node / columns), column = static_cast<std::uint32_t>(node % columns);
+    const auto row = static_cast<std::uint32_t>(node / columns),
+               column = static_cast<std::uint32_t>(node % columns);
     if (in_hole(row, column)) continue;
     const double u = column + random.uniform(2 * node, -kJitter, kJitter);
     const double v = row + random.uniform(2 * node + 1, -kJitter, kJitter);

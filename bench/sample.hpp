@@ -1,10 +1,10 @@
 // A scan in memory for the kernel benchmarks: a wavy surface with holes, all of it in one tile.
 #pragma once
 
-#include <cstdint>
-
 #include "engine/data/neighbourhoods.hpp"
 #include "engine/data/points.hpp"
+
+#include <cstdint>
 
 namespace lacuna {
 

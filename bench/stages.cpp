@@ -1,16 +1,6 @@
 // What each stage costs per point, alone, on one thread, on one tile of 65,536 points: 15 neighbours, every
 // other parameter at its default. Counter `per_point`: time per point of the tile, comparable between
 // stages and with a whole run; counters of other names: per thing that the stage goes through.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <tuple>
-#include <unistd.h>
-
-#include <benchmark/benchmark.h>
-
 #include "bench/sample.hpp"
 #include "engine/config.hpp"
 #include "engine/core/cell_index.hpp"
@@ -29,6 +19,16 @@
 #include "io/file_scan.hpp"
 #include "tools/synth/ply_output.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <tuple>
+
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
 namespace lacuna {
 namespace {
 
@@ -40,8 +40,9 @@ constexpr std::uint64_t kBudget = std::uint64_t{1} << 30;
 const Config kConfig;
 
 void time_per(benchmark::State& state, const char* thing, std::size_t count) {
-  state.counters[thing] = benchmark::Counter(
-      static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters[thing] =
+      benchmark::Counter(static_cast<double>(count),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 // ---- what the stages hand on, each computed once
@@ -105,7 +106,8 @@ SampleComponent component() {
   sample.vertices.erase(std::unique(sample.vertices.begin(), sample.vertices.end()), sample.vertices.end());
 
   std::vector<LocalIndex> vertex_of(points.size(), kNoIndex);
-  for (std::size_t v = 0; v < sample.vertices.size(); ++v) vertex_of[sample.vertices[v]] = static_cast<LocalIndex>(v);
+  for (std::size_t v = 0; v < sample.vertices.size(); ++v)
+    vertex_of[sample.vertices[v]] = static_cast<LocalIndex>(v);
   for (TileEdge& edge : edges) {
     const auto [low, high] = std::minmax({vertex_of[edge.a], vertex_of[edge.b]});
     edge = {low, high, edge.weight};
@@ -123,7 +125,8 @@ SampleComponent component() {
 template <class Report>
 void trace(const SampleComponent& component, Report&& report) {
   Scratch scratch(std::filesystem::temp_directory_path(), kBudget);
-  Spanning spanning(static_cast<LocalIndex>(component.vertices.size()), component.edges.size(), component.e, scratch);
+  Spanning spanning(static_cast<LocalIndex>(component.vertices.size()), component.edges.size(), component.e,
+                    scratch);
   for (const LocalEdge edge : component.edges) spanning.add(edge);
   find_loops(spanning.finish(), scratch, report);
 }
@@ -148,7 +151,9 @@ std::vector<Loop> loops() {
 // A file of 16 samples, so that opening it does not count.
 class SampleFile {
  public:
-  SampleFile() : path_(std::filesystem::temp_directory_path() / ("lacuna-stages-" + std::to_string(::getpid()) + ".ply")) {
+  SampleFile()
+      : path_(std::filesystem::temp_directory_path() /
+              ("lacuna-stages-" + std::to_string(::getpid()) + ".ply")) {
     synth::PlyOutput out(path_, synth::Coordinates::kFloat, synth::Extras::kNone);
     for (int copy = 0; copy < 16; ++copy) {
       for (const Eigen::Vector3d& p : batch(SampleOrder::kScanline).positions) out.add({p.x(), p.y(), p.z()});
@@ -179,16 +184,19 @@ void read_ply(benchmark::State& state) {
     if (rows != file.rows()) state.SkipWithError("not all points were read");
   }
   time_per(state, "per_point", file.rows());
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(std::filesystem::file_size(file.path())));
+  state.SetBytesProcessed(state.iterations() *
+                          static_cast<std::int64_t>(std::filesystem::file_size(file.path())));
 }
 BENCHMARK(read_ply);
 
-// 16 tiles' points, in batches of one: the first batch chooses the cell size, which costs more than counting it.
+// 16 tiles' points, in batches of one: the first batch chooses the cell size, which costs more than counting
+// it.
 void survey(benchmark::State& state, SampleOrder order) {
   const PointBatch scan = sample_surface(16 * kPoints, order);
   std::vector<PointBatch> batches;
   for (auto at = scan.positions.begin(); at != scan.positions.end(); at += kPoints) {
-    batches.push_back({.first = PointId{kPoints * batches.size()}, .positions = {at, at + kPoints}, .normals = {}});
+    batches.push_back(
+        {.first = PointId{kPoints * batches.size()}, .positions = {at, at + kPoints}, .normals = {}});
   }
   for (auto _ : state) {
     Survey survey(kMostCells, scan.size());
@@ -278,7 +286,8 @@ BENCHMARK(find_neighbourhoods);
 void evaluate(benchmark::State& state) {
   neighbourhoods();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(lacuna::evaluate(tile(), neighbourhoods(), {}, kConfig.normals, kConfig.criteria));
+    benchmark::DoNotOptimize(
+        lacuna::evaluate(tile(), neighbourhoods(), {}, kConfig.normals, kConfig.criteria));
   }
   time_per(state, "per_point", kPoints);
 }

@@ -2,19 +2,18 @@
 // neighbours, then ComputeBoundaryPoints, which wants a radius too and looks at the nearest neighbours
 // within it. The radius is the median distance of the last of those neighbours, so that half of the points
 // have them all; finding it is not timed.
+#include "bench/peers/peer.hpp"
+#include "bench/peers/read_ply.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <string>
 #include <vector>
 
+#include <omp.h>
 #include <open3d/core/nns/NearestNeighborSearch.h>
 #include <open3d/t/geometry/PointCloud.h>
 #include <tbb/global_control.h>
-
-#include "bench/peers/peer.hpp"
-#include "bench/peers/read_ply.hpp"
 
 namespace {
 
@@ -48,8 +47,8 @@ double median_reach(const Tensor& positions, int neighbours) {
 }
 
 Result run(const Arguments& arguments) {
-  // OpenMP reads this when it is first asked.
-  ::setenv("OMP_NUM_THREADS", std::to_string(arguments.threads).c_str(), 1);
+  // The search runs in TBB, the rest in OpenMP.
+  omp_set_num_threads(arguments.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(arguments.threads));
   Clock clock;
@@ -65,10 +64,13 @@ Result run(const Arguments& arguments) {
   clock.lap();
   const Tensor mask = std::get<1>(cloud.ComputeBoundaryPoints(radius, arguments.neighbours));
   result.boundary = clock.lap();
-  result.boundary_points = static_cast<std::size_t>(mask.To(open3d::core::Int64).Sum({0}).Item<std::int64_t>());
+  result.boundary_points =
+      static_cast<std::size_t>(mask.To(open3d::core::Int64).Sum({0}).Item<std::int64_t>());
   return result;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_peer(argc, argv, run); }
+int main(int argc, char** argv) {
+  return run_peer(argc, argv, run);
+}

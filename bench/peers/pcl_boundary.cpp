@@ -1,14 +1,14 @@
 // Boundary points as the Point Cloud Library finds them: normals on all threads, then BoundaryEstimation,
 // which knows one thread only. One tree serves both. PCL counts a point among its own neighbours.
+#include "bench/peers/peer.hpp"
+#include "bench/peers/read_ply.hpp"
+
 #include <omp.h>
 #include <pcl/features/boundary.h>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
-
-#include "bench/peers/peer.hpp"
-#include "bench/peers/read_ply.hpp"
 
 namespace {
 
@@ -57,4 +57,6 @@ Result run(const Arguments& arguments) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_peer(argc, argv, run); }
+int main(int argc, char** argv) {
+  return run_peer(argc, argv, run);
+}

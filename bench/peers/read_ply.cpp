@@ -6,12 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <fcntl.h>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -96,8 +97,8 @@ Header read_header(std::string_view text) {
 
 std::size_t size_of(const std::string& type) {
   static const std::map<std::string, std::size_t> kSizes{
-      {"char", 1},  {"uchar", 1},  {"int8", 1},   {"uint8", 1}, {"short", 2},   {"ushort", 2},
-      {"int16", 2}, {"uint16", 2}, {"int", 4},    {"uint", 4},  {"int32", 4},   {"uint32", 4},
+      {"char", 1},  {"uchar", 1},  {"int8", 1},    {"uint8", 1},  {"short", 2}, {"ushort", 2},
+      {"int16", 2}, {"uint16", 2}, {"int", 4},     {"uint", 4},   {"int32", 4}, {"uint32", 4},
       {"float", 4}, {"double", 8}, {"float32", 4}, {"float64", 8}};
   const auto found = kSizes.find(type);
   if (found == kSizes.end()) throw std::runtime_error("vertices or what precedes them have a list");
@@ -152,8 +153,10 @@ void read_binary(std::string_view body, const Header& header, std::vector<float>
   std::array<std::size_t, 3> offsets{};
   const std::string& type = header.vertex.properties[position[0]].type;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (header.vertex.properties[position[axis]].type != type) throw std::runtime_error("x, y and z differ in type");
-    for (std::size_t i = 0; i < position[axis]; ++i) offsets[axis] += size_of(header.vertex.properties[i].type);
+    if (header.vertex.properties[position[axis]].type != type)
+      throw std::runtime_error("x, y and z differ in type");
+    for (std::size_t i = 0; i < position[axis]; ++i)
+      offsets[axis] += size_of(header.vertex.properties[i].type);
   }
   const std::string_view rows = body.substr(begin, size);
   if (type == "double" || type == "float64") {
