@@ -1,4 +1,6 @@
-# Points per second over points. Set: data (blocks of summarise.py plot), image (an SVG).
+# Points per second over points: gnuplot -c plot.gp DATA IMAGE.svg, DATA as `summarise.py plot` prints it.
+data = ARG1
+image = ARG2
 stats data using 1:2 nooutput
 set terminal svg size 900,560 font "sans,14" background "white"
 set output image

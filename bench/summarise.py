@@ -47,12 +47,13 @@ def print_medians(configurations):
     for key, phases in configurations.items():
         case, points, order, program, threads, limit = key
         total = seconds(phases)
-        ours = [seconds(other) for name, other in configurations.items()
+        # With the most memory, where it ran with several limits.
+        ours = [(name[5], seconds(other)) for name, other in configurations.items()
                 if name[0] == case and name[2:5] == (order, "lacuna", threads)]
         rows.append((case, order, program, f"{points:,}", str(threads), mebibytes(limit), str(len(phases["total"])),
                      f"{total:.3f}", f"{points / total / 1e6:.3f}", f"{spread(phases):.0f}",
                      mebibytes(max(peak for _, peak in phases["total"])),
-                     "" if program == "lacuna" or not ours else f"{total / min(ours):.2f}"))
+                     "" if program == "lacuna" or not ours else f"{total / max(ours)[1]:.2f}"))
     print_table(rows)
 
 
@@ -83,8 +84,9 @@ def print_plot(configurations):
         if several_limits and limit:
             title += f", {mebibytes(limit)} MiB"
         lines.setdefault(title, []).append((points, points / seconds(phases)))
-    print("\n\n".join("\n".join([f'"{title}"', *(f"{x} {y:.0f}" for x, y in sorted(values))])
-                      for title, values in lines.items()))
+    if lines:
+        print("\n\n\n".join("\n".join([f'"{title}"', *(f"{x} {y:.0f}" for x, y in sorted(values))])
+                            for title, values in lines.items()))
 
 
 def main():

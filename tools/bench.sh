@@ -20,6 +20,7 @@ bench/results/DATE.csv with a table of medians (DATE.txt) and a plot (DATE.svg).
   --real                the real scans in ../shared/data too
   --peers               PCL and Open3D too (installs about 1 GB of packages)
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
+  --timeout SECONDS     for one run; what takes longer is left out    default 3600
   --against PROGRAM     another build of lacuna in turns with this one, called "against"
   --stages              the kernel benchmarks of each stage too: bench/results/DATE.stages.json
   --build DIR           default build-bench
@@ -46,6 +47,7 @@ runs=5
 real=0
 peers=0
 peer_points=4
+timeout=3600
 against=
 stages=0
 build=$root/build-bench
@@ -54,7 +56,7 @@ detect_options=()
 
 while (($# > 0)); do
   case $1 in
-    --points | --orders | --threads | --memory-limit | --runs | --peer-points | --against | --build | --work)
+    --points | --orders | --threads | --memory-limit | --runs | --peer-points | --timeout | --against | --build | --work)
       (($# > 1)) || fail "$1 needs a value" 2
       ;;&
     --points) read -r -a points <<<"$2" && shift ;;
@@ -63,6 +65,7 @@ while (($# > 0)); do
     --memory-limit) read -r -a memory_limits <<<"$2" && shift ;;
     --runs) runs=$2 && shift ;;
     --peer-points) peer_points=$2 && shift ;;
+    --timeout) timeout=$2 && shift ;;
     --against) against=$(from_caller "$2") && shift ;;
     --build) build=$(from_caller "$2") && shift ;;
     --work) work=$(from_caller "$2") && shift ;;
@@ -92,7 +95,7 @@ done
 for order in "${orders[@]}"; do
   [[ $order == scanline || $order == random ]] || fail "order \"$order\": must be scanline or random" 2
 done
-for number in "${threads[@]}" "$runs"; do
+for number in "${threads[@]}" "$runs" "$timeout"; do
   [[ $number =~ ^[1-9][0-9]*$ ]] || fail "\"$number\" is not a whole number from 1 on" 2
 done
 [[ -z $against || -x $against ]] || fail "$against is no program"
@@ -152,7 +155,7 @@ at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
 
 # ---- runs
 
-cleanup() { rm -rf "$work/out" "$work/told" "$work/time"; }
+cleanup() { rm -rf "$work/out" "$work/told" "$work/time" "$work/plot.dat"; }
 trap cleanup EXIT
 
 # One program on the current case (scan, case, order) with the current number of threads: its rows go to the
@@ -171,10 +174,11 @@ run_once() {
   esac
   rm -rf "$work/out"
   begin=$EPOCHREALTIME
-  /usr/bin/time -v -o "$work/time" "${command[@]}" >"$work/told" || status=$?
+  /usr/bin/time -v -o "$work/time" timeout --foreground "$timeout" "${command[@]}" >"$work/told" || status=$?
   end=$EPOCHREALTIME
   if ((status != 0)); then
     cat "$work/told" >&2
+    ((status != 124)) || echo "bench.sh: more than $timeout seconds" >&2
     echo "bench.sh: ended with status $status: ${command[*]}" >&2
     return 1
   fi
@@ -184,10 +188,14 @@ run_once() {
     --time "$work/time" --told "$work/told" --report "$work/out/holes.json"
 }
 
-# All programs on one case in turns, A B A B, so that a slow minute of the machine meets all of them.
+failures=()
+
+# All programs on one case in turns, A B A B, so that a slow minute of the machine meets all of them. One that
+# fails on a case is left out of the rest of it.
 run_case() {
-  local with_peers=$1 run limit program
-  local -a turns=() broken=()
+  local with_peers=$1 run limit program turn
+  local -a turns=()
+  local -A failed=()
   for limit in "${memory_limits[@]}"; do
     turns+=("lacuna $limit")
     [[ -z $against ]] || turns+=("against $limit")
@@ -197,13 +205,12 @@ run_case() {
   fi
   for ((run = 0; run <= runs; ++run)); do
     for turn in "${turns[@]}"; do
+      [[ -z ${failed[$turn]-} ]] || continue
       read -r program limit <<<"$turn"
-      [[ " ${broken[*]-} " != *" $program "* ]] || continue
       echo "bench.sh: $case, $order, $thread_count threads: $program ($limit), $( ((run)) && echo "run $run" || echo warm-up)" >&2
       run_once "$program" "$limit" "$run" && continue
-      # A peer that cannot do a case is left out of it; Lacuna has to do all.
-      [[ $program != lacuna ]] || exit 1
-      broken+=("$program")
+      failed[$turn]=yes
+      failures+=("$program ($limit) on $case, $order, $thread_count threads")
     done
   done
 }
@@ -238,15 +245,18 @@ fi
   awk '/^MemTotal/ { printf "memory: %.1f GiB\n", $2 / 1048576 }' /proc/meminfo
   ((${#detect_options[@]} == 0)) || echo "detect options: ${detect_options[*]}"
   echo
-  python3 bench/summarise.py table "$csv"
+  for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
+  [[ ! -e $csv ]] || python3 bench/summarise.py table "$csv"
 } | tee "$stem.txt"
 
-python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
-if [[ -s $work/plot.dat ]]; then
-  gnuplot -e "data='$work/plot.dat'; image='$stem.svg'" bench/plot.gp
+if [[ -e $csv ]]; then
+  # Paths as arguments: they may hold what gnuplot takes for its own.
+  python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
+  [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"
 fi
 if ((stages)); then
   "$build/bench/lacuna_stages" --benchmark_out="$stem.stages.json" --benchmark_out_format=json
 fi
 echo
 ls -1 "$stem".*
+((${#failures[@]} == 0))
