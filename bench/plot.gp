@@ -9,6 +9,6 @@ set xlabel "points"
 set ylabel "points per second"
 set format "%.0s%c"
 set grid
-set key outside right
+set key below
 set offsets graph 0.05, graph 0.05, 0, 0
 plot for [i = 0:STATS_blocks - 1] data index i using 1:2 with linespoints linewidth 2 pointtype 7 pointsize 0.6 title columnheader(1)

@@ -18,19 +18,21 @@ def peak_resident_bytes(time_file):
 
 
 def read_report(report_file):
-    """Points, memory limit, seconds by phase and own peak memory of a run of Lacuna."""
+    """Points, memory limit, seconds by phase and own peak memory of a run of Lacuna; all of it counts."""
     with open(report_file, encoding="utf-8") as file:
         report = json.load(file)
     phases = {phase["name"]: phase["seconds"] for phase in report["phases"]}
     return (report["counts"]["points"], report["tiling"]["memory_limit_bytes"], phases,
-            report["peak_memory_bytes"])
+            report["peak_memory_bytes"], 0.0)
 
 
 def read_told(told_file):
-    """The same of a peer, from the lines that it prints; it has no limit and does not know its peak."""
+    """The same of a peer, from the lines that it prints, and the seconds that are not to be counted. It has no
+    limit and does not know its peak."""
     with open(told_file, encoding="utf-8") as lines:
         values = dict(line.split() for line in lines)
-    return int(values["points"]), "", {name: float(values[name]) for name in ("load", "normals", "boundary")}, ""
+    phases = {name: float(values[name]) for name in ("load", "normals", "boundary")}
+    return int(values["points"]), "", phases, "", float(values["untimed"])
 
 
 def main():
@@ -40,8 +42,8 @@ def main():
     given = parser.parse_args()
 
     is_peer = given.program not in ("lacuna", "against")
-    points, memory_limit, phases, peak = read_told(given.told) if is_peer else read_report(given.report)
-    total = float(given.end) - float(given.begin)
+    points, memory_limit, phases, peak, untimed = read_told(given.told) if is_peer else read_report(given.report)
+    total = float(given.end) - float(given.begin) - untimed
     rows = [(name, seconds, peak) for name, seconds in phases.items()]
     rows.append(("rest", max(total - sum(phases.values()), 0), ""))  # starting, writing the results, ending
     rows.append(("total", total, peak_resident_bytes(given.time)))

@@ -226,7 +226,7 @@ for millions in "${points[@]}"; do
 done
 
 if ((real)); then
-  order=file
+  order="file"
   found=0
   for scan in "$root"/../shared/data/*.ply; do
     [[ -e $scan ]] || continue

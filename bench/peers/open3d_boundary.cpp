@@ -61,7 +61,7 @@ Result run(const Arguments& arguments) {
   result.normals = clock.lap();
 
   const double radius = median_reach(cloud.GetPointPositions(), arguments.neighbours);
-  clock.lap();
+  result.untimed = clock.lap();
   const Tensor mask = std::get<1>(cloud.ComputeBoundaryPoints(radius, arguments.neighbours));
   result.boundary = clock.lap();
   result.boundary_points =

@@ -34,6 +34,7 @@ struct Result {
   std::size_t points = 0;
   std::size_t boundary_points = 0;
   double load = 0, normals = 0, boundary = 0;  // seconds
+  double untimed = 0;                          // seconds, not to be counted
 };
 
 // PROGRAM SCAN.ply [THREADS [NEIGHBOURS]]
@@ -48,8 +49,9 @@ int run_peer(int argc, char** argv, Run&& run) {
   if (argc > 3) arguments.neighbours = std::atoi(argv[3]);
   try {
     const Result result = run(arguments);
-    std::printf("points %zu\nboundary_points %zu\nload %.6f\nnormals %.6f\nboundary %.6f\n", result.points,
-                result.boundary_points, result.load, result.normals, result.boundary);
+    std::printf("points %zu\nboundary_points %zu\nload %.6f\nnormals %.6f\nboundary %.6f\nuntimed %.6f\n",
+                result.points, result.boundary_points, result.load, result.normals, result.boundary,
+                result.untimed);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
