@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Appends the rows of one run to the results: one per phase, and `total`."""
+
+import argparse
+import csv
+import json
+import os
+import re
+
+COLUMNS = ["case", "points", "order", "program", "threads", "memory_limit", "run", "phase", "seconds",
+           "points_per_second", "bytes_per_second", "peak_bytes"]
+
+
+def peak_resident_bytes(time_file):
+    """What /usr/bin/time -v found."""
+    with open(time_file, encoding="utf-8") as lines:
+        return 1024 * int(re.search(r"Maximum resident set size \(kbytes\): (\d+)", lines.read()).group(1))
+
+
+def read_report(report_file):
+    """Points, memory limit, seconds by phase and own peak memory of a run of Lacuna; all of it counts."""
+    with open(report_file, encoding="utf-8") as file:
+        report = json.load(file)
+    phases = {phase["name"]: phase["seconds"] for phase in report["phases"]}
+    return (report["counts"]["points"], report["tiling"]["memory_limit_bytes"], phases,
+            report["peak_memory_bytes"], 0.0)
+
+
+def read_told(told_file):
+    """The same of a peer, from the lines that it prints, and the seconds that are not to be counted. It has no
+    limit and does not know its peak."""
+    with open(told_file, encoding="utf-8") as lines:
+        values = dict(line.split() for line in lines)
+    phases = {name: float(values[name]) for name in ("load", "normals", "boundary")}
+    return int(values["points"]), "", phases, "", float(values["untimed"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("csv", "case", "order", "program", "threads", "run", "scan", "begin", "end", "time", "told", "report"):
+        parser.add_argument("--" + name, required=True)
+    given = parser.parse_args()
+
+    is_peer = given.program not in ("lacuna", "against")
+    points, memory_limit, phases, peak, untimed = read_told(given.told) if is_peer else read_report(given.report)
+    total = float(given.end) - float(given.begin) - untimed
+    rows = [(name, seconds, peak) for name, seconds in phases.items()]
+    rows.append(("rest", max(total - sum(phases.values()), 0), ""))  # starting, writing the results, ending
+    rows.append(("total", total, peak_resident_bytes(given.time)))
+
+    scan_bytes = os.path.getsize(given.scan)
+    is_new = not os.path.exists(given.csv)
+    with open(given.csv, "a", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if is_new:
+            writer.writerow(COLUMNS)
+        for phase, seconds, peak_bytes in rows:
+            rates = [round(amount / seconds) if seconds > 0 else "" for amount in (points, scan_bytes)]
+            writer.writerow([given.case, points, given.order, given.program, given.threads, memory_limit, given.run,
+                             phase, f"{seconds:.6f}", *rates, peak_bytes])
+
+
+main()

@@ -1,0 +1,23 @@
+// A scan in memory for the kernel benchmarks: a wavy surface with holes, all of it in one tile.
+#pragma once
+
+#include "engine/data/neighbourhoods.hpp"
+#include "engine/data/points.hpp"
+
+#include <cstdint>
+
+namespace lacuna {
+
+enum class SampleOrder { kScanline, kRandom };
+
+// Exactly `points` points on a jittered grid, its rows along arcs whose spacing grows by a factor of 2, so
+// that the density falls by a factor of 4, with a round hole of 4 to 12 spacings in every 64 x 64 nodes.
+// Coordinates are those of 32-bit floats, as in most scans. Same arguments, same points; the order of the
+// batch changes only ids.
+PointBatch sample_surface(std::uint32_t points, SampleOrder order);
+
+// The points of a batch as a tile that owns all of them sees them: in store order, after survey, split and
+// order_tile.
+TilePoints sample_tile(const PointBatch& batch);
+
+}  // namespace lacuna

@@ -1,0 +1,262 @@
+#!/usr/bin/env bash
+# Measures `lacuna detect` from scan file to results, beside other tools where asked for. See bench/README.md.
+set -euo pipefail
+invoked_from=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+root=$PWD
+
+usage() {
+  cat <<'END'
+usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
+
+Builds a release, makes the scans, runs every program once to warm up and then in turns, and writes
+bench/results/DATE.csv with a table of medians (DATE.txt) and a plot (DATE.svg).
+
+  --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
+  --orders LIST         of the points in the file: scanline, random   default "scanline random"
+  --threads LIST        default: one per core
+  --memory-limit LIST   as for lacuna: 1GiB; or default               default "default"
+  --runs N              after the warm-up                             default 5
+  --real                the real scans in ../shared/data too
+  --peers               PCL and Open3D too (installs about 1 GB of packages)
+  --peer-points N       largest synthetic scan that peers get, millions of points    default 4
+  --timeout SECONDS     for one run; what takes longer is left out    default 3600
+  --against PROGRAM     another build of lacuna in turns with this one, called "against"
+  --stages              the kernel benchmarks of each stage too: bench/results/DATE.stages.json
+  --build DIR           default build-bench
+  --work DIR            scans and results of runs; scans are kept     default bench/work
+  -h, --help
+DETECT_OPTIONS go to every `lacuna detect`: tools/bench.sh -- --eps 0.03
+END
+}
+
+fail() {
+  echo "bench.sh: $1" >&2
+  exit "${2:-1}"
+}
+
+from_caller() { [[ $1 == /* ]] && echo "$1" || echo "$invoked_from/$1"; }
+
+# ---- what was asked for
+
+points=(1 4)
+orders=(scanline random)
+threads=("$(nproc)")
+memory_limits=(default)
+runs=5
+real=0
+peers=0
+peer_points=4
+timeout=3600
+against=
+stages=0
+build=$root/build-bench
+work=$root/bench/work
+detect_options=()
+
+while (($# > 0)); do
+  case $1 in
+    --points | --orders | --threads | --memory-limit | --runs | --peer-points | --timeout | --against | --build | --work)
+      (($# > 1)) || fail "$1 needs a value" 2
+      ;;&
+    --points) read -r -a points <<<"$2" && shift ;;
+    --orders) read -r -a orders <<<"$2" && shift ;;
+    --threads) read -r -a threads <<<"$2" && shift ;;
+    --memory-limit) read -r -a memory_limits <<<"$2" && shift ;;
+    --runs) runs=$2 && shift ;;
+    --peer-points) peer_points=$2 && shift ;;
+    --timeout) timeout=$2 && shift ;;
+    --against) against=$(from_caller "$2") && shift ;;
+    --build) build=$(from_caller "$2") && shift ;;
+    --work) work=$(from_caller "$2") && shift ;;
+    --real) real=1 ;;
+    --peers) peers=1 ;;
+    --stages) stages=1 ;;
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    --)
+      shift
+      detect_options=("$@")
+      break
+      ;;
+    *)
+      usage >&2
+      fail "unknown option $1" 2
+      ;;
+  esac
+  shift
+done
+
+for size in "${points[@]}" "$peer_points"; do
+  [[ $size =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "\"$size\" is not a number of million points" 2
+done
+for order in "${orders[@]}"; do
+  [[ $order == scanline || $order == random ]] || fail "order \"$order\": must be scanline or random" 2
+done
+for number in "${threads[@]}" "$runs" "$timeout"; do
+  [[ $number =~ ^[1-9][0-9]*$ ]] || fail "\"$number\" is not a whole number from 1 on" 2
+done
+[[ -z $against || -x $against ]] || fail "$against is no program"
+
+# ---- programs
+
+install_packages() {
+  local missing=() package status as_root=()
+  for package in "$@"; do
+    status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$package")
+  done
+  ((${#missing[@]} > 0)) || return 0
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || fail "missing: ${missing[*]}; run as root, or install sudo"
+    as_root=(sudo)
+  fi
+  echo "bench.sh: installing ${missing[*]}" >&2
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+tools/install.sh
+install_packages libbenchmark-dev gnuplot-nox python3 time
+cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLACUNA_BENCH=ON >/dev/null
+cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna_stages
+lacuna=$build/lacuna
+
+peer_programs=()
+if ((peers)); then
+  install_packages libpcl-dev libopen3d-dev
+  cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release
+  cmake --build "$build/peers" --parallel "$(nproc)"
+  for name in pcl open3d; do
+    [[ -x $build/peers/${name}_boundary ]] && peer_programs+=("$name")
+  done
+fi
+
+# ---- scans
+
+mkdir -p "$work" bench/results
+work=$(cd "$work" && pwd)
+stem=bench/results/$(date +%Y-%m-%d-%H%M%S)
+csv=$stem.csv
+
+# Sets `scan` to the file of a synthetic scan, made unless it is there.
+make_scan() {
+  local millions=$1 order=$2 count
+  count=$(awk -v m="$millions" 'BEGIN { printf "%.0f", m * 1e6 }')
+  scan=$work/waves-${millions}M-$order.ply
+  [[ -e $scan ]] && return
+  "$lacuna" synth surface "$scan" --kind waves --density-factor 4 --points "$count" --order "$order" \
+    --holes "$((count / 10000 + 1))"
+}
+
+at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
+
+# ---- runs
+
+cleanup() { rm -rf "$work/out" "$work/told" "$work/time" "$work/plot.dat"; }
+trap cleanup EXIT
+
+# One program on the current case (scan, case, order) with the current number of threads: its rows go to the
+# csv, but not those of run 0.
+run_once() {
+  local program=$1 limit=$2 run=$3 command begin end status=0
+  case $program in
+    lacuna | against)
+      local binary=$lacuna
+      [[ $program == lacuna ]] || binary=$against
+      command=("$binary" detect "$scan" --out "$work/out" --quiet --threads "$thread_count")
+      [[ $limit == default ]] || command+=(--memory-limit "$limit")
+      command+=("${detect_options[@]}")
+      ;;
+    *) command=("$build/peers/${program}_boundary" "$scan" "$thread_count") ;;
+  esac
+  rm -rf "$work/out"
+  begin=$EPOCHREALTIME
+  /usr/bin/time -v -o "$work/time" timeout --foreground "$timeout" "${command[@]}" >"$work/told" || status=$?
+  end=$EPOCHREALTIME
+  if ((status != 0)); then
+    cat "$work/told" >&2
+    ((status != 124)) || echo "bench.sh: more than $timeout seconds" >&2
+    echo "bench.sh: ended with status $status: ${command[*]}" >&2
+    return 1
+  fi
+  ((run > 0)) || return 0
+  python3 bench/record.py --csv "$csv" --case "$case" --order "$order" --program "$program" \
+    --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
+    --time "$work/time" --told "$work/told" --report "$work/out/holes.json"
+}
+
+failures=()
+
+# All programs on one case in turns, A B A B, so that a slow minute of the machine meets all of them. One that
+# fails on a case is left out of the rest of it.
+run_case() {
+  local with_peers=$1 run limit program turn
+  local -a turns=()
+  local -A failed=()
+  for limit in "${memory_limits[@]}"; do
+    turns+=("lacuna $limit")
+    [[ -z $against ]] || turns+=("against $limit")
+  done
+  if ((with_peers)); then
+    for program in "${peer_programs[@]}"; do turns+=("$program default"); done
+  fi
+  for ((run = 0; run <= runs; ++run)); do
+    for turn in "${turns[@]}"; do
+      [[ -z ${failed[$turn]-} ]] || continue
+      read -r program limit <<<"$turn"
+      echo "bench.sh: $case, $order, $thread_count threads: $program ($limit), $( ((run)) && echo "run $run" || echo warm-up)" >&2
+      run_once "$program" "$limit" "$run" && continue
+      failed[$turn]=yes
+      failures+=("$program ($limit) on $case, $order, $thread_count threads")
+    done
+  done
+}
+
+for millions in "${points[@]}"; do
+  for order in "${orders[@]}"; do
+    make_scan "$millions" "$order"
+    case=waves-${millions}M
+    for thread_count in "${threads[@]}"; do
+      run_case "$(at_most "$millions" "$peer_points" && echo 1 || echo 0)"
+    done
+  done
+done
+
+if ((real)); then
+  order="file"
+  found=0
+  for scan in "$root"/../shared/data/*.ply; do
+    [[ -e $scan ]] || continue
+    found=1
+    case=$(basename "$scan" .ply)
+    for thread_count in "${threads[@]}"; do run_case 1; done
+  done
+  ((found)) || echo "bench.sh: no scans in $root/../shared/data" >&2
+fi
+
+# ---- what came of it
+
+{
+  echo "$(date +%Y-%m-%d), commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown)"
+  lscpu | sed -n 's/^Model name: */processor: /p; s/^CPU(s): */cores: /p'
+  awk '/^MemTotal/ { printf "memory: %.1f GiB\n", $2 / 1048576 }' /proc/meminfo
+  ((${#detect_options[@]} == 0)) || echo "detect options: ${detect_options[*]}"
+  echo
+  for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
+  [[ ! -e $csv ]] || python3 bench/summarise.py table "$csv"
+} | tee "$stem.txt"
+
+if [[ -e $csv ]]; then
+  # Paths as arguments: they may hold what gnuplot takes for its own.
+  python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
+  [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"
+fi
+if ((stages)); then
+  "$build/bench/lacuna_stages" --benchmark_out="$stem.stages.json" --benchmark_out_format=json
+fi
+echo
+ls -1 "$stem".*
+((${#failures[@]} == 0))
