@@ -1,15 +1,15 @@
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
+#include "engine/core/error.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/reference.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
 #include <catch2/catch.hpp>
-
-#include "engine/core/error.hpp"
-#include "tests/support/clouds.hpp"
-#include "tests/support/detected.hpp"
-#include "tests/support/reference.hpp"
 
 namespace lacuna {
 namespace {
@@ -20,7 +20,9 @@ Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2) 
   return config;
 }
 
-bool near(float value, double expected) { return std::abs(value - expected) <= 1e-6; }
+bool near(float value, double expected) {
+  return std::abs(value - expected) <= 1e-6;
+}
 
 std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointId>> loops) {
   std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
@@ -220,7 +222,8 @@ TEST_CASE("lone outliers at 1e9 and clusters far apart see the neighbours they h
   outliers.positions.push_back({1e9, 0, 0});
   outliers.positions.push_back({-3e9, 1e9, 7});
   outliers.positions.insert(outliers.positions.begin(), {0, 0, 1e9});
-  const Cloud clusters = sphere(300).joined(sphere(10).translated({1e7, 0, 0})).joined(plane(20).translated({0, 1e8, 0}));
+  const Cloud clusters =
+      sphere(300).joined(sphere(10).translated({1e7, 0, 0})).joined(plane(20).translated({0, 1e8, 0}));
   for (const std::int64_t tile_points : {1, 60, 10'000}) {
     check_against_plain(outliers, {}, tile_points);
     check_against_plain(clusters, {}, tile_points);
@@ -236,7 +239,8 @@ TEST_CASE("with k larger than the scan every point is every other's neighbour") 
 }
 
 TEST_CASE("the smallest memory limit and eight threads change nothing") {
-  const Cloud cloud = plane(120).punched({60, 60}, 9).jittered(0.25, 3).joined(hard_cloud(5).translated({300, 0, 0}));
+  const Cloud cloud =
+      plane(120).punched({60, 60}, 9).jittered(0.25, 3).joined(hard_cloud(5).translated({300, 0, 0}));
   Config limited;
   limited.run.memory_limit = 64 << 20;
   const std::string expected = run_engine(cloud, tiled({}, 1'000'000, 1)).bytes();
@@ -283,14 +287,16 @@ TEST_CASE("a step of the density to a quarter has no loop along it, only the rim
   Random random(11);
   for (const Eigen::Vector3d& p : density_step(n).positions) {
     const double jitter = p.x() < n / 2 ? 0.25 : 0.5;  // a quarter of the spacing
-    cloud.positions.push_back(p + Eigen::Vector3d(random.uniform(-jitter, jitter), random.uniform(-jitter, jitter), 0));
+    cloud.positions.push_back(
+        p + Eigen::Vector3d(random.uniform(-jitter, jitter), random.uniform(-jitter, jitter), 0));
   }
   for (const std::int64_t tile_points : {50, 10'000}) {
     const Detected detected = run_engine(cloud, tiled({}, tile_points));
     REQUIRE(detected.loops.size() == 1);
     CHECK(detected.loops[0].measures.kind == LoopKind::kRim);
     for (const LoopPoint& p : detected.loops[0].points) {
-      const double edge = std::min({p.position.x(), p.position.y(), n - 1 - p.position.x(), n - 1 - p.position.y()});
+      const double edge =
+          std::min({p.position.x(), p.position.y(), n - 1 - p.position.x(), n - 1 - p.position.y()});
       if (edge > 3.5) FAIL_CHECK("point " << value(p.id) << " of the loop lies inside");
     }
   }
@@ -299,8 +305,11 @@ TEST_CASE("a step of the density to a quarter has no loop along it, only the rim
 // ---- Invariance --------------------------------------------------------------------------------------
 
 Cloud holed_cloud(std::uint64_t seed) {
-  return plane(40).punched({20, 20}, 5).jittered(0.25, seed).noisy(0.02, seed).joined(
-      sphere(800).scaled(6).noisy(0.01, seed).translated({70, 10, 0}));
+  return plane(40)
+      .punched({20, 20}, 5)
+      .jittered(0.25, seed)
+      .noisy(0.02, seed)
+      .joined(sphere(800).scaled(6).noisy(0.01, seed).translated({70, 10, 0}));
 }
 
 TEST_CASE("a scan moved by a million has the same results, to the last bit where its digits allow") {

@@ -1,14 +1,15 @@
 // The engine against what another program made of real scans: ../shared/golden.
-#include <algorithm>
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/golden.hpp"
 
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/golden.hpp"
 #include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {

@@ -1,12 +1,12 @@
 // Tiling never shows, on real scans: every byte of the result for every tile size, thread count and memory
 // limit. Slow: minutes.
-#include <filesystem>
-
-#include <catch2/catch.hpp>
-
 #include "io/file_scan.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
+
+#include <filesystem>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -23,7 +23,8 @@ constexpr std::uint64_t kLeast = 64 << 20;
 std::string bytes_of(const std::filesystem::path& file, const Setting& setting, bool orient) {
   Config config;
   config.normals.orient = orient;
-  config.run = {.threads = setting.threads, .memory_limit = setting.memory_limit, .tile_points = setting.tile_points};
+  config.run = {
+      .threads = setting.threads, .memory_limit = setting.memory_limit, .tile_points = setting.tile_points};
   FileScan scan({file}, {});
   return run_engine(scan, config).bytes();
 }
@@ -38,15 +39,16 @@ void check_tiling(const std::string& name, const std::vector<Setting>& settings,
   const std::string expected = bytes_of(file, {kOneTile, 1, 0}, orient);
   CHECK(!expected.empty());
   for (const Setting& s : settings) {
-    INFO(name << ": " << s.tile_points << " points a tile, " << s.threads << " threads, limit " << s.memory_limit);
+    INFO(name << ": " << s.tile_points << " points a tile, " << s.threads << " threads, limit "
+              << s.memory_limit);
     const bool same = bytes_of(file, s, orient) == expected;
     CHECK(same);
   }
 }
 
-const std::vector<Setting> kAll = {{500, 1, 0},         {500, 8, kLeast},      {5'000, 2, 0},    {5'000, 8, kLeast},
-                                   {50'000, 1, kLeast}, {50'000, 8, 0},        {kOneTile, 8, 0}, {kOneTile, 2, kLeast},
-                                   {0, 0, 0},           {0, 8, kLeast}};
+const std::vector<Setting> kAll = {
+    {500, 1, 0},    {500, 8, kLeast}, {5'000, 2, 0},         {5'000, 8, kLeast}, {50'000, 1, kLeast},
+    {50'000, 8, 0}, {kOneTile, 8, 0}, {kOneTile, 2, kLeast}, {0, 0, 0},          {0, 8, kLeast}};
 
 TEST_CASE("tiling never shows on the bunny, whole and as a single range map", "[.slow]") {
   check_tiling("bun_zipper.ply", kAll);

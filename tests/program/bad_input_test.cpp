@@ -1,22 +1,21 @@
 // Whatever the input and the disk: a result where one exists, else one clear line and exit code 1, nothing
 // half-written.
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
-
-#include <sys/mount.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
 #include "engine/core/error.hpp"
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -57,17 +56,20 @@ void check_failure(const ProgramResult& result, const std::string& named) {
   CHECK_THAT(last, Catch::Matchers::Contains(named));
 }
 
-ProgramResult detect_quietly(const std::string& scan, const fs::path& out, std::vector<std::string> more = {}) {
+ProgramResult detect_quietly(const std::string& scan, const fs::path& out,
+                             std::vector<std::string> more = {}) {
   std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--quiet"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_program(arguments);
 }
 
-nlohmann::json report_of(const fs::path& out) { return nlohmann::json::parse(test::read_file(out / "holes.json")); }
+nlohmann::json report_of(const fs::path& out) {
+  return nlohmann::json::parse(test::read_file(out / "holes.json"));
+}
 
 TEST_CASE("a scan cut at any byte is an error of the engine, and leaves an empty workspace") {
   const ScratchFolder scratch;
-  const std::string whole = binary_ply(plane(4)) ;
+  const std::string whole = binary_ply(plane(4));
   const fs::path workspace = scratch / "workspace";
   fs::create_directory(workspace);
   NoProgress quiet;
@@ -98,24 +100,29 @@ TEST_CASE("a scan cut at some bytes, wrong and absurd counts end the program wit
     check_failure(detect_quietly(scratch.write("cut.ply", whole.substr(0, length)), out), "cut.ply");
     CHECK_FALSE(fs::exists(out));
   }
-  for (const std::string count : {"101", "1000000000000000000", "18446744073709551615", "18446744073709551616", "-1"}) {
+  for (const std::string count :
+       {"101", "1000000000000000000", "18446744073709551615", "18446744073709551616", "-1"}) {
     for (const std::string format : {"binary_little_endian", "binary_big_endian", "ascii"}) {
       INFO(count << " vertices, " << format);
       const std::string body = format == "ascii" ? "1 2 3\n4 5 6\n" : whole.substr(header("100").size());
-      check_failure(detect_quietly(scratch.write("absurd.ply", header(count, format) + body), out), "absurd.ply");
-      check_failure(run_program({"info", scratch.write("absurd.ply", header(count, format) + body)}), "absurd.ply");
+      check_failure(detect_quietly(scratch.write("absurd.ply", header(count, format) + body), out),
+                    "absurd.ply");
+      check_failure(run_program({"info", scratch.write("absurd.ply", header(count, format) + body)}),
+                    "absurd.ply");
       CHECK_FALSE(fs::exists(out));
     }
   }
-  check_failure(detect_quietly(scratch.write("more.ply", header("99") + whole.substr(header("100").size())), out),
-                "more.ply");
+  check_failure(
+      detect_quietly(scratch.write("more.ply", header("99") + whole.substr(header("100").size())), out),
+      "more.ply");
 }
 
 TEST_CASE("a header alone is a scan without points: results without loops") {
   const ScratchFolder scratch;
   for (const std::string format : {"binary_little_endian", "ascii"}) {
     const fs::path out = scratch / format;
-    const ProgramResult result = detect_quietly(scratch.write("none.ply", header("0", format)), out, {"--points"});
+    const ProgramResult result =
+        detect_quietly(scratch.write("none.ply", header("0", format)), out, {"--points"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(report_of(out).at("loops").empty());
@@ -128,15 +135,22 @@ TEST_CASE("few points, equal points, collinear ones and unusable ones have resul
   const ScratchFolder scratch;
   const double nan = std::nan("");
   const std::vector<std::pair<Cloud, std::size_t>> scans = {
-      {line(1), 0},          {line(2), 0},  {scattered(15, 1), 0}, {scattered(16, 1), 0},
-      {coincident(3000), 0}, {line(99), 0}, {plane(12), 0},        {plane(12).with_unusable(20, 1), 1},
+      {line(1), 0},
+      {line(2), 0},
+      {scattered(15, 1), 0},
+      {scattered(16, 1), 0},
+      {coincident(3000), 0},
+      {line(99), 0},
+      {plane(12), 0},
+      {plane(12).with_unusable(20, 1), 1},
       {Cloud{std::vector(40, Eigen::Vector3d(nan, INFINITY, -INFINITY)), {}}, 40}};
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const fs::path out = scratch / std::to_string(i);
     const std::string file = scratch.write("scan.ply", binary_ply(scans[i].first));
     for (const std::string tile_points : {"1", "1000"}) {
       const ProgramResult result = detect_quietly(
-          file, out, {"--points", "--normals", "--orient-normals", "--tile-points", tile_points, "--threads", "3"});
+          file, out,
+          {"--points", "--normals", "--orient-normals", "--tile-points", tile_points, "--threads", "3"});
       INFO("scan " << i << ": " << result.err);
       REQUIRE(result.exit_code == 0);
       CHECK(report_of(out).at("counts").at("points") == scans[i].first.size());
@@ -181,15 +195,17 @@ TEST_CASE("without permission to read or to write there is one line that names t
   fs::create_directory(locked);
   ::chmod(locked.c_str(), 0555);
   check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked, "--quiet"})), "locked");
-  check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked + "/new", "--quiet"})), "locked");
-  check_failure(test::run_command(as_nobody({"detect", scan, "--out", (root / "other").string(), "--workspace", locked,
-                                             "--quiet"})),
+  check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked + "/new", "--quiet"})),
+                "locked");
+  check_failure(test::run_command(as_nobody(
+                    {"detect", scan, "--out", (root / "other").string(), "--workspace", locked, "--quiet"})),
                 "locked");
   CHECK(count_entries(locked) == 0);
   CHECK_FALSE(fs::exists(root / "other"));
 
   ::chmod(scan.c_str(), 0000);
-  check_failure(test::run_command(as_nobody({"detect", scan, "--out", (root / "other").string(), "--quiet"})), "scan.ply");
+  check_failure(test::run_command(as_nobody({"detect", scan, "--out", (root / "other").string(), "--quiet"})),
+                "scan.ply");
   check_failure(test::run_command(as_nobody({"info", scan})), "scan.ply");
   CHECK_FALSE(fs::exists(root / "other"));
   ::chmod(scan.c_str(), 0644);
@@ -219,7 +235,8 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
   const Cloud cloud = plane(120).punched({60, 60}, 8).jittered(0.2, 1);
   const std::string scan = scratch.write("scan.ply", binary_ply(cloud));
   std::size_t failed = 0, done = 0;
-  for (const std::string size : {"8k", "64k", "256k", "512k", "1m", "1536k", "2m", "2560k", "3m", "4m", "64m"}) {
+  for (const std::string size :
+       {"8k", "64k", "256k", "512k", "1m", "1536k", "2m", "2560k", "3m", "4m", "64m"}) {
     const SmallDisk disk(scratch / "disk", size);
     if (!disk.mounted()) {
       WARN("cannot mount a small disk: skipped");
@@ -228,8 +245,9 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     INFO("workspace on a disk of " << size);
     const fs::path out = scratch / ("out " + size);
     const ProgramResult result =
-        detect_quietly(scan, out, {"--workspace", disk.path().string(), "--points", "--normals", "--orient-normals",
-                                   "--tile-points", "500", "--memory-limit", "64MiB"});
+        detect_quietly(scan, out,
+                       {"--workspace", disk.path().string(), "--points", "--normals", "--orient-normals",
+                        "--tile-points", "500", "--memory-limit", "64MiB"});
     CHECK(count_entries(disk.path()) == 0);
     if (result.exit_code == 0) {
       ++done;
@@ -248,8 +266,9 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
   for (const std::string size : {"4k", "16k", "64k", "128k", "256k", "512k"}) {
     const SmallDisk disk(scratch / "disk", size);
     INFO("results on a disk of " << size);
-    const ProgramResult result = detect_quietly(
-        scan, disk.path() / "out", {"--workspace", (scratch / "").string(), "--points", "--tile-points", "500"});
+    const ProgramResult result =
+        detect_quietly(scan, disk.path() / "out",
+                       {"--workspace", (scratch / "").string(), "--points", "--tile-points", "500"});
     if (result.exit_code == 0) continue;
     ++failed;
     check_failure(result, disk.path().string());

@@ -1,8 +1,8 @@
 // Memory is bounded by the setting, as the operating system measures it. Slow.
-#include <catch2/catch.hpp>
-
 #include "engine/config.hpp"
 #include "tests/support/run_program.hpp"
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -18,7 +18,8 @@ void check_memory(const std::string& points, const std::string& limit) {
   REQUIRE(limited.exit_code == 0);
   WARN(points << " points in " << limit << ": peak " << limited.peak_memory / (1 << 20) << " MiB");
   CHECK(limited.peak_memory < parse_bytes(limit));
-  REQUIRE(test::run_program({"detect", scan, "--out", (scratch / "free").string(), "--quiet"}).exit_code == 0);
+  REQUIRE(test::run_program({"detect", scan, "--out", (scratch / "free").string(), "--quiet"}).exit_code ==
+          0);
   for (const char* file : {"boundary.ply", "loops.ply"}) {
     const bool same = test::read_file(scratch / "limited" / file) == test::read_file(scratch / "free" / file);
     INFO(file);

@@ -1,11 +1,12 @@
 #include "tests/support/detected.hpp"
 
+#include "tests/support/memory_scan.hpp"
+
 #include <cstring>
 #include <filesystem>
 #include <utility>
-#include <unistd.h>
 
-#include "tests/support/memory_scan.hpp"
+#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -60,7 +61,8 @@ std::string Detected::bytes() const {
   }
   for (const ReportedLoop& loop : loops) {
     const LoopMeasures& m = loop.measures;
-    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability}) put(bytes, value);
+    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability})
+      put(bytes, value);
     put(bytes, m.kind);
     put(bytes, m.points);
     put(bytes, m.centroid);
@@ -73,8 +75,9 @@ std::string Detected::bytes() const {
     }
   }
   const Counts& c = summary.counts;
-  for (const std::uint64_t count : {c.points, c.dropped, c.duplicates, c.candidates, c.coherent, c.boundary_points,
-                                    c.eligible_edges, c.components, c.raw_loops, c.undefined_normals}) {
+  for (const std::uint64_t count :
+       {c.points, c.dropped, c.duplicates, c.candidates, c.coherent, c.boundary_points, c.eligible_edges,
+        c.components, c.raw_loops, c.undefined_normals}) {
     put(bytes, count);
   }
   put(bytes, summary.mean_neighbours);
@@ -98,7 +101,8 @@ Detected run_engine(PointSource& scan, Config config) {
     detected.points.insert(detected.points.end(), block.begin(), block.end());
   });
   detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
-  for (std::size_t i = 0; i < detection->loops().size(); ++i) detected.loops.push_back(detection->read_loop(i));
+  for (std::size_t i = 0; i < detection->loops().size(); ++i)
+    detected.loops.push_back(detection->read_loop(i));
   return detected;
 }
 

@@ -1,12 +1,12 @@
 // A finished run of the engine, all of it in memory, to be compared.
 #pragma once
 
+#include "engine/pipeline.hpp"
+#include "tests/support/clouds.hpp"
+
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "engine/pipeline.hpp"
-#include "tests/support/clouds.hpp"
 
 namespace lacuna {
 

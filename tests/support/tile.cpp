@@ -11,12 +11,15 @@ std::vector<PointId> distinct_ids(const Cloud& cloud) {
   std::vector<PointId> ids;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d& p = cloud.positions[i];
-    if (p.allFinite() && first_at.try_emplace({p.x(), p.y(), p.z()}, PointId{i}).second) ids.push_back(PointId{i});
+    if (p.allFinite() && first_at.try_emplace({p.x(), p.y(), p.z()}, PointId{i}).second)
+      ids.push_back(PointId{i});
   }
   return ids;
 }
 
-TilePoints whole_tile(const Cloud& cloud) { return part_tile(cloud, std::vector<bool>(cloud.size(), true), 0); }
+TilePoints whole_tile(const Cloud& cloud) {
+  return part_tile(cloud, std::vector<bool>(cloud.size(), true), 0);
+}
 
 TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::size_t k) {
   std::vector<PointId> ids = distinct_ids(cloud);
@@ -32,7 +35,8 @@ TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::siz
   for (LocalIndex q = points.owned; q < points.size(); ++q) {
     std::vector<Neighbour> nearest;
     for (LocalIndex p = 0; p < points.size(); ++p) {
-      if (p != q) nearest.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[p], p});
+      if (p != q)
+        nearest.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[p], p});
     }
     std::sort(nearest.begin(), nearest.end());
     for (std::size_t i = 0; i < std::min(k, nearest.size()); ++i) {

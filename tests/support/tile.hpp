@@ -1,11 +1,11 @@
 // A cloud as a tile sees it, for tests of single stages.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include "engine/data/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
+
+#include <cstddef>
+#include <vector>
 
 namespace lacuna {
 

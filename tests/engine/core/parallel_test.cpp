@@ -1,5 +1,7 @@
 #include "engine/core/parallel.hpp"
 
+#include "tests/support/clouds.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -9,8 +11,6 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-
-#include "tests/support/clouds.hpp"
 
 namespace lacuna {
 namespace {
@@ -27,7 +27,8 @@ TEST_CASE("every index is visited once, with any number of threads") {
     });
     crew.for_each_within(std::vector<std::uint64_t>(1000, 3), 10, [&](std::size_t i) { ++within[i]; });
     for (std::size_t i = 0; i < 1000; ++i) {
-      if (visits[i] != 1 || blocks[i] != 1 || within[i] != 1) FAIL_CHECK("index " << i << ", " << threads << " threads");
+      if (visits[i] != 1 || blocks[i] != 1 || within[i] != 1)
+        FAIL_CHECK("index " << i << ", " << threads << " threads");
     }
   }
 }
@@ -60,7 +61,8 @@ TEST_CASE("bodies that run together never need more than the budget, save one al
   Random random(1);
   constexpr std::uint64_t kBudget = 100;
   std::vector<std::uint64_t> needs;
-  for (int i = 0; i < 300; ++i) needs.push_back(std::uint64_t(random.chance(0.05) ? 250 : random.whole(0, 60)));
+  for (int i = 0; i < 300; ++i)
+    needs.push_back(std::uint64_t(random.chance(0.05) ? 250 : random.whole(0, 60)));
   std::mutex mutex;
   std::uint64_t used = 0, running = 0, most_running = 0;
   std::size_t over = 0;
@@ -102,7 +104,8 @@ TEST_CASE("nothing to do is done at once") {
   const Crew crew(4);
   crew.for_each(0, [](std::size_t) { FAIL(); });
   crew.for_each_within({}, 0, [](std::size_t) { FAIL(); });
-  crew.pipeline([](std::size_t) { return false; }, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); }, 3);
+  crew.pipeline([](std::size_t) { return false; }, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); },
+                3);
 }
 
 TEST_CASE("a body may itself use the crew") {

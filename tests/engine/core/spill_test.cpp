@@ -1,18 +1,19 @@
 // Data on its way through the workspace: columns, lists, sorts, scratch arrays.
+#include "engine/core/spill.hpp"
+
+#include "engine/core/error.hpp"
+#include "engine/core/external_sort.hpp"
+#include "engine/core/file.hpp"
+#include "engine/core/scratch.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <thread>
 
 #include <catch2/catch.hpp>
-
-#include "engine/core/error.hpp"
-#include "engine/core/external_sort.hpp"
-#include "engine/core/file.hpp"
-#include "engine/core/scratch.hpp"
-#include "engine/core/spill.hpp"
-#include "tests/support/clouds.hpp"
-#include "tests/support/run_program.hpp"
 
 namespace lacuna {
 namespace {
@@ -80,7 +81,8 @@ TEST_CASE("lists beyond the budget read back all that was appended, each its own
   Random random(2);
   std::vector<Record> batch;
   for (std::uint64_t i = 0; i < 4000; ++i) {
-    const auto list = static_cast<std::size_t>(random.chance(0.5) ? 0 : random.whole(0, kLists - 2));  // one stays empty
+    const auto list =
+        static_cast<std::size_t>(random.chance(0.5) ? 0 : random.whole(0, kLists - 2));  // one stays empty
     batch.clear();
     for (std::int64_t n = random.whole(0, 40); n > 0; --n) batch.push_back({random.next(), i});
     spill.append(list, batch);

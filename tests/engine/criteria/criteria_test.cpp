@@ -1,13 +1,12 @@
 // Each criterion on its own, on surfaces drawn by hand.
 #include "engine/criteria/criterion.hpp"
+#include "engine/criteria/direction_gap.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-
-#include "engine/criteria/direction_gap.hpp"
+#include <Eigen/Geometry>
 
 namespace lacuna {
 namespace {
@@ -138,7 +137,6 @@ TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small
   CHECK(shape(2, 1, -1e-17) == Approx(boundary));
   CHECK(shape(0, 0, 0) == shape(1, 1, 1));
 }
-
 
 }  // namespace
 }  // namespace lacuna

@@ -1,13 +1,15 @@
 #include "engine/stages/coherence.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "tests/support/clouds.hpp"
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
 
-Candidate leaning(std::uint64_t row, std::uint64_t near, std::uint64_t far) { return {Row{row}, Row{near}, Row{far}}; }
+Candidate leaning(std::uint64_t row, std::uint64_t near, std::uint64_t far) {
+  return {Row{row}, Row{near}, Row{far}};
+}
 
 RowSet all_of(const std::vector<Candidate>& candidates, std::uint64_t rows) {
   RowSet set(rows);

@@ -1,21 +1,23 @@
 #include "engine/stages/eligible_edges.hpp"
 
-#include <algorithm>
-#include <map>
-
-#include <catch2/catch.hpp>
-
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
 
 using Edges = std::map<std::pair<PointId, PointId>, double>;
 
-std::pair<PointId, PointId> ends(PointId a, PointId b) { return std::minmax(a, b); }
+std::pair<PointId, PointId> ends(PointId a, PointId b) {
+  return std::minmax(a, b);
+}
 
 Edges plain_edges(const reference::Detection& plain) {
   Edges edges;
@@ -43,10 +45,9 @@ TEST_CASE("eligible edges are those of the plain method, each once, with their w
     const TilePoints points = whole_tile(cloud);
     const Rows rows =
         find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), plain.eps);
-    const TileEdges found =
-        eligible_edges(points, rows,
-                       evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria),
-                       config.spanning);
+    const TileEdges found = eligible_edges(
+        points, rows, evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria),
+        config.spanning);
     Edges edges;
     for (const TileEdge& e : found.inside) edges[ends(points.ids[e.a], points.ids[e.b])] = e.weight;
     INFO("seed " << seed);
@@ -70,8 +71,8 @@ TEST_CASE("of an eligible edge between tiles the tile of a strong end tells") {
   for (const std::vector<bool>& owns : {left, right}) {
     const TilePoints points = part_tile(cloud, owns, 15);
     const Rows rows = find_neighbourhoods(points, 15, 0);
-    const TileEdges found =
-        eligible_edges(points, rows, evaluate(points, rows, {}, config.normals, config.criteria), config.spanning);
+    const TileEdges found = eligible_edges(
+        points, rows, evaluate(points, rows, {}, config.normals, config.criteria), config.spanning);
     REQUIRE_FALSE(found.crossings.empty());
     for (const TileEdge& e : found.inside) edges[ends(points.ids[e.a], points.ids[e.b])] = e.weight;
     for (const Crossing& c : found.crossings) {

@@ -1,12 +1,12 @@
 #include "engine/stages/evaluate.hpp"
 
-#include <cmath>
-
-#include <catch2/catch.hpp>
-
 #include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -21,7 +21,9 @@ Evaluation evaluate_first(const Cloud& cloud, const Config& config = {}) {
   return evaluate_whole(cloud, whole_tile(cloud), config, config.neighbourhood.eps)[0];
 }
 
-bool near(double a, double b) { return std::abs(a - b) <= 1e-9; }
+bool near(double a, double b) {
+  return std::abs(a - b) <= 1e-9;
+}
 
 TEST_CASE("probabilities are those of the plain method to 1e-9, gap neighbours and distances the same") {
   std::size_t compared = 0, ill_conditioned = 0;
@@ -44,12 +46,13 @@ TEST_CASE("probabilities are those of the plain method to 1e-9, gap neighbours a
         ++ill_conditioned;
         continue;
       }
-      wrong_criteria += !near(e.criteria[0], p.angle) || !near(e.criteria[1], p.halfdisc) ||
-                        !near(e.criteria[2], p.shape);
+      wrong_criteria +=
+          !near(e.criteria[0], p.angle) || !near(e.criteria[1], p.halfdisc) || !near(e.criteria[2], p.shape);
       wrong_rounding += std::abs(e.probability - p.combined) > kProbabilityStep / 2 + 1e-9;
       const bool has_gap = e.gap_near != kNoIndex;
-      wrong_gap += has_gap != p.gap.has_value() ||
-                   (has_gap && (points.ids[e.gap_near] != (*p.gap)[0] || points.ids[e.gap_far] != (*p.gap)[1]));
+      wrong_gap +=
+          has_gap != p.gap.has_value() ||
+          (has_gap && (points.ids[e.gap_near] != (*p.gap)[0] || points.ids[e.gap_far] != (*p.gap)[1]));
     }
     INFO("seed " << seed);
     CHECK(wrong_criteria == 0);

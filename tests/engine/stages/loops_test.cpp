@@ -1,14 +1,14 @@
 #include "engine/stages/loops.hpp"
 
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
 #include <algorithm>
 #include <map>
 #include <queue>
 #include <set>
 
 #include <catch2/catch.hpp>
-
-#include "tests/support/clouds.hpp"
-#include "tests/support/run_program.hpp"
 
 namespace lacuna {
 namespace {
@@ -36,9 +36,8 @@ std::vector<Cycle> loops_of(LocalIndex vertices, const Edges& edges, std::uint64
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", budget);
   std::vector<Cycle> loops;
-  find_loops({offsets, indices}, scratch, [&](std::span<const LocalIndex> loop) {
-    loops.emplace_back(loop.begin(), loop.end());
-  });
+  find_loops({offsets, indices}, scratch,
+             [&](std::span<const LocalIndex> loop) { loops.emplace_back(loop.begin(), loop.end()); });
   return loops;
 }
 

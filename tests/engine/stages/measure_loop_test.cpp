@@ -1,11 +1,11 @@
 #include "engine/stages/measure_loop.hpp"
 
+#include "tests/support/clouds.hpp"
+
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
-
-#include "tests/support/clouds.hpp"
 
 namespace lacuna {
 namespace {
@@ -18,17 +18,22 @@ Loop circle(int n, double radius, float outwards) {
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
     const Vector3d at(std::cos(angle), std::sin(angle), 0);
-    loop.push_back({.id = PointId{std::uint64_t(i)}, .position = radius * at,
-                    .surface = 0.1f * outwards * at.cast<float>(), .probability = 0.75f});
+    loop.push_back({.id = PointId{std::uint64_t(i)},
+                    .position = radius * at,
+                    .surface = 0.1f * outwards * at.cast<float>(),
+                    .probability = 0.75f});
   }
   return loop;
 }
 
 Loop square(float outwards) {
   Loop loop;
-  for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(2, 0, 0), Vector3d(2, 2, 0), Vector3d(0, 2, 0)}) {
+  for (const Vector3d& corner :
+       {Vector3d(0, 0, 0), Vector3d(2, 0, 0), Vector3d(2, 2, 0), Vector3d(0, 2, 0)}) {
     const Eigen::Vector3f out = (corner - Vector3d(1, 1, 0)).cast<float>();
-    loop.push_back({.id = PointId{loop.size()}, .position = corner, .surface = outwards * out,
+    loop.push_back({.id = PointId{loop.size()},
+                    .position = corner,
+                    .surface = outwards * out,
                     .probability = 0.25f * static_cast<float>(loop.size())});
   }
   return loop;
@@ -69,7 +74,8 @@ TEST_CASE("the surface outside makes a hole, inside a rim, whatever the directio
 
 TEST_CASE("the rim of a dented outline is a rim though parts of it bend inwards") {
   Loop star = circle(100, 3, -1);
-  for (std::size_t i = 0; i < star.size(); ++i) star[i].position *= 1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i));
+  for (std::size_t i = 0; i < star.size(); ++i)
+    star[i].position *= 1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i));
   CHECK(measure_loop(star, 1).kind == LoopKind::kRim);
 }
 

@@ -1,10 +1,10 @@
 #include "engine/stages/neighbourhoods.hpp"
 
-#include <catch2/catch.hpp>
-
 #include "engine/core/error.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -18,7 +18,8 @@ std::vector<std::vector<PointId>> ids_of(const Rows& rows, const TilePoints& poi
 }
 
 // Of the tile's owned points; nothing after section 1 is computed beyond what it must.
-std::vector<std::vector<PointId>> plain(const Cloud& cloud, const TilePoints& points, std::size_t k, double eps) {
+std::vector<std::vector<PointId>> plain(const Cloud& cloud, const TilePoints& points, std::size_t k,
+                                        double eps) {
   Config config;
   config.neighbourhood = {.k = static_cast<std::int64_t>(k), .eps = eps};
   config.spanning.max_prob_weight = 1e-9;

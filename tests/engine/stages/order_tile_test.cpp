@@ -1,17 +1,19 @@
 #include "engine/stages/order_tile.hpp"
 
+#include "tests/support/clouds.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/clouds.hpp"
-
 namespace lacuna {
 namespace {
 
-StoredPoint stored(double x, double y, double z, std::uint64_t id) { return {x, y, z, PointId{id}}; }
+StoredPoint stored(double x, double y, double z, std::uint64_t id) {
+  return {x, y, z, PointId{id}};
+}
 
 TEST_CASE("points come by cell, then by coordinates; of coincident ones the lowest id stays") {
   const std::vector<StoredPoint> points = {stored(5, 0, 0, 7), stored(1, 0, 0, 4), stored(1, 0, 0, 2),
@@ -27,7 +29,8 @@ TEST_CASE("points come by cell, then by coordinates; of coincident ones the lowe
 }
 
 TEST_CASE("minus zero is at the place of zero") {
-  const std::vector<StoredPoint> points = {stored(-0.0, 0, 0.0, 3), stored(0.0, -0.0, -0.0, 1), stored(0, 0, 0, 2)};
+  const std::vector<StoredPoint> points = {stored(-0.0, 0, 0.0, 3), stored(0.0, -0.0, -0.0, 1),
+                                           stored(0, 0, 0, 2)};
   const std::vector<std::uint32_t> cells = {0, 0, 0};
   const OrderedTile tile = order_tile(points, cells, 1);
   CHECK(tile.order == std::vector<std::uint32_t>{1});
@@ -40,7 +43,8 @@ TEST_CASE("nothing is ordered into nothing") {
   CHECK(tile.cell_points == std::vector<std::uint64_t>{0, 0});
 }
 
-TEST_CASE("every point is kept or a duplicate of one kept at its very place, and input order does not matter") {
+TEST_CASE(
+    "every point is kept or a duplicate of one kept at its very place, and input order does not matter") {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Random random(seed);
     std::vector<StoredPoint> points;
@@ -57,7 +61,8 @@ TEST_CASE("every point is kept or a duplicate of one kept at its very place, and
       for (const std::uint32_t i : tile.order) kept.push_back(in[i].id);
       for (const Duplicate& d : tile.duplicates) {
         const StoredPoint& of = in[tile.order[d.of]];
-        const auto at = std::find_if(in.begin(), in.end(), [&](const StoredPoint& p) { return p.id == d.id; });
+        const auto at =
+            std::find_if(in.begin(), in.end(), [&](const StoredPoint& p) { return p.id == d.id; });
         CHECK((at->x == of.x && at->y == of.y && at->z == of.z && of.id < d.id));
         copies.push_back(d.id);
       }

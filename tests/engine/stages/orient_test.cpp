@@ -1,15 +1,17 @@
 #include "engine/stages/orient.hpp"
 
+#include "tests/support/clouds.hpp"
+
 #include <algorithm>
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/clouds.hpp"
-
 namespace lacuna {
 namespace {
 
-OrientedEnd end_at(std::uint64_t id, const Eigen::Vector3d& normal) { return {PointId{id}, Row{100 + id}, normal}; }
+OrientedEnd end_at(std::uint64_t id, const Eigen::Vector3d& normal) {
+  return {PointId{id}, Row{100 + id}, normal};
+}
 
 OrientationEdge edge(double weight, std::uint64_t low, std::uint64_t high) {
   return {weight, PointId{low}, PointId{high}, Row{low}, Row{high}, 0};
@@ -45,8 +47,10 @@ TEST_CASE("the forest leaves out the heaviest edge of a ring, of equal ones the 
     return pairs;
   };
   using Pairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
-  CHECK(ends(spanning_forest({edge(0.5, 0, 1), edge(0.9, 1, 2), edge(0.1, 0, 2)}, 0, 3)) == Pairs{{0, 1}, {0, 2}});
-  CHECK(ends(spanning_forest({edge(0.5, 1, 2), edge(0.5, 0, 2), edge(0.5, 0, 1)}, 0, 3)) == Pairs{{0, 1}, {0, 2}});
+  CHECK(ends(spanning_forest({edge(0.5, 0, 1), edge(0.9, 1, 2), edge(0.1, 0, 2)}, 0, 3)) ==
+        Pairs{{0, 1}, {0, 2}});
+  CHECK(ends(spanning_forest({edge(0.5, 1, 2), edge(0.5, 0, 2), edge(0.5, 0, 1)}, 0, 3)) ==
+        Pairs{{0, 1}, {0, 2}});
   CHECK(spanning_forest({}, 0, 0).empty());
 }
 
@@ -64,9 +68,12 @@ TEST_CASE("a forest of parts' forests and the edges between is the forest of the
       }
     }
     for (const OrientationEdge& e : all) {
-      if (value(e.high_id) < 30) low.push_back(e);
-      else if (value(e.low_id) >= 30) high.push_back(e);
-      else reduced.push_back(e);
+      if (value(e.high_id) < 30)
+        low.push_back(e);
+      else if (value(e.low_id) >= 30)
+        high.push_back(e);
+      else
+        reduced.push_back(e);
     }
     for (const OrientationEdge& e : spanning_forest(low, 0, 30)) reduced.push_back(e);
     for (const OrientationEdge& e : spanning_forest(high, 30, 30)) reduced.push_back(e);

@@ -1,14 +1,14 @@
 #include "engine/stages/spanning.hpp"
 
+#include "engine/stages/union_find.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
 #include <algorithm>
 #include <queue>
 #include <set>
 
 #include <catch2/catch.hpp>
-
-#include "engine/stages/union_find.hpp"
-#include "tests/support/clouds.hpp"
-#include "tests/support/run_program.hpp"
 
 namespace lacuna {
 namespace {
@@ -114,8 +114,9 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
     std::set<std::pair<LocalIndex, LocalIndex>> drawn;
     for (int i = 0; i < 400; ++i) {
       const std::int64_t a = random.whole(0, vertices - 1);
-      const std::int64_t b = random.chance(0.1) ? random.whole(0, vertices - 1)
-                                                : std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
+      const std::int64_t b = random.chance(0.1)
+                                 ? random.whole(0, vertices - 1)
+                                 : std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
       if (a != b) drawn.insert(std::minmax(static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)));
     }
     Edges edges(drawn.begin(), drawn.end());
@@ -137,7 +138,8 @@ TEST_CASE("the root of a set is its smallest element, whatever the order of unio
     for (LocalIndex v = 0; v < 100; ++v) smallest[v] = v;
     UnionFind sets(links);
     for (int i = 0; i < 80; ++i) {
-      const auto a = static_cast<LocalIndex>(random.whole(0, 99)), b = static_cast<LocalIndex>(random.whole(0, 99));
+      const auto a = static_cast<LocalIndex>(random.whole(0, 99)),
+                 b = static_cast<LocalIndex>(random.whole(0, 99));
       const LocalIndex low = std::min(smallest[a], smallest[b]), high = std::max(smallest[a], smallest[b]);
       CHECK(sets.unite(a, b) == (low != high));
       std::replace(smallest.begin(), smallest.end(), high, low);

@@ -1,10 +1,4 @@
 // survey, split and reach: from points to cells, tiles, and how far neighbours may be.
-#include <algorithm>
-#include <map>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 #include "engine/core/error.hpp"
 #include "engine/stages/reach.hpp"
 #include "engine/stages/split.hpp"
@@ -12,6 +6,12 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -136,7 +136,8 @@ TEST_CASE("tiles hold every cell once, in order, and no more points than allowed
         std::uint64_t points = 0;
         for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) {
           points += tiling.cells[c].points;
-          if (tiling.tile_of_cell(c) != TileIndex(&tile - tiling.tiles.data())) FAIL_CHECK("wrong tile of a cell");
+          if (tiling.tile_of_cell(c) != TileIndex(&tile - tiling.tiles.data()))
+            FAIL_CHECK("wrong tile of a cell");
         }
         CHECK(points == tile.raw);
         CHECK((points <= limit || tile.last_cell - tile.first_cell == 1));
@@ -173,7 +174,8 @@ TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
 }
 
 TEST_CASE("a single heavy cell is a tile of its own, and no cells make no tiles") {
-  const std::vector<CountedCell> cells = {{{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}};
+  const std::vector<CountedCell> cells = {
+      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}};
   const Tiling tiling = split_tiles(cells, CellGrid{}, 12);
   const auto heavy = std::find_if(tiling.tiles.begin(), tiling.tiles.end(),
                                   [](const Tile& tile) { return tile.raw == 10'000; });
