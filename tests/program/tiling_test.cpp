@@ -23,7 +23,7 @@ Files detect_files(const std::string& scan, const fs::path& out, const std::vect
   REQUIRE(result.exit_code == 0);
   // The records as they stand in the file, byte for byte: from their key to the end.
   const std::string report = read_file(out / "holes.json");
-  const std::size_t records = report.find("\"loops\"");
+  const std::size_t records = report.find("\"loops\": [");
   REQUIRE(records != std::string::npos);
   CHECK(nlohmann::json::parse(report).at("loops").size() > 3);
   return {read_file(out / "points.ply"), read_file(out / "boundary.ply"), read_file(out / "loops.ply"),
