@@ -40,7 +40,10 @@ std::uint32_t CellIndex::Reader::cell_of(const Eigen::Vector3d& position) {
 }
 
 void CellIndex::save(const Tiling& tiling, const std::filesystem::path& file) {
-  const auto transform = openvdb::math::Transform::createLinearTransform(tiling.grid.edge());
+  // OpenVDB refuses voxels of a volume below 3e-15: the index of so small a scan is in units of cells.
+  constexpr double kSmallestVoxel = 0x1p-16;
+  const double edge = tiling.grid.edge();
+  const auto transform = openvdb::math::Transform::createLinearTransform(edge < kSmallestVoxel ? 1.0 : edge);
   const auto points = openvdb::Int32Grid::create(0);
   const auto tiles = openvdb::Int32Grid::create(-1);
   points->setName("points");

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <unistd.h>
 
@@ -86,9 +87,13 @@ std::string Detected::bytes() const {
 }
 
 Detected run_engine(const Cloud& cloud, Config config) {
+  MemoryScan scan(cloud);
+  return run_engine(scan, std::move(config));
+}
+
+Detected run_engine(PointSource& scan, Config config) {
   config.output.points = true;
   const TemporaryFolder workspace;
-  MemoryScan scan(cloud);
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
   Detected detected{.summary = detection->summary()};

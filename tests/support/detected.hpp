@@ -23,5 +23,6 @@ struct Detected {
 
 // Runs the engine in a workspace of its own, with output.points.
 Detected run_engine(const Cloud& cloud, Config config);
+Detected run_engine(PointSource& scan, Config config);
 
 }  // namespace lacuna

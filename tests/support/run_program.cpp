@@ -8,8 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,19 +23,10 @@ void redirect(const std::filesystem::path& file, int descriptor) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(125);
 }
 
-}  // namespace
-
-ProgramResult run_program(const std::vector<std::string>& arguments) {
-  return run_program_until(arguments, 0, [] { return false; });
-}
-
-ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
-                                const std::function<bool()>& moment) {
+ProgramResult run_until(std::vector<std::string> words, int signal, const std::function<bool()>& moment) {
   const ScratchFolder scratch;
   const std::filesystem::path out = scratch / "out";
   const std::filesystem::path err = scratch / "err";
-  std::vector<std::string> words = {LACUNA_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -43,13 +36,14 @@ ProgramResult run_program_until(const std::vector<std::string>& arguments, int s
   if (child == 0) {
     redirect(out, STDOUT_FILENO);
     redirect(err, STDERR_FILENO);
-    execv(argv[0], argv.data());
+    execvp(argv[0], argv.data());
     _exit(126);
   }
 
   int status = 0;
+  rusage usage{};
   bool sent = false;
-  while (waitpid(child, &status, signal != 0 && !sent ? WNOHANG : 0) == 0) {
+  while (wait4(child, &status, signal != 0 && !sent ? WNOHANG : 0, &usage) == 0) {
     sent = moment();
     if (sent) {
       kill(child, signal);
@@ -58,7 +52,24 @@ ProgramResult run_program_until(const std::vector<std::string>& arguments, int s
     }
   }
   const int exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  return {exit_code, read_file(out), read_file(err)};
+  return {exit_code, read_file(out), read_file(err), static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& arguments) {
+  return run_program_until(arguments, 0, [] { return false; });
+}
+
+ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
+                                const std::function<bool()>& moment) {
+  std::vector<std::string> words = {LACUNA_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_until(std::move(words), signal, moment);
+}
+
+ProgramResult run_command(const std::vector<std::string>& words) {
+  return run_until(words, 0, [] { return false; });
 }
 
 ScratchFolder::ScratchFolder() {

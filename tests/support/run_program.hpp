@@ -1,6 +1,7 @@
 // Runs the program `lacuna` as a user would, and catches what it says.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,9 +13,13 @@ struct ProgramResult {
   int exit_code = 0;  // 128 + n: killed by signal n
   std::string out;
   std::string err;
+  std::uint64_t peak_memory = 0;  // bytes resident at most, as the operating system counts; at least our own
 };
 
 ProgramResult run_program(const std::vector<std::string>& arguments);
+
+// Any command, searched for in PATH; exit code 126 if there is none.
+ProgramResult run_command(const std::vector<std::string>& words);
 
 // Sends `signal` as soon as `moment` returns true; without it, if the program ends first.
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,

@@ -1,0 +1,149 @@
+#include "engine/core/parallel.hpp"
+
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST_CASE("every index is visited once, with any number of threads") {
+  for (const std::size_t threads : {1, 2, 8}) {
+    const Crew crew(threads);
+    std::vector<std::atomic<int>> visits(1000), blocks(1000), within(1000);
+    crew.for_each(visits.size(), [&](std::size_t i) { ++visits[i]; });
+    crew.for_blocks(blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ++blocks[i];
+    });
+    crew.for_each_within(std::vector<std::uint64_t>(1000, 3), 10, [&](std::size_t i) { ++within[i]; });
+    for (std::size_t i = 0; i < 1000; ++i) {
+      if (visits[i] != 1 || blocks[i] != 1 || within[i] != 1)
+        FAIL_CHECK("index " << i << ", " << threads << " threads");
+    }
+  }
+}
+
+TEST_CASE("eight threads are eight, even on two cores") {
+  const Crew crew(8);
+  CHECK(crew.threads() == 8);
+  std::atomic<int> inside = 0, most = 0;
+  const auto deadline = std::chrono::steady_clock::now() + 10s;
+  crew.for_each_within(std::vector<std::uint64_t>(8, 1), 8, [&](std::size_t) {
+    most = std::max<int>(most, ++inside);
+    while (most < 8 && std::chrono::steady_clock::now() < deadline) {
+      most = std::max<int>(most, inside);
+      std::this_thread::sleep_for(1ms);
+    }
+  });
+  CHECK(most == 8);
+}
+
+TEST_CASE("one thread runs one body at a time, in ascending order") {
+  const Crew crew(1);
+  std::vector<std::size_t> order;
+  crew.for_each_within(std::vector<std::uint64_t>(100, 0), 100, [&](std::size_t i) { order.push_back(i); });
+  CHECK(order.size() == 100);
+  CHECK(std::is_sorted(order.begin(), order.end()));
+}
+
+TEST_CASE("bodies that run together never need more than the budget, save one alone") {
+  const Crew crew(8);
+  Random random(1);
+  constexpr std::uint64_t kBudget = 100;
+  std::vector<std::uint64_t> needs;
+  for (int i = 0; i < 300; ++i)
+    needs.push_back(std::uint64_t(random.chance(0.05) ? 250 : random.whole(0, 60)));
+  std::mutex mutex;
+  std::uint64_t used = 0, running = 0, most_running = 0;
+  std::size_t over = 0;
+  std::vector<std::size_t> started;
+  crew.for_each_within(needs, kBudget, [&](std::size_t i) {
+    {
+      const std::lock_guard lock(mutex);
+      used += needs[i];
+      most_running = std::max(most_running, ++running);
+      over += used > kBudget && running > 1;
+      started.push_back(i);
+    }
+    std::this_thread::sleep_for(200us);
+    const std::lock_guard lock(mutex);
+    used -= needs[i];
+    --running;
+  });
+  CHECK(over == 0);
+  CHECK(most_running > 1);
+  CHECK(started.size() == needs.size());
+}
+
+TEST_CASE("an exception in a body ends the loop and is rethrown") {
+  for (const std::size_t threads : {1, 8}) {
+    const Crew crew(threads);
+    std::atomic<int> visits = 0;
+    const auto body = [&](std::size_t i) {
+      ++visits;
+      if (i == 5) throw std::runtime_error("body 5");
+    };
+    CHECK_THROWS_WITH(crew.for_each_within(std::vector<std::uint64_t>(100'000, 1), 4, body), "body 5");
+    CHECK(visits < 100'000);
+    CHECK_THROWS_WITH(crew.for_each(10, body), "body 5");
+    crew.for_each(10, [&](std::size_t) { ++visits; });  // and the crew goes on working
+  }
+}
+
+TEST_CASE("nothing to do is done at once") {
+  const Crew crew(4);
+  crew.for_each(0, [](std::size_t) { FAIL(); });
+  crew.for_each_within({}, 0, [](std::size_t) { FAIL(); });
+  crew.pipeline([](std::size_t) { return false; }, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); },
+                3);
+}
+
+TEST_CASE("a body may itself use the crew") {
+  const Crew crew(4);
+  std::atomic<int> sum = 0;
+  crew.for_each_within(std::vector<std::uint64_t>(20, 1), 4,
+                       [&](std::size_t) { crew.for_each(10, [&](std::size_t) { ++sum; }); });
+  CHECK(sum == 200);
+}
+
+TEST_CASE("a pipeline consumes in the order produced, and no slot is used again before that") {
+  for (const std::size_t threads : {1, 8}) {
+    const Crew crew(threads);
+    constexpr std::size_t kSlots = 5;
+    std::vector<int> slot(kSlots, -1), consumed;
+    int next = 0;
+    crew.pipeline(
+        [&](std::size_t s) {
+          if (next == 500) return false;
+          if (slot[s] != -1) FAIL_CHECK("slot " << s << " is still in use");
+          slot[s] = next++;
+          return true;
+        },
+        [&](std::size_t s) {
+          if (slot[s] % 7 == 0) std::this_thread::sleep_for(300us);
+          slot[s] *= 2;
+        },
+        [&](std::size_t s) {
+          consumed.push_back(slot[s]);
+          slot[s] = -1;
+        },
+        kSlots);
+    REQUIRE(consumed.size() == 500);
+    for (int i = 0; i < 500; ++i) {
+      if (consumed[static_cast<std::size_t>(i)] != 2 * i) FAIL_CHECK("out of order at " << i);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,142 @@
+// Each criterion on its own, on surfaces drawn by hand.
+#include "engine/criteria/criterion.hpp"
+#include "engine/criteria/direction_gap.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+#include <Eigen/Geometry>
+
+namespace lacuna {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kPi = std::numbers::pi;
+constexpr double kNoCone = 2;
+
+DirectionGap gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
+                    const Vector3d& normal = {0, 0, 1}) {
+  std::vector<double> distances;
+  for (const Vector3d& offset : offsets) distances.push_back(offset.norm());
+  std::vector<Direction> directions;
+  return largest_gap(offsets, distances, normal, cos_cone, directions);
+}
+
+// In the plane, at these degrees; nearest first.
+std::vector<Vector3d> at_degrees(const std::vector<double>& degrees) {
+  std::vector<Vector3d> offsets;
+  for (const double d : degrees) {
+    const double length = 1 + 0.1 * double(offsets.size());
+    offsets.push_back(length * Vector3d(std::cos(d * kPi / 180), std::sin(d * kPi / 180), 0));
+  }
+  return offsets;
+}
+
+TEST_CASE("the largest gap is the one between neighbours side by side, the nearer of them named first") {
+  const DirectionGap gap = gap_of(at_degrees({200, 0, 90, 300}));
+  CHECK(gap.size == Approx(110 * kPi / 180));
+  CHECK(gap.near == 0);
+  CHECK(gap.far == 2);
+  CHECK(gap.used == 4);
+}
+
+TEST_CASE("a gap across the jump of the angle is seen") {
+  const DirectionGap gap = gap_of(at_degrees({-60, 0, 60, 100, -100}));
+  CHECK(gap.size == Approx(160 * kPi / 180));
+  CHECK((gap.near == 3 && gap.far == 4));
+}
+
+TEST_CASE("of equal gaps the one is taken whose neighbours come first") {
+  const DirectionGap gap = gap_of(at_degrees({180, 0, 270, 90}));
+  CHECK(gap.size == Approx(kPi / 2));
+  CHECK((gap.near == 0 && gap.far == 2));
+}
+
+TEST_CASE("neighbours in one direction are one, the nearest stands for it, across the jump too") {
+  for (const double turn : {0.0, 180.0, 77.0}) {
+    const DirectionGap gap = gap_of(at_degrees({10 + turn, turn, turn + 360, 100 + turn, turn - 360}));
+    CHECK(gap.used == 5);
+    CHECK((gap.near == 1 && gap.far == 3));
+    CHECK(gap.size == Approx(260 * kPi / 180));
+  }
+  const DirectionGap one = gap_of(at_degrees({45, 45, 45}));
+  CHECK(one.size == Approx(2 * kPi));
+  CHECK((one.near == 0 && one.far == 0 && one.used == 3));
+}
+
+TEST_CASE("without a direction there is no gap: no neighbours, or all along the normal") {
+  CHECK(gap_of({}).near == DirectionGap::kNone);
+  const DirectionGap along = gap_of({{0, 0, 1}, {0, 0, -2}});
+  CHECK((along.used == 0 && along.near == DirectionGap::kNone && along.far == DirectionGap::kNone));
+}
+
+TEST_CASE("directions strictly within the cone about the normal are not used") {
+  const double cos_cone = std::cos(45 * kPi / 180);
+  const std::vector<Vector3d> offsets = {{1, 0, 0.9}, {0, 1, 1.1}, {-1, 0, -0.9}, {0, -1, -1.1}};
+  const DirectionGap gap = gap_of(offsets, cos_cone);
+  CHECK(gap.used == 2);
+  CHECK((gap.near == 0 && gap.far == 2));
+  CHECK(gap_of(offsets).used == 4);
+}
+
+TEST_CASE("the sign and the place of the normal do not change the gap") {
+  const std::vector<Vector3d> flat = at_degrees({200, 0, 90, 300, 40});
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Vector3d> turned;
+  for (const Vector3d& offset : flat) turned.push_back(rotation * offset);
+  const DirectionGap expected = gap_of(flat);
+  for (const double sign : {1.0, -1.0}) {
+    const DirectionGap gap = gap_of(turned, kNoCone, sign * rotation.col(2));
+    CHECK(gap.size == Approx(expected.size));
+    CHECK((gap.near == expected.near && gap.far == expected.far));
+  }
+}
+
+LocalSurface with_gap(double size, std::size_t used) {
+  LocalSurface surface;
+  surface.has_normal = true;
+  surface.normal = {0, 0, 1};
+  surface.gap = {.size = size, .used = used, .near = 0, .far = 1};
+  return surface;
+}
+
+TEST_CASE("the angle probability is 0 for even directions, 1 for half a turn, and rises between") {
+  CHECK(angle_probability(with_gap(2 * kPi / 8, 8)) == 0);
+  CHECK(angle_probability(with_gap(kPi, 8)) == 1);
+  CHECK(angle_probability(with_gap(1.5 * kPi, 8)) == 1);
+  CHECK(angle_probability(with_gap((2 * kPi / 8 + kPi) / 2, 8)) == Approx(0.5));
+  CHECK(angle_probability(with_gap(0.1, 2)) == 1);
+  LocalSurface no_normal = with_gap(0.1, 8);
+  no_normal.has_normal = false;
+  CHECK(angle_probability(no_normal) == 1);
+}
+
+TEST_CASE("the halfdisc probability is 1 where the mean lies at the centroid of a half disc or beyond") {
+  LocalSurface surface = with_gap(1, 8);
+  surface.mean_distance = 3;
+  const double centroid = 4 * 3 / (3 * kPi);
+  for (const double share : {0.0, 0.25, 1.0, 1.5}) {
+    surface.mean_offset = {share * centroid, 0, 17};  // what lies along the normal does not count
+    CHECK(halfdisc_probability(surface) == Approx(std::min(share, 1.0)));
+  }
+  surface.has_normal = false;
+  CHECK(halfdisc_probability(surface) == 1);
+}
+
+TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small at the other three shapes") {
+  const auto shape = [](double a, double b, double c) {
+    LocalSurface surface;
+    surface.eigenvalues = {a, b, c};
+    return shape_probability(surface);
+  };
+  const double boundary = shape(2, 1, 0);
+  CHECK(boundary > 0.7);
+  for (const double other : {shape(1, 1, 0), shape(1, 1, 1), shape(1, 0, 0)}) CHECK(other < boundary / 2);
+  CHECK(shape(2e9, 1e9, 0) == Approx(boundary));
+  CHECK(shape(2, 1, -1e-17) == Approx(boundary));
+  CHECK(shape(0, 0, 0) == shape(1, 1, 1));
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,282 @@
+// survey, split and reach: from points to cells, tiles, and how far neighbours may be.
+#include "engine/core/error.hpp"
+#include "engine/stages/reach.hpp"
+#include "engine/stages/split.hpp"
+#include "engine/stages/survey.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+SurveyedScan survey(const Cloud& cloud, std::uint64_t max_cells = 1'000'000, std::size_t batch = 1000,
+                    bool expected = true) {
+  Survey survey(max_cells, expected ? cloud.size() : 0);
+  MemoryScan scan(cloud, batch);
+  for (PointBatch points; scan.next(points);) survey.add(points);
+  return survey.finish();
+}
+
+std::map<CellCoord, std::uint64_t> counts_of(const std::vector<CountedCell>& cells) {
+  std::map<CellCoord, std::uint64_t> counts;
+  for (const CountedCell& cell : cells) counts[cell.coord] += cell.points;
+  return counts;
+}
+
+std::map<CellCoord, std::uint64_t> counted_plainly(const Cloud& cloud, const CellGrid& grid) {
+  std::map<CellCoord, std::uint64_t> counts;
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (p.allFinite()) ++counts[grid.cell_of(p)];
+  }
+  return counts;
+}
+
+void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
+  const auto counts = counts_of(scan.cells);
+  CHECK(counts.size() == scan.cells.size());
+  CHECK(counts == counted_plainly(cloud, scan.grid));
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (!p.allFinite()) continue;
+    const CellCoord cell = scan.grid.cell_of(p);
+    if (!scan.grid.box(cell, cell).contains(p)) {
+      FAIL_CHECK("a point lies outside of its cell");
+      return;
+    }
+  }
+}
+
+Tiling tiling_of(const Cloud& cloud, std::uint64_t tile_points) {
+  SurveyedScan scan = survey(cloud);
+  Tiling tiling = split_tiles(std::move(scan.cells), scan.grid, tile_points);
+  for (Tile& tile : tiling.tiles) tile.points = tile.raw;
+  return tiling;
+}
+
+TEST_CASE("a survey counts every finite point in the cell that the final grid gives it") {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    const Cloud cloud = random_cloud(4000 + seed);
+    INFO("seed " << seed);
+    const SurveyedScan scan = survey(cloud, 1'000'000, 1 + 77 * seed, seed % 2 == 0);
+    check_counts(cloud, scan);
+    CHECK(scan.points == cloud.size());
+    const auto dropped = std::count_if(cloud.positions.begin(), cloud.positions.end(),
+                                       [](const Eigen::Vector3d& p) { return !p.allFinite(); });
+    CHECK(scan.dropped == static_cast<std::uint64_t>(dropped));
+  }
+}
+
+TEST_CASE("cells merge while there are more than allowed, and no point is lost") {
+  const Cloud cloud = scattered(3000, 1).scaled(50).joined(lattice(8));
+  for (const std::uint64_t max_cells : {1, 8, 50, 1000}) {
+    const SurveyedScan scan = survey(cloud, max_cells, 100);
+    INFO(max_cells << " cells allowed");
+    check_counts(cloud, scan);
+    CHECK(scan.cells.size() <= std::max<std::uint64_t>(max_cells, 8));
+  }
+}
+
+TEST_CASE("cells hold about sixteen points on average, save where they cannot merge") {
+  const SurveyedScan scan = survey(scattered(20'000, 3).scaled(10));
+  CHECK(scan.cells.size() * Survey::kPointsPerCell <= 20'000);
+  CHECK(scan.cells.size() * Survey::kPointsPerCell >= 20'000 / 5);
+}
+
+TEST_CASE("far outliers are counted like any point") {
+  Cloud cloud = scattered(500, 1);
+  cloud.positions.insert(cloud.positions.begin(), {1e30, -1e30, 0});
+  cloud.positions.push_back({-1e150, 0, 1e100});
+  cloud.positions.push_back({1e-300, 1e12, -1e12});
+  const SurveyedScan scan = survey(cloud);
+  check_counts(cloud, scan);
+  CHECK(scan.bounds.max().x() == 1e30);
+  CHECK(scan.bounds.min().x() == -1e150);
+}
+
+TEST_CASE("a scan whose squared distances overflow is refused") {
+  Cloud cloud = line(3);
+  cloud.positions.push_back({1e155, 0, 0});
+  CHECK_THROWS_AS(survey(cloud), Error);
+}
+
+TEST_CASE("a survey of nothing, of nothing finite and of one place") {
+  CHECK(survey(Cloud{}).cells.empty());
+  CHECK(survey(Cloud{}).bounds.isEmpty());
+  const Cloud unusable = Cloud{{Eigen::Vector3d::Constant(std::nan("")), {0, INFINITY, 0}}, {}};
+  CHECK(survey(unusable).cells.empty());
+  CHECK(survey(unusable).dropped == 2);
+  for (const double at : {0.0, -1e-200, 1e6, 1e150}) {
+    const Cloud place = coincident(1000).translated({at, at, at});
+    const SurveyedScan scan = survey(place);
+    check_counts(place, scan);
+    CHECK(scan.cells.size() == 1);
+  }
+}
+
+TEST_CASE("tiles hold every cell once, in order, and no more points than allowed unless a cell alone does") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Cloud cloud = random_cloud(5000 + seed);
+    const auto before = counts_of(survey(cloud).cells);
+    for (const std::uint64_t limit : {1, 20, 300, 1'000'000}) {
+      const Tiling tiling = tiling_of(cloud, limit);
+      INFO("seed " << seed << ", " << limit << " points a tile");
+      CHECK(counts_of(tiling.cells) == before);
+      CHECK(tiling.cells.size() == before.size());
+      std::uint32_t next_cell = 0;
+      std::uint64_t next_row = 0;
+      for (const Tile& tile : tiling.tiles) {
+        CHECK(tile.first_cell == next_cell);
+        REQUIRE(tile.last_cell > tile.first_cell);
+        std::uint64_t points = 0;
+        for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) {
+          points += tiling.cells[c].points;
+          if (tiling.tile_of_cell(c) != TileIndex(&tile - tiling.tiles.data()))
+            FAIL_CHECK("wrong tile of a cell");
+        }
+        CHECK(points == tile.raw);
+        CHECK((points <= limit || tile.last_cell - tile.first_cell == 1));
+        CHECK(value(tile.first_row) % kRowAlignment == 0);
+        CHECK(value(tile.first_row) >= next_row);
+        next_row = value(tile.first_row) + tile.raw;
+        next_cell = tile.last_cell;
+      }
+      CHECK(next_cell == tiling.cells.size());
+    }
+  }
+}
+
+TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
+  const Tiling tiling = tiling_of(hard_cloud(1), 400);
+  for (const CellNode& node : tiling.nodes) {
+    CellCoord low = tiling.cells[node.first].coord, high = low;
+    std::uint64_t points = 0;
+    for (std::uint32_t c = node.first; c < node.last; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], tiling.cells[c].coord[axis]);
+        high[axis] = std::max(high[axis], tiling.cells[c].coord[axis]);
+      }
+      points += tiling.cells[c].points;
+    }
+    CHECK((low == node.low && high == node.high && points == node.points));
+    if (node.left == 0) {
+      CHECK(node.last - node.first <= kLeafCells);
+    } else {
+      const CellNode &left = tiling.nodes[node.left], &right = tiling.nodes[node.right];
+      CHECK((left.first == node.first && left.last == right.first && right.last == node.last));
+    }
+  }
+}
+
+TEST_CASE("a single heavy cell is a tile of its own, and no cells make no tiles") {
+  const std::vector<CountedCell> cells = {
+      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}};
+  const Tiling tiling = split_tiles(cells, CellGrid{}, 12);
+  const auto heavy = std::find_if(tiling.tiles.begin(), tiling.tiles.end(),
+                                  [](const Tile& tile) { return tile.raw == 10'000; });
+  REQUIRE(heavy != tiling.tiles.end());
+  CHECK(heavy->last_cell - heavy->first_cell == 1);
+  CHECK(split_tiles({}, CellGrid{}, 12).tiles.empty());
+  CHECK(split_tiles({}, CellGrid{}, 12).nodes.empty());
+}
+
+TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbour of any of its points") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Cloud cloud = random_cloud(6000 + seed);
+    if (seed == 1) cloud = hard_cloud(2);
+    Cloud distinct;
+    for (const PointId id : distinct_ids(cloud)) distinct.positions.push_back(cloud.positions[value(id)]);
+    if (distinct.size() == 0) continue;
+    const Tiling tiling = tiling_of(distinct, 200);
+    std::map<CellCoord, std::uint32_t> place;
+    for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) place[tiling.cells[c].coord] = c;
+    for (const std::size_t k : {1, 7, 40}) {
+      std::vector<double> reach(tiling.cells.size());
+      for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) reach[c] = squared_reach(tiling, c, k);
+      std::size_t too_short = 0;
+      for (std::size_t i = 0; i < distinct.size(); i += 1 + distinct.size() / 300) {
+        const Eigen::Vector3d& p = distinct.positions[i];
+        std::vector<double> others;
+        for (std::size_t j = 0; j < distinct.size(); ++j) {
+          if (j != i) others.push_back(squared_distance(p, distinct.positions[j]));
+        }
+        const double bound = reach[place.at(tiling.grid.cell_of(p))];
+        if (others.size() < k) {
+          too_short += bound != std::numeric_limits<double>::infinity();
+        } else {
+          std::nth_element(others.begin(), others.begin() + std::ptrdiff_t(k) - 1, others.end());
+          too_short += bound < others[k - 1];
+        }
+      }
+      INFO("seed " << seed << ", k " << k);
+      CHECK(too_short == 0);
+    }
+  }
+}
+
+TEST_CASE("the reach is infinite where the scan has no more than k points, finite where it has one more") {
+  const Tiling tiling = tiling_of(scattered(16, 1), 1'000'000);
+  CHECK(squared_reach(tiling, 0, 16) == std::numeric_limits<double>::infinity());
+  CHECK(squared_reach(tiling, 0, 15) < 100);
+}
+
+TEST_CASE("the reach in an even plane is a few spacings") {
+  const Tiling tiling = tiling_of(plane(100), 1'000'000);
+  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
+    if (std::sqrt(squared_reach(tiling, c, 15)) > 30) FAIL_CHECK("a reach of more than 30 spacings");
+  }
+}
+
+TEST_CASE("cells near a box are those of a search through all") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Cloud cloud = random_cloud(7000 + seed);
+    const Tiling tiling = tiling_of(cloud, 100);
+    const auto cells = static_cast<std::uint32_t>(tiling.cells.size());
+    if (cells == 0) continue;
+    Random random(seed);
+    for (int query = 0; query < 50; ++query) {
+      const auto pick = [&] { return static_cast<std::uint32_t>(random.whole(0, cells - 1)); };
+      const Eigen::AlignedBox3d box = tiling.cell_box(pick());
+      const double radius = tiling.grid.edge() * random.uniform(0, 5);
+      std::uint32_t skip_first = pick(), skip_last = pick();
+      if (skip_first > skip_last || random.chance(0.3)) skip_first = skip_last = 0;
+      std::vector<std::uint32_t> expected, found;
+      for (std::uint32_t c = 0; c < cells; ++c) {
+        const bool near = min_squared_distance(box, tiling.cell_box(c)) <= radius * radius;
+        if (near && !(c >= skip_first && c < skip_last)) expected.push_back(c);
+      }
+      const auto all = [&](std::uint32_t c) {
+        found.push_back(c);
+        return true;
+      };
+      for_each_cell_near(tiling, box, radius * radius, skip_first, skip_last, all);
+      CHECK(found == expected);
+      int visits = 0;
+      for_each_cell_near(tiling, box, radius * radius, skip_first, skip_last, [&](std::uint32_t) {
+        ++visits;
+        return false;
+      });
+      CHECK(visits == (expected.empty() ? 0 : 1));
+    }
+  }
+}
+
+TEST_CASE("cells without end at the far side of the grid are near to what lies in them") {
+  Cloud cloud = scattered(300, 4);
+  cloud.positions.push_back({1e40, 0, 0});
+  cloud.positions.push_back({1e39, 0, 0});
+  const Tiling tiling = tiling_of(cloud, 50);
+  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
+    const double reach = squared_reach(tiling, c, 5);
+    CHECK_FALSE(std::isnan(reach));
+    CHECK(reach > 0);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna

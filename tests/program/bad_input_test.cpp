@@ -1,0 +1,281 @@
+// Whatever the input and the disk: a result where one exists, else one clear line and exit code 1, nothing
+// half-written.
+#include "engine/core/error.hpp"
+#include "engine/pipeline.hpp"
+#include "io/file_scan.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+template <class T>
+void put(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string header(const std::string& count, const std::string& format = "binary_little_endian") {
+  return "ply\nformat " + format + " 1.0\nelement vertex " + count +
+         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+}
+
+std::string binary_ply(const Cloud& cloud) {
+  std::string bytes = header(std::to_string(cloud.size()));
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    for (const double coordinate : p) put(bytes, static_cast<float>(coordinate));
+  }
+  return bytes;
+}
+
+std::size_t count_entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
+}
+
+void check_failure(const ProgramResult& result, const std::string& named) {
+  INFO(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(result.out.empty());
+  const std::string last = result.err.substr(std::min(result.err.find("lacuna: error: "), result.err.size()));
+  CHECK(test::count_lines(last) == 1);
+  CHECK_THAT(last, Catch::Matchers::Contains(named));
+}
+
+ProgramResult detect_quietly(const std::string& scan, const fs::path& out,
+                             std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--quiet"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(arguments);
+}
+
+nlohmann::json report_of(const fs::path& out) {
+  return nlohmann::json::parse(test::read_file(out / "holes.json"));
+}
+
+TEST_CASE("a scan cut at any byte is an error of the engine, and leaves an empty workspace") {
+  const ScratchFolder scratch;
+  const std::string whole = binary_ply(plane(4));
+  const fs::path workspace = scratch / "workspace";
+  fs::create_directory(workspace);
+  NoProgress quiet;
+  std::size_t refused = 0;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const std::string file = scratch.write("cut.ply", whole.substr(0, length));
+    try {
+      FileScan scan({file}, {});
+      detect(scan, {}, workspace, quiet);
+      FAIL_CHECK("cut at byte " << length << ": no error");
+    } catch (const Error&) {
+      ++refused;
+    }
+    if (count_entries(workspace) != 0) FAIL_CHECK("cut at byte " << length << ": the workspace is not empty");
+  }
+  CHECK(refused == whole.size());
+  FileScan scan({scratch.write("whole.ply", whole)}, {});
+  CHECK(run_engine(scan, {}).summary.counts.points == 16);
+}
+
+TEST_CASE("a scan cut at some bytes, wrong and absurd counts end the program with one line") {
+  const ScratchFolder scratch;
+  const std::string whole = binary_ply(plane(10));
+  const fs::path out = scratch / "out";
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{40}, header("100").size() - 1,
+                                   header("100").size(), header("100").size() + 7, whole.size() - 1}) {
+    INFO("cut at " << length);
+    check_failure(detect_quietly(scratch.write("cut.ply", whole.substr(0, length)), out), "cut.ply");
+    CHECK_FALSE(fs::exists(out));
+  }
+  for (const std::string count :
+       {"101", "1000000000000000000", "18446744073709551615", "18446744073709551616", "-1"}) {
+    for (const std::string format : {"binary_little_endian", "binary_big_endian", "ascii"}) {
+      INFO(count << " vertices, " << format);
+      const std::string body = format == "ascii" ? "1 2 3\n4 5 6\n" : whole.substr(header("100").size());
+      check_failure(detect_quietly(scratch.write("absurd.ply", header(count, format) + body), out),
+                    "absurd.ply");
+      check_failure(run_program({"info", scratch.write("absurd.ply", header(count, format) + body)}),
+                    "absurd.ply");
+      CHECK_FALSE(fs::exists(out));
+    }
+  }
+  check_failure(
+      detect_quietly(scratch.write("more.ply", header("99") + whole.substr(header("100").size())), out),
+      "more.ply");
+}
+
+TEST_CASE("a header alone is a scan without points: results without loops") {
+  const ScratchFolder scratch;
+  for (const std::string format : {"binary_little_endian", "ascii"}) {
+    const fs::path out = scratch / format;
+    const ProgramResult result =
+        detect_quietly(scratch.write("none.ply", header("0", format)), out, {"--points"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(report_of(out).at("loops").empty());
+    CHECK(count_entries(out) == 4);
+  }
+  CHECK(run_program({"info", scratch.write("none.ply", header("0"))}).exit_code == 0);
+}
+
+TEST_CASE("few points, equal points, collinear ones and unusable ones have results") {
+  const ScratchFolder scratch;
+  const double nan = std::nan("");
+  const std::vector<std::pair<Cloud, std::size_t>> scans = {
+      {line(1), 0},
+      {line(2), 0},
+      {scattered(15, 1), 0},
+      {scattered(16, 1), 0},
+      {coincident(3000), 0},
+      {line(99), 0},
+      {plane(12), 0},
+      {plane(12).with_unusable(20, 1), 1},
+      {Cloud{std::vector(40, Eigen::Vector3d(nan, INFINITY, -INFINITY)), {}}, 40}};
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const fs::path out = scratch / std::to_string(i);
+    const std::string file = scratch.write("scan.ply", binary_ply(scans[i].first));
+    for (const std::string tile_points : {"1", "1000"}) {
+      const ProgramResult result = detect_quietly(
+          file, out,
+          {"--points", "--normals", "--orient-normals", "--tile-points", tile_points, "--threads", "3"});
+      INFO("scan " << i << ": " << result.err);
+      REQUIRE(result.exit_code == 0);
+      CHECK(report_of(out).at("counts").at("points") == scans[i].first.size());
+      CHECK(report_of(out).at("counts").at("dropped") >= scans[i].second);
+      CHECK(count_entries(out) == 4);
+    }
+  }
+}
+
+TEST_CASE("points whose squared distances overflow or vanish end the program with one line") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  check_failure(detect_quietly(scratch.write("far.txt", "0 0 0\n1 0 0\n1e200 0 0\n"), out), "1e153");
+  check_failure(detect_quietly(scratch.write("near.txt", "0 0 0\n1e-200 0 0\n1 0 0\n"), out), "underflow");
+  CHECK_FALSE(fs::exists(out));
+}
+
+// Another user, as which files can be out of reach even when the tests run as root.
+std::vector<std::string> as_nobody(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), LACUNA_PROGRAM);
+  if (geteuid() == 0) {
+    arguments.insert(arguments.begin(), {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"});
+  }
+  return arguments;
+}
+
+TEST_CASE("without permission to read or to write there is one line that names the place") {
+  const ScratchFolder scratch;
+  const fs::path root = scratch / "open";
+  fs::create_directory(root);
+  ::chmod((scratch / "").c_str(), 0755);
+  ::chmod(root.c_str(), 0777);
+  const std::string scan = scratch.write("open/scan.ply", binary_ply(plane(12)));
+  const std::string out = (root / "out").string();
+  if (test::run_command(as_nobody({"--version"})).exit_code != 0) {
+    WARN("cannot run the program as another user: skipped");
+    return;
+  }
+  REQUIRE(test::run_command(as_nobody({"detect", scan, "--out", out, "--quiet"})).exit_code == 0);
+
+  const std::string locked = (root / "locked").string();
+  fs::create_directory(locked);
+  ::chmod(locked.c_str(), 0555);
+  check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked, "--quiet"})), "locked");
+  check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked + "/new", "--quiet"})),
+                "locked");
+  check_failure(test::run_command(as_nobody(
+                    {"detect", scan, "--out", (root / "other").string(), "--workspace", locked, "--quiet"})),
+                "locked");
+  CHECK(count_entries(locked) == 0);
+  CHECK_FALSE(fs::exists(root / "other"));
+
+  ::chmod(scan.c_str(), 0000);
+  check_failure(test::run_command(as_nobody({"detect", scan, "--out", (root / "other").string(), "--quiet"})),
+                "scan.ply");
+  check_failure(test::run_command(as_nobody({"info", scan})), "scan.ply");
+  CHECK_FALSE(fs::exists(root / "other"));
+  ::chmod(scan.c_str(), 0644);
+}
+
+// A disk of a few hundred KiB. Not there where the tests may not mount one.
+class SmallDisk {
+ public:
+  SmallDisk(fs::path at, const std::string& size) : at_(std::move(at)) {
+    fs::create_directory(at_);
+    mounted_ = ::mount("tmpfs", at_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) ::umount(at_.c_str());
+    fs::remove(at_);
+  }
+  bool mounted() const { return mounted_; }
+  const fs::path& path() const { return at_; }
+
+ private:
+  fs::path at_;
+  bool mounted_;
+};
+
+TEST_CASE("a disk that is full, in whatever phase, ends the run with one line and leaves nothing behind") {
+  const ScratchFolder scratch;
+  const Cloud cloud = plane(120).punched({60, 60}, 8).jittered(0.2, 1);
+  const std::string scan = scratch.write("scan.ply", binary_ply(cloud));
+  std::size_t failed = 0, done = 0;
+  for (const std::string size :
+       {"8k", "64k", "256k", "512k", "1m", "1536k", "2m", "2560k", "3m", "4m", "64m"}) {
+    const SmallDisk disk(scratch / "disk", size);
+    if (!disk.mounted()) {
+      WARN("cannot mount a small disk: skipped");
+      return;
+    }
+    INFO("workspace on a disk of " << size);
+    const fs::path out = scratch / ("out " + size);
+    const ProgramResult result =
+        detect_quietly(scan, out,
+                       {"--workspace", disk.path().string(), "--points", "--normals", "--orient-normals",
+                        "--tile-points", "500", "--memory-limit", "64MiB"});
+    CHECK(count_entries(disk.path()) == 0);
+    if (result.exit_code == 0) {
+      ++done;
+      CHECK(count_entries(out) == 4);
+      continue;
+    }
+    ++failed;
+    check_failure(result, disk.path().string());
+    CHECK_THAT(result.err, Catch::Matchers::Contains("No space left on device"));
+    CHECK_FALSE(fs::exists(out));
+  }
+  CHECK(failed >= 3);
+  CHECK(done >= 1);
+
+  failed = 0;
+  for (const std::string size : {"4k", "16k", "64k", "128k", "256k", "512k"}) {
+    const SmallDisk disk(scratch / "disk", size);
+    INFO("results on a disk of " << size);
+    const ProgramResult result =
+        detect_quietly(scan, disk.path() / "out",
+                       {"--workspace", (scratch / "").string(), "--points", "--tile-points", "500"});
+    if (result.exit_code == 0) continue;
+    ++failed;
+    check_failure(result, disk.path().string());
+    CHECK(count_entries(disk.path()) == 0);
+  }
+  CHECK(failed >= 3);
+}
+
+}  // namespace
+}  // namespace lacuna

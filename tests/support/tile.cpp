@@ -1,0 +1,60 @@
+#include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace lacuna {
+
+std::vector<PointId> distinct_ids(const Cloud& cloud) {
+  std::map<std::array<double, 3>, PointId> first_at;
+  std::vector<PointId> ids;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.positions[i];
+    if (p.allFinite() && first_at.try_emplace({p.x(), p.y(), p.z()}, PointId{i}).second)
+      ids.push_back(PointId{i});
+  }
+  return ids;
+}
+
+TilePoints whole_tile(const Cloud& cloud) {
+  return part_tile(cloud, std::vector<bool>(cloud.size(), true), 0);
+}
+
+TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::size_t k) {
+  std::vector<PointId> ids = distinct_ids(cloud);
+  std::stable_partition(ids.begin(), ids.end(), [&](PointId id) { return owns[value(id)]; });
+  TilePoints points;
+  for (const PointId id : ids) {
+    points.owned += owns[value(id)];
+    points.positions.push_back(cloud.positions[value(id)]);
+    points.ids.push_back(id);
+    points.rows.push_back(Row{value(id)});
+  }
+  std::vector<std::vector<LocalIndex>> linked(points.owned);
+  for (LocalIndex q = points.owned; q < points.size(); ++q) {
+    std::vector<Neighbour> nearest;
+    for (LocalIndex p = 0; p < points.size(); ++p) {
+      if (p != q)
+        nearest.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[p], p});
+    }
+    std::sort(nearest.begin(), nearest.end());
+    for (std::size_t i = 0; i < std::min(k, nearest.size()); ++i) {
+      if (points.is_owned(nearest[i].index)) linked[nearest[i].index].push_back(q);
+    }
+  }
+  for (const std::vector<LocalIndex>& row : linked) {
+    points.linked.indices.insert(points.linked.indices.end(), row.begin(), row.end());
+    points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> owned_normals(const Cloud& cloud, const TilePoints& points) {
+  std::vector<Eigen::Vector3d> normals;
+  if (cloud.normals.empty()) return normals;
+  for (LocalIndex p = 0; p < points.owned; ++p) normals.push_back(cloud.normals[value(points.ids[p])]);
+  return normals;
+}
+
+}  // namespace lacuna
