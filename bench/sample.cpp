@@ -62,7 +62,8 @@ PointBatch sample_surface(std::uint32_t points, SampleOrder order) {
 }
 
 TilePoints sample_tile(const PointBatch& batch) {
-  Survey survey(batch.size(), batch.size());
+  constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+  Survey survey(kMemory, batch.size());
   survey.add(batch);
   SurveyedScan surveyed = survey.finish();
   const Tiling tiling = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size());
@@ -76,7 +77,7 @@ TilePoints sample_tile(const PointBatch& batch) {
     stored.push_back({p.x(), p.y(), p.z(), PointId{i}});
     cells.push_back(reader.cell_of(p));
   }
-  const OrderedTile ordered = order_tile(stored, cells, tiling.cells.size());
+  const OrderedTile ordered = order_tile(stored, cells, tiling.cells.size(), tiling.grid);
 
   TilePoints tile;
   for (const std::uint32_t i : ordered.order) {

@@ -5,6 +5,7 @@
 #include "engine/config.hpp"
 #include "engine/core/cell_index.hpp"
 #include "engine/core/scratch.hpp"
+#include "engine/stages/block_search.hpp"
 #include "engine/stages/coherence.hpp"
 #include "engine/stages/eligible_edges.hpp"
 #include "engine/stages/evaluate.hpp"
@@ -34,7 +35,7 @@ namespace {
 
 constexpr std::uint32_t kPoints = 65'536;
 constexpr std::size_t kNeighbours = 15;
-constexpr std::uint64_t kMostCells = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
 constexpr std::uint64_t kBudget = std::uint64_t{1} << 30;
 
 const Config kConfig;
@@ -88,6 +89,7 @@ SampleCandidates candidates() {
 // The eligible edges as a component of the global stage.
 struct SampleComponent {
   std::vector<LocalIndex> vertices;  // in the tile, in ascending id
+  std::vector<PointId> ids;          // of the vertices
   std::vector<LocalEdge> edges;      // between vertices, in ascending (weight, lower id, higher id)
   std::int64_t e;
 };
@@ -105,6 +107,7 @@ SampleComponent component() {
   std::sort(sample.vertices.begin(), sample.vertices.end(), lower_id);
   sample.vertices.erase(std::unique(sample.vertices.begin(), sample.vertices.end()), sample.vertices.end());
 
+  for (const LocalIndex v : sample.vertices) sample.ids.push_back(points.ids[v]);
   std::vector<LocalIndex> vertex_of(points.size(), kNoIndex);
   for (std::size_t v = 0; v < sample.vertices.size(); ++v)
     vertex_of[sample.vertices[v]] = static_cast<LocalIndex>(v);
@@ -125,8 +128,7 @@ SampleComponent component() {
 template <class Report>
 void trace(const SampleComponent& component, Report&& report) {
   Scratch scratch(std::filesystem::temp_directory_path(), kBudget);
-  Spanning spanning(static_cast<LocalIndex>(component.vertices.size()), component.edges.size(), component.e,
-                    scratch);
+  Spanning spanning(component.ids, component.e, scratch);
   for (const LocalEdge edge : component.edges) spanning.add(edge);
   find_loops(spanning.finish(), scratch, report);
 }
@@ -199,7 +201,7 @@ void survey(benchmark::State& state, SampleOrder order) {
         {.first = PointId{kPoints * batches.size()}, .positions = {at, at + kPoints}, .normals = {}});
   }
   for (auto _ : state) {
-    Survey survey(kMostCells, scan.size());
+    Survey survey(kMemory, scan.size());
     for (const PointBatch& points : batches) survey.add(points);
     benchmark::DoNotOptimize(survey.finish());
   }
@@ -212,7 +214,7 @@ BENCHMARK_CAPTURE(survey, random, SampleOrder::kRandom);
 struct UnorderedTile {
   explicit UnorderedTile(SampleOrder order) {
     const PointBatch& points = batch(order);
-    Survey survey(kPoints, kPoints);
+    Survey survey(kMemory, kPoints);
     survey.add(points);
     SurveyedScan scan = survey.finish();
     tiling = split_tiles(std::move(scan.cells), scan.grid, kPoints);
@@ -246,7 +248,8 @@ void order_tile(benchmark::State& state, SampleOrder order) {
   const UnorderedTile unordered(order);
   const std::vector<std::uint32_t> cells = unordered.cells(CellIndex(unordered.tiling));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(lacuna::order_tile(unordered.stored, cells, unordered.tiling.cells.size()));
+    benchmark::DoNotOptimize(lacuna::order_tile(unordered.stored, cells, unordered.tiling.cells.size(),
+                                                unordered.tiling.grid));
   }
   time_per(state, "per_point", kPoints);
 }
@@ -276,6 +279,17 @@ void nearest(benchmark::State& state) {
   time_per(state, "per_point", kPoints);
 }
 BENCHMARK(nearest);
+
+void nearest_in_blocks(benchmark::State& state) {
+  for (auto _ : state) {
+    BlockSearch search(tile().positions, tile().ids);
+    search.nearest(0, tile().owned, kNeighbours, [](LocalIndex, std::span<const Neighbour> found) {
+      benchmark::DoNotOptimize(found.data());
+    });
+  }
+  time_per(state, "per_point", kPoints);
+}
+BENCHMARK(nearest_in_blocks);
 
 void find_neighbourhoods(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(lacuna::find_neighbourhoods(tile(), kNeighbours, 0));

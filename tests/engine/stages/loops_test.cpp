@@ -36,7 +36,9 @@ std::vector<Cycle> loops_of(LocalIndex vertices, const Edges& edges, std::uint64
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", budget);
   std::vector<Cycle> loops;
-  find_loops({offsets, indices}, scratch,
+  std::vector<PointId> ids;
+  for (LocalIndex v = 0; v < vertices; ++v) ids.push_back(PointId{v});
+  find_loops({ids, offsets, indices}, scratch,
              [&](std::span<const LocalIndex> loop) { loops.emplace_back(loop.begin(), loop.end()); });
   return loops;
 }

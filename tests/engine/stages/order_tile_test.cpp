@@ -19,7 +19,7 @@ TEST_CASE("points come by cell, then by coordinates; of coincident ones the lowe
   const std::vector<StoredPoint> points = {stored(5, 0, 0, 7), stored(1, 0, 0, 4), stored(1, 0, 0, 2),
                                            stored(0, 9, 0, 9), stored(1, 0, 0, 8), stored(0, 3, 0, 1)};
   const std::vector<std::uint32_t> cells = {2, 0, 0, 0, 0, 0};
-  const OrderedTile tile = order_tile(points, cells, 3);
+  const OrderedTile tile = order_tile(points, cells, 3, CellGrid{});
   CHECK(tile.order == std::vector<std::uint32_t>{5, 3, 2, 0});
   CHECK(tile.cell_points == std::vector<std::uint64_t>{3, 0, 1});
   REQUIRE(tile.duplicates.size() == 2);
@@ -32,13 +32,13 @@ TEST_CASE("minus zero is at the place of zero") {
   const std::vector<StoredPoint> points = {stored(-0.0, 0, 0.0, 3), stored(0.0, -0.0, -0.0, 1),
                                            stored(0, 0, 0, 2)};
   const std::vector<std::uint32_t> cells = {0, 0, 0};
-  const OrderedTile tile = order_tile(points, cells, 1);
+  const OrderedTile tile = order_tile(points, cells, 1, CellGrid{});
   CHECK(tile.order == std::vector<std::uint32_t>{1});
   CHECK(tile.duplicates.size() == 2);
 }
 
 TEST_CASE("nothing is ordered into nothing") {
-  const OrderedTile tile = order_tile({}, {}, 2);
+  const OrderedTile tile = order_tile({}, {}, 2, CellGrid{});
   CHECK(tile.order.empty());
   CHECK(tile.cell_points == std::vector<std::uint64_t>{0, 0});
 }
@@ -56,7 +56,7 @@ TEST_CASE(
     const auto ordered = [](std::vector<StoredPoint> in) {
       std::vector<std::uint32_t> cells;
       for (const StoredPoint& p : in) cells.push_back(p.x < 0 ? 0 : 1);
-      const OrderedTile tile = order_tile(in, cells, 2);
+      const OrderedTile tile = order_tile(in, cells, 2, CellGrid{});
       std::vector<PointId> kept, copies;
       for (const std::uint32_t i : tile.order) kept.push_back(in[i].id);
       for (const Duplicate& d : tile.duplicates) {

@@ -22,7 +22,9 @@ constexpr std::uint64_t kMapped = 0;
 Edges span(LocalIndex vertices, const Edges& edges, std::int64_t e, std::uint64_t budget = kInMemory) {
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", budget);
-  Spanning spanning(vertices, edges.size(), e, scratch);
+  std::vector<PointId> ids;
+  for (LocalIndex v = 0; v < vertices; ++v) ids.push_back(PointId{v});
+  Spanning spanning(ids, e, scratch);
   for (const auto& [a, b] : edges) spanning.add({a, b});
   const SpanningGraph graph = spanning.finish();
   REQUIRE(graph.size() == vertices);

@@ -16,9 +16,9 @@
 namespace lacuna {
 namespace {
 
-SurveyedScan survey(const Cloud& cloud, std::uint64_t max_cells = 1'000'000, std::size_t batch = 1000,
+SurveyedScan survey(const Cloud& cloud, std::uint64_t memory = 1 << 30, std::size_t batch = 1000,
                     bool expected = true) {
-  Survey survey(max_cells, expected ? cloud.size() : 0);
+  Survey survey(memory, expected ? cloud.size() : 0);
   MemoryScan scan(cloud, batch);
   for (PointBatch points; scan.next(points);) survey.add(points);
   return survey.finish();
@@ -63,7 +63,7 @@ TEST_CASE("a survey counts every finite point in the cell that the final grid gi
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     const Cloud cloud = random_cloud(4000 + seed);
     INFO("seed " << seed);
-    const SurveyedScan scan = survey(cloud, 1'000'000, 1 + 77 * seed, seed % 2 == 0);
+    const SurveyedScan scan = survey(cloud, 1 << 30, 1 + 77 * seed, seed % 2 == 0);
     check_counts(cloud, scan);
     CHECK(scan.points == cloud.size());
     const auto dropped = std::count_if(cloud.positions.begin(), cloud.positions.end(),
@@ -72,14 +72,18 @@ TEST_CASE("a survey counts every finite point in the cell that the final grid gi
   }
 }
 
-TEST_CASE("cells merge while there are more than allowed, and no point is lost") {
+TEST_CASE("cells merge while they need more memory than allowed, and no point is lost") {
   const Cloud cloud = scattered(3000, 1).scaled(50).joined(lattice(8));
-  for (const std::uint64_t max_cells : {1, 8, 50, 1000}) {
-    const SurveyedScan scan = survey(cloud, max_cells, 100);
-    INFO(max_cells << " cells allowed");
+  std::size_t before = 0;
+  for (const std::uint64_t memory : {1, 20'000, 40'000, 200'000}) {
+    const SurveyedScan scan = survey(cloud, memory, 100);
+    INFO(memory << " bytes allowed");
     check_counts(cloud, scan);
-    CHECK(scan.cells.size() <= std::max<std::uint64_t>(max_cells, 8));
+    CHECK(scan.cells.size() <= std::max<std::uint64_t>(memory / 96, 8));
+    CHECK(scan.cells.size() >= before);
+    before = scan.cells.size();
   }
+  CHECK(before > 8);
 }
 
 TEST_CASE("cells hold about sixteen points on average, save where they cannot merge") {
