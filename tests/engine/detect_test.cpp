@@ -135,11 +135,22 @@ TEST_CASE("a punched plane has its hole and its rim, as in the plain method") {
 }
 
 TEST_CASE("random clouds with random parameters give the results of the plain method under any tiling") {
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) check_seed(seed);
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) check_seed(seed);
 }
 
 TEST_CASE("two thousand more random clouds give the results of the plain method", "[.slow]") {
-  for (std::uint64_t seed = 101; seed <= 2100; ++seed) check_seed(seed);
+  for (std::uint64_t seed = 501; seed <= 2500; ++seed) check_seed(seed);
+}
+
+TEST_CASE("clouds made to be hard give the results of the plain method with random parameters", "[.slow]") {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Cloud cloud = hard_cloud(seed);
+    const Config config = random_config(seed, 0.5);
+    INFO("seed " << seed);
+    const std::int64_t tile_points = std::array<std::int64_t, 4>{20, 200, 1000, 100'000}[seed % 4];
+    check_equal(run_engine(cloud, tiled(config, tile_points)),
+                reference::detect(cloud.positions, cloud.normals, config));
+  }
 }
 
 TEST_CASE("tiling and threads never show, on a cloud made to be hard") {

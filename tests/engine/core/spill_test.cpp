@@ -43,6 +43,9 @@ TEST_CASE("rows of a column that were never written read as zero, inside of it a
   CHECK(column.read(100'002, 3) == std::vector<std::uint64_t>{9, 0, 0});
   CHECK(column.read(1'000'000, 2) == std::vector<std::uint64_t>{0, 0});
   CHECK(column.read(0, 0).empty());
+  std::vector<std::uint64_t> used(4, 99);
+  column.read(100'001, std::span(used));
+  CHECK(used == std::vector<std::uint64_t>{8, 9, 0, 0});
 }
 
 TEST_CASE("records of rows in ascending order are read in runs, with gaps of any size") {
