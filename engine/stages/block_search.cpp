@@ -255,7 +255,8 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
 // The first k of all points within `radius`; false if these are no more than k and not all.
 bool BlockSearch::rank(LocalIndex query, double radius, std::size_t k) {
   Candidates& c = *candidates_;
-  const double squared_radius = radius * radius * kSlack;
+  // Never infinite: at infinity lies the padding beyond the last point.
+  const double squared_radius = std::min(radius * radius * kSlack, std::numeric_limits<double>::max());
   const Eigen::Vector3d& p = positions_[query];
   const double* const low[3] = {c.low[0].data(), c.low[1].data(), c.low[2].data()};
   const double* const high[3] = {c.high[0].data(), c.high[1].data(), c.high[2].data()};
@@ -267,9 +268,6 @@ bool BlockSearch::rank(LocalIndex query, double radius, std::size_t k) {
                          squared_radius, static_cast<LocalIndex>(c.blocks[b] * kBlock),
                          c.squared_distance.data(), c.index.data(), count);
   }
-  // Beyond the last point lie the padding's infinite distances.
-  while (count > 0 && c.index[count - 1] >= positions_.size()) --count;
-
   if (count <= k && count < positions_.size()) return false;
 
   // Rank 0 is the query itself.

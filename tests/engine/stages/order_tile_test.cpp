@@ -42,10 +42,10 @@ TEST_CASE("points that differ in one coordinate are two points") {
        {stored(1, 0, 0, 1), stored(0, 1, 0, 1), stored(0, 0, 1, 1), stored(0, 0, 5e-324, 1)}) {
     const std::vector<StoredPoint> points = {stored(0, 0, 0, 0), other};
     const std::vector<std::uint32_t> cells = {0, 0};
-    CHECK(order_tile(points, cells, 1).duplicates.empty());
+    CHECK(order_tile(points, cells, 1, CellGrid{}).duplicates.empty());
   }
   const std::vector<StoredPoint> same = {stored(0, 0, 0, 0), stored(0, 0, 0, 1)};
-  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1).duplicates.size() == 1);
+  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}).duplicates.size() == 1);
 }
 
 TEST_CASE("nothing is ordered into nothing") {
