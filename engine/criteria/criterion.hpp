@@ -7,20 +7,17 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include <Eigen/Core>
 
 namespace lacuna {
 
-// The surface around a point p, as its neighbours tell it. Offsets are q - p, nearest first; p itself takes
-// part in no sum, and every sum is taken in that order.
+// The surface around a point p, as its neighbours tell it. p itself takes part in no sum, and every sum is
+// taken in neighbour order.
 struct LocalSurface {
-  std::span<const Eigen::Vector3d> offsets;
-  std::span<const double> distances;  // |q - p|
-  double mean_distance = 0;           // r_p
-  Eigen::Vector3d mean_offset;        // mu_p - p, weighted by exp(-d^2 / sigma^2)
-  Eigen::Vector3d eigenvalues;        // of C_p, largest first
+  double mean_distance = 0;     // r_p
+  Eigen::Vector3d mean_offset;  // mu_p - p, weighted by exp(-d^2 / sigma^2)
+  Eigen::Vector3d eigenvalues;  // of C_p, largest first
   bool has_normal = false;
   Eigen::Vector3d normal;  // unit
   DirectionGap gap;        // the largest among the neighbours' directions in the tangent plane

@@ -1,10 +1,11 @@
 // The largest gap between the directions in which a point's neighbours lie (paper, 4.2).
 #pragma once
 
+#include "engine/criteria/offsets.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,13 +22,19 @@ struct DirectionGap {
   std::uint32_t far = kNone;
 };
 
-// `cos_cone`: neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction.
-// `directions` is working space.
+// Directions in the tangent plane; working space, used again from point to point.
 struct Direction {
   double angle;
-  std::uint32_t rank;
+  std::uint32_t rank;  // of the neighbour
 };
-DirectionGap largest_gap(std::span<const Eigen::Vector3d> offsets, std::span<const double> distances,
-                         const Eigen::Vector3d& normal, double cos_cone, std::vector<Direction>& directions);
+struct Directions {
+  std::vector<double> x, y, angle;
+  std::vector<std::uint32_t> rank, place;
+  std::vector<Direction> sorted, merged;
+};
+
+// `cos_cone`: neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction.
+DirectionGap largest_gap(const Offsets& offsets, const Eigen::Vector3d& normal, double cos_cone,
+                         Directions& directions);
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 #include "engine/data/tiling.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -11,12 +12,13 @@ double CellGrid::edge() const {
 }
 
 CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
-  // By a power of two: exact, so every pass finds the same cell.
-  const double scale = std::ldexp(1.0, -finest);
+  // By a power of two, 2^-finest: exact, so every pass finds the same cell.
+  const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - finest) << 52);
   CellCoord cell;
   for (int axis = 0; axis < 3; ++axis) {
-    const double index = std::clamp<double>(std::floor(position[axis] * scale), -kLast, kLast);
-    cell[axis] = static_cast<std::int32_t>(index) >> shift;
+    const double index = std::clamp<double>(position[axis] * scale, -kLast, kLast);
+    const auto truncated = static_cast<std::int32_t>(index);
+    cell[axis] = (truncated - (truncated > index)) >> shift;  // rounded down
   }
   return cell;
 }

@@ -22,7 +22,7 @@ struct CellGrid {
   static constexpr std::int32_t kLast = 1 << 30;
   static constexpr int kMaxShift = 30;
 
-  int finest = 0;
+  int finest = 0;  // within +-900, so that its powers of two are normal numbers
   int shift = 0;
 
   double edge() const;

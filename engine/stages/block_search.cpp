@@ -1,6 +1,7 @@
 #include "engine/stages/block_search.hpp"
 
 #include "engine/core/dispatch.hpp"
+#include "engine/core/vector_math.hpp"
 
 #include <algorithm>
 #include <array>
@@ -111,17 +112,6 @@ std::size_t within_block(const double* block, double x, double y, double z, doub
     count += d[i] <= squared_radius;
   }
   return count;
-}
-
-// rank[i]: how many are nearer.
-LACUNA_VECTORISED
-void count_nearer(const double* squared_distances, std::size_t count, std::uint32_t* ranks) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d = squared_distances[i];
-    std::uint64_t nearer = 0;
-    for (std::size_t j = 0; j < count; ++j) nearer += squared_distances[j] < d;
-    ranks[i] = static_cast<std::uint32_t>(nearer);
-  }
 }
 
 }  // namespace
@@ -275,7 +265,7 @@ bool BlockSearch::rank(LocalIndex query, double radius, std::size_t k) {
   found_.assign(wanted, Neighbour{0, PointId{0}, kNoIndex});
   std::size_t placed = 0;
   if (count <= kMostCandidates) {
-    count_nearer(c.squared_distance.data(), count, c.rank.data());
+    count_smaller(c.squared_distance.data(), count, c.rank.data());
     for (std::size_t i = 0; i < count; ++i) {
       if (c.rank[i] >= wanted) continue;
       found_[c.rank[i]] = {c.squared_distance[i], ids_[c.index[i]], c.index[i]};

@@ -1,5 +1,7 @@
 #include "engine/stages/evaluate.hpp"
 
+#include "engine/core/vector_math.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -22,65 +24,100 @@ Weights normalised_weights(const CriteriaConfig& config) {
 
 // Working space of one thread, used again from point to point.
 struct Workspace {
-  std::vector<Eigen::Vector3d> offsets;
-  std::vector<double> squared_distances, distances, weights;
-  std::vector<Direction> directions;
+  Offsets offsets;
+  std::vector<double> weights;
+  Directions directions;
 };
 
 void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const LocalIndex> neighbours,
-                    Workspace& w) {
-  w.offsets.clear();
-  w.squared_distances.clear();
-  w.distances.clear();
-  for (const LocalIndex q : neighbours) {
-    w.offsets.push_back(points.positions[q] - points.positions[p]);
-    w.squared_distances.push_back(squared_distance(points.positions[q], points.positions[p]));
-    w.distances.push_back(std::sqrt(w.squared_distances.back()));
+                    Offsets& offsets) {
+  offsets.resize(neighbours.size());
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    offsets.set(i, points.positions[neighbours[i]] - points.positions[p]);
   }
 }
 
-double mean(std::span<const double> values) {
+double mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
-// mu_p and the eigenvectors of C_p (4.3, 4.4), with weights exp(-d^2 / sigma^2).
-// Differs from the paper: sigma = r_p by default, not r_p / 3, with which only one or two points count.
+// exp(-d^2 / sigma^2) of every neighbour: in vector arithmetic, or as the standard library has it.
+enum class Precision { kVector, kLibrary };
+
+void weigh(const Offsets& offsets, double sigma, Precision precision, std::vector<double>& weights) {
+  weights.resize(offsets.size());
+  const double squared_sigma = sigma * sigma;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = -offsets.squared_distance[i] / squared_sigma;
+  }
+  constexpr double kTiny = -600;  // where even the nearest neighbour's weight is next to nothing
+  if (precision == Precision::kVector && weights.front() > kTiny) {
+    exp_each(weights.data(), weights.size(), weights.data());
+  } else {
+    for (double& weight : weights) weight = std::exp(weight);
+  }
+}
+
+// mu_p - p and C_p (4.3, 4.4).
 struct Moments {
   Eigen::Vector3d mean{0, 0, 0};
-  Eigen::Vector3d eigenvalues{0, 0, 0};  // largest first
-  Eigen::Vector3d smallest_axis{0, 0, 1};
-  bool plane = false;  // the two smallest eigenvalues differ
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-Moments weighted_moments(double sigma, Workspace& w) {
+Moments weighted_moments(const Offsets& offsets, const std::vector<double>& weights) {
   Moments moments;
-  double total = 0;
-  w.weights.clear();
-  for (std::size_t i = 0; i < w.offsets.size(); ++i) {
-    w.weights.push_back(std::exp(-w.squared_distances[i] / (sigma * sigma)));
-    total += w.weights[i];
-    moments.mean += w.weights[i] * w.offsets[i];
+  double total = 0, x = 0, y = 0, z = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    total += weights[i];
+    x += weights[i] * offsets.x[i];
+    y += weights[i] * offsets.y[i];
+    z += weights[i] * offsets.z[i];
   }
-  if (total == 0) {
-    moments.mean.setZero();
-    return moments;
+  if (total == 0) return moments;
+  moments.mean = Eigen::Vector3d(x, y, z) / total;
+  x = moments.mean.x(), y = moments.mean.y(), z = moments.mean.z();
+  double xx = 0, yx = 0, yy = 0, zx = 0, zy = 0, zz = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const double dx = x - offsets.x[i], dy = y - offsets.y[i], dz = z - offsets.z[i];
+    const double wx = weights[i] * dx, wy = weights[i] * dy, wz = weights[i] * dz;
+    xx += wx * dx;
+    yx += wy * dx;
+    yy += wy * dy;
+    zx += wz * dx;
+    zy += wz * dy;
+    zz += wz * dz;
   }
-  moments.mean /= total;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < w.offsets.size(); ++i) {
-    const Eigen::Vector3d d = moments.mean - w.offsets[i];
-    covariance.noalias() += w.weights[i] * d * d.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  moments.eigenvalues = solver.eigenvalues().reverse();
-  moments.smallest_axis = solver.eigenvectors().col(0);
-  // No more than rounding noise between them: no plane fits better than another.
-  constexpr double kSameEigenvalue = 1e-12;
-  moments.plane =
-      moments.eigenvalues[1] - moments.eigenvalues[2] > kSameEigenvalue * moments.eigenvalues.sum();
+  moments.covariance << xx, yx, zx, yx, yy, zy, zx, zy, zz;
   return moments;
+}
+
+// Sets the mean, the eigenvalues and, where there is one, the normal of the surface.
+// Differs from the paper: sigma = r_p by default, not r_p / 3, with which only one or two points count.
+void fit_plane(double sigma, LocalSurface& surface, Workspace& w) {
+  weigh(w.offsets, sigma, Precision::kVector, w.weights);
+  Moments moments = weighted_moments(w.offsets, w.weights);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(moments.covariance);
+
+  // Between eigenvalues this near, the closed form loses digits, and the last digits of the weights decide
+  // where the normal points: then no digit is given away.
+  constexpr double kNear = 1e-5;
+  const Eigen::Vector3d values = solver.eigenvalues();
+  const double near = kNear * values.sum();
+  if (!(values[1] - values[0] > near && values[2] - values[1] > near)) {
+    weigh(w.offsets, sigma, Precision::kLibrary, w.weights);
+    moments = weighted_moments(w.offsets, w.weights);
+    solver.compute(moments.covariance);
+  }
+  surface.mean_offset = moments.mean;
+  surface.eigenvalues = solver.eigenvalues().reverse();
+  // No more than rounding noise between the two smallest: no plane fits better than another.
+  constexpr double kSameEigenvalue = 1e-12;
+  surface.has_normal =
+      surface.eigenvalues[1] - surface.eigenvalues[2] > kSameEigenvalue * surface.eigenvalues.sum();
+  surface.normal = solver.eigenvectors().col(0);
 }
 
 // At a sharp crease the estimated normal halves the angle between the two faces, and the faces look like a
@@ -89,16 +126,17 @@ void turn_at_crease(LocalSurface& surface, double threshold, double cos_cone, Wo
   const double before = angle_probability(surface);
   if (!(before > threshold) || surface.gap.near == DirectionGap::kNone) return;
   const auto in_plane = [&](std::uint32_t rank) -> Eigen::Vector3d {
-    const Eigen::Vector3d& offset = w.offsets[rank];
+    const Eigen::Vector3d offset = w.offsets[rank];
     return offset - surface.normal * surface.normal.dot(offset);
   };
   const Eigen::Vector3d crease = in_plane(surface.gap.far) - in_plane(surface.gap.near);
   constexpr double kOnePoint = 1e-12;
-  if (crease.norm() <= kOnePoint * (w.distances[surface.gap.near] + w.distances[surface.gap.far])) return;
+  const double distances = w.offsets.distance[surface.gap.near] + w.offsets.distance[surface.gap.far];
+  if (crease.norm() <= kOnePoint * distances) return;
 
   LocalSurface turned = surface;
   turned.normal = crease.cross(surface.normal).normalized();
-  turned.gap = largest_gap(w.offsets, w.distances, turned.normal, cos_cone, w.directions);
+  turned.gap = largest_gap(w.offsets, turned.normal, cos_cone, w.directions);
   if (angle_probability(turned) < before / 2) surface = turned;
 }
 
@@ -134,16 +172,16 @@ std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbour
       evaluations[p] = lone_point();
       continue;
     }
-    gather_offsets(points, p, neighbours, w);
-    LocalSurface surface{.offsets = w.offsets, .distances = w.distances, .mean_distance = mean(w.distances)};
-    const Moments moments = weighted_moments(criteria.sigma * surface.mean_distance, w);
-    surface.mean_offset = moments.mean;
-    surface.eigenvalues = moments.eigenvalues;
+    gather_offsets(points, p, neighbours, w.offsets);
+    LocalSurface surface{.mean_distance = mean(w.offsets.distance)};
+    fit_plane(criteria.sigma * surface.mean_distance, surface, w);
     const bool given = !given_normals.empty() && usable(given_normals[p]);
-    surface.has_normal = given || moments.plane;
+    if (given) {
+      surface.has_normal = true;
+      surface.normal = given_normals[p].stableNormalized();
+    }
     if (surface.has_normal) {
-      surface.normal = given ? given_normals[p].stableNormalized() : moments.smallest_axis;
-      surface.gap = largest_gap(w.offsets, w.distances, surface.normal, cos_cone, w.directions);
+      surface.gap = largest_gap(w.offsets, surface.normal, cos_cone, w.directions);
       if (!given) turn_at_crease(surface, normals.crease_threshold, cos_cone, w);
     }
 

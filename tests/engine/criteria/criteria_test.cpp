@@ -17,10 +17,11 @@ constexpr double kNoCone = 2;
 
 DirectionGap gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
                     const Vector3d& normal = {0, 0, 1}) {
-  std::vector<double> distances;
-  for (const Vector3d& offset : offsets) distances.push_back(offset.norm());
-  std::vector<Direction> directions;
-  return largest_gap(offsets, distances, normal, cos_cone, directions);
+  Offsets columns;
+  columns.resize(offsets.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i) columns.set(i, offsets[i]);
+  Directions directions;
+  return largest_gap(columns, normal, cos_cone, directions);
 }
 
 // In the plane, at these degrees; nearest first.
