@@ -7,7 +7,6 @@
 namespace lacuna {
 namespace {
 
-// Run it alone: what this process holds when it starts the program counts as the program's.
 void check_memory(const std::string& points, const std::string& limit) {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "surface.ply").string();

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +21,17 @@ namespace {
 void redirect(const std::filesystem::path& file, int descriptor) {
   const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(125);
+}
+
+// Of a running process. Not wait4's ru_maxrss: that counts what the forked child held before it became the
+// program, which is all that these tests hold.
+std::uint64_t peak_resident(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kibibytes = 0;
+    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+  }
+  return 0;
 }
 
 ProgramResult run_until(std::vector<std::string> words, int signal, const std::function<bool()>& moment) {
@@ -41,18 +52,19 @@ ProgramResult run_until(std::vector<std::string> words, int signal, const std::f
   }
 
   int status = 0;
-  rusage usage{};
+  std::uint64_t peak = 0;
   bool sent = false;
-  while (wait4(child, &status, signal != 0 && !sent ? WNOHANG : 0, &usage) == 0) {
-    sent = moment();
-    if (sent) {
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    // The last look counts: an early one may see the child before it is the program.
+    if (const std::uint64_t resident = peak_resident(child)) peak = resident;
+    if (signal != 0 && !sent && moment()) {
       kill(child, signal);
-    } else {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      sent = true;
     }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const int exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  return {exit_code, read_file(out), read_file(err), static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
+  return {exit_code, read_file(out), read_file(err), peak};
 }
 
 }  // namespace

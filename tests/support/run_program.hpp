@@ -13,7 +13,7 @@ struct ProgramResult {
   int exit_code = 0;  // 128 + n: killed by signal n
   std::string out;
   std::string err;
-  std::uint64_t peak_memory = 0;  // bytes resident at most, as the operating system counts; at least our own
+  std::uint64_t peak_memory = 0;  // bytes resident at most, looked at every millisecond
 };
 
 ProgramResult run_program(const std::vector<std::string>& arguments);
