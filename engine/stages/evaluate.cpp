@@ -103,7 +103,7 @@ void fit_plane(double sigma, LocalSurface& surface, Workspace& w) {
 
   // Between eigenvalues this near, the closed form loses digits, and the last digits of the weights decide
   // where the normal points: then no digit is given away.
-  constexpr double kNear = 1e-5;
+  constexpr double kNear = 1e-3;
   const Eigen::Vector3d values = solver.eigenvalues();
   const double near = kNear * values.sum();
   if (!(values[1] - values[0] > near && values[2] - values[1] > near)) {

@@ -80,14 +80,16 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   return undecided;
 }
 
-// Points with a neighbour whose use is decided by rounding alone: at the cone exactly, or so near the normal
-// line that noise makes its direction. Their probabilities are not compared.
+// Points judged by rounding alone: with a neighbour at the cone exactly, or so near the normal line that
+// noise makes its direction, or with a turn at a crease that halves the angle probability exactly. Their
+// probabilities are not compared.
 std::vector<bool> judged_by_rounding(const reference::Detection& plain, const Cloud& cloud, double cone) {
   constexpr double kNoise = 1e-9;
   const double cos_cone = std::cos(cone * std::numbers::pi / 180);
   std::vector<bool> judged(plain.points.size(), false);
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const reference::Point& p = plain.points[i];
+    judged[i] = p.turned_by_rounding;
     if (!p.normal) continue;
     const std::size_t at = value(p.representative);
     for (const PointId q : p.neighbours) {
@@ -115,7 +117,8 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
       continue;
     }
     wrong_probability += !judged[i] && (!near(q.probability, p.probability) || !near(q.angle, p.angle));
-    wrong_probability += !near(q.halfdisc, p.halfdisc) || !near(q.shape, p.shape);
+    wrong_probability += !p.turned_by_rounding && !near(q.halfdisc, p.halfdisc);
+    wrong_probability += !near(q.shape, p.shape);
     wrong_coherence += (q.coherent != 0) != p.coherent;
     wrong_boundary += (q.boundary != 0) != p.boundary;
     if (p.oriented_normal) {

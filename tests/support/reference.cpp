@@ -354,6 +354,7 @@ void evaluate(const Positions& positions, const std::vector<Vector3d>& given, co
       if (const auto turned = turned_normal(*point.normal, offsets[g1], offsets[g2])) {
         const AngleOutcome again = angle_criterion(offsets, *turned, criteria.cone);
         point.turned = again.probability < angle.probability / 2;
+        point.turned_by_rounding = std::abs(again.probability - angle.probability / 2) <= 1e-9;
         if (point.turned) point.normal = turned, angle = again;
       }
     }

@@ -29,6 +29,7 @@ struct Point {
   std::optional<Eigen::Vector3d> normal;           // as the criteria used it, of either sign
   std::optional<Eigen::Vector3d> oriented_normal;  // the same line; only with normals.orient
   bool turned = false;                             // at a crease
+  bool turned_by_rounding = false;                 // or not: the turn halves the angle probability exactly
 
   // 3. Criteria
   double angle = 1;

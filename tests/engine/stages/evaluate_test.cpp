@@ -42,6 +42,7 @@ TEST_CASE("probabilities are those of the plain method to 1e-9, gap neighbours a
       ++compared;
       wrong_distance += e.mean_distance != p.mean_distance;
       const bool given = !cloud.normals.empty();
+      if (p.turned_by_rounding) continue;
       if (!given && p.lambda[1] - p.lambda[2] <= 1e-9) {
         ++ill_conditioned;
         continue;
