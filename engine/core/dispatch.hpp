@@ -7,3 +7,15 @@
 #else
 #define LACUNA_VECTORISED
 #endif
+
+// Functions written for AVX-512 (F, DQ, VL), to be called only where `has_avx512()`.
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#define LACUNA_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl")))
+namespace lacuna {
+inline bool has_avx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+}  // namespace lacuna
+#endif

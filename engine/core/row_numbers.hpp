@@ -1,12 +1,12 @@
 // Numbers for some of the rows: 0, 1, 2, ... in ascending order of rows.
 #pragma once
 
+#include "engine/data/ids.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
-
-#include "engine/data/ids.hpp"
 
 namespace lacuna {
 
@@ -46,9 +46,11 @@ class RowNumbers {
 
   // Of a row that was collected.
   LocalIndex number(Row row) const {
-    if (!is_dense_) return static_cast<LocalIndex>(std::lower_bound(list_.begin(), list_.end(), row) - list_.begin());
+    if (!is_dense_)
+      return static_cast<LocalIndex>(std::lower_bound(list_.begin(), list_.end(), row) - list_.begin());
     const Word& w = words_[value(row) / 64 - first_word_];
-    return w.before + static_cast<LocalIndex>(std::popcount(w.bits & ((std::uint64_t{1} << value(row) % 64) - 1)));
+    return w.before +
+           static_cast<LocalIndex>(std::popcount(w.bits & ((std::uint64_t{1} << value(row) % 64) - 1)));
   }
 
   Row row(LocalIndex number) const {

@@ -12,7 +12,7 @@ LACUNA_VECTORISED
 void atan2_each(const double* y, const double* x, std::size_t count, double* angles) {
   constexpr double kPi = std::numbers::pi;
   constexpr double kTanEighth = 0.41421356237309503;  // tan(pi / 8)
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < lanes(count); ++i) {
     const double ax = std::abs(x[i]), ay = std::abs(y[i]);
     const double large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
     // tan(a - pi / 4) = (tan a - 1) / (tan a + 1)
@@ -45,7 +45,7 @@ LACUNA_VECTORISED
 void exp_each(const double* x, std::size_t count, double* values) {
   constexpr double kLn2High = 6.93145751953125e-1, kLn2Low = 1.42860682030941723212e-6;
   constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest integer in the lowest bits
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < lanes(count); ++i) {
     const double bounded = x[i] > -700.0 ? x[i] : -700.0;
     const double shifted = bounded * std::numbers::log2e + kRound;
     const double n = shifted - kRound;
@@ -72,11 +72,13 @@ void exp_each(const double* x, std::size_t count, double* values) {
 
 LACUNA_VECTORISED
 void count_smaller(const double* values, std::size_t count, std::uint32_t* ranks) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double value = values[i];
-    std::uint64_t smaller = 0;
-    for (std::size_t j = 0; j < count; ++j) smaller += values[j] < value;
-    ranks[i] = static_cast<std::uint32_t>(smaller);
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    std::uint64_t smaller[kLanes] = {};
+    for (std::size_t j = 0; j < count; ++j) {
+      const double other = values[j];
+      for (std::size_t i = 0; i < kLanes; ++i) smaller[i] += other < values[first + i];
+    }
+    for (std::size_t i = 0; i < kLanes; ++i) ranks[first + i] = static_cast<std::uint32_t>(smaller[i]);
   }
 }
 

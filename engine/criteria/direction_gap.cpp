@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -29,40 +30,51 @@ struct TangentPlane {
 };
 
 // Projects every neighbour; those without a stable direction get a place outside of the plane: NaN.
+// Returns how many these are.
 LACUNA_VECTORISED
-void project(const Offsets& offsets, const TangentPlane& plane, double* px, double* py) {
+std::uint64_t project(const Offsets& offsets, const TangentPlane& plane, double* px, double* py) {
   const double nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z();
   const double ux = plane.u.x(), uy = plane.u.y(), uz = plane.u.z();
   const double vx = plane.v.x(), vy = plane.v.y(), vz = plane.v.z();
+  const double cos_cone = plane.cos_cone;
   const double* const ox = offsets.x.data();
   const double* const oy = offsets.y.data();
   const double* const oz = offsets.z.data();
   const double* const distance = offsets.distance.data();
   const std::size_t count = offsets.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < lanes(count); ++i) {
     const double height = (nx * ox[i] + ny * oy[i]) + nz * oz[i];
     const double x = (ux * ox[i] + uy * oy[i]) + uz * oz[i];
     const double y = (vx * ox[i] + vy * oy[i]) + vz * oz[i];
     const double shortest = kNoDirection * distance[i];
-    const bool steep = std::abs(height) > plane.cos_cone * distance[i];
-    const bool onto_p = x * x + y * y <= shortest * shortest;
-    px[i] = steep || onto_p ? std::numeric_limits<double>::quiet_NaN() : x;
+    const double steep = std::abs(height) > cos_cone * distance[i] ? 1 : 0;
+    const double unstable = x * x + y * y <= shortest * shortest ? 1 : steep;
+    px[i] = unstable > 0 ? std::numeric_limits<double>::quiet_NaN() : x;
     py[i] = y;
   }
+  std::uint64_t without = 0;
+  for (std::size_t i = 0; i < count; ++i) without += px[i] != px[i];
+  return without;
 }
 
 // Directions of the neighbours that have one, sorted by angle, then by rank.
 void sort_directions(const Offsets& offsets, const TangentPlane& plane, Directions& d) {
   const std::size_t neighbours = offsets.size();
-  for (auto* column : {&d.x, &d.y, &d.angle}) column->resize(neighbours);
-  for (auto* column : {&d.rank, &d.place}) column->resize(neighbours);
-  project(offsets, plane, d.x.data(), d.y.data());
-  std::size_t count = 0;
-  for (std::uint32_t rank = 0; rank < neighbours; ++rank) {
-    d.x[count] = d.x[rank];
-    d.y[count] = d.y[rank];
-    d.rank[count] = rank;
-    count += !std::isnan(d.x[rank]);
+  if (d.x.size() < neighbours) {
+    for (auto* column : {&d.x, &d.y, &d.angle}) column->resize(lanes(neighbours));
+    for (auto* column : {&d.rank, &d.place}) column->resize(lanes(neighbours));
+  }
+  const std::size_t count = neighbours - project(offsets, plane, d.x.data(), d.y.data());
+  if (count == neighbours) {
+    std::iota(d.rank.begin(), d.rank.begin() + static_cast<std::ptrdiff_t>(count), 0u);
+  } else {
+    std::size_t kept = 0;
+    for (std::uint32_t rank = 0; rank < neighbours; ++rank) {
+      if (std::isnan(d.x[rank])) continue;
+      d.x[kept] = d.x[rank];
+      d.y[kept] = d.y[rank];
+      d.rank[kept++] = rank;
+    }
   }
   atan2_each(d.y.data(), d.x.data(), count, d.angle.data());
 
@@ -77,11 +89,6 @@ void sort_directions(const Offsets& offsets, const TangentPlane& plane, Directio
   std::sort(d.sorted.begin(), d.sorted.end(), [](const Direction& a, const Direction& b) {
     return a.angle != b.angle ? a.angle < b.angle : a.rank < b.rank;
   });
-}
-
-double turn_after(const std::vector<Direction>& directions, std::size_t i) {
-  const double turn = directions[i + 1 < directions.size() ? i + 1 : 0].angle - directions[i].angle;
-  return turn > 0 ? turn : turn + kTurn;
 }
 
 // Runs of directions each within kSame of the one before, across pi too, become one.
@@ -105,17 +112,31 @@ void merge_runs(const std::vector<Direction>& sorted, std::vector<Direction>& me
   }
 }
 
+// visit(turn, i) for the turn from each direction to the next, the last to the first.
+template <class Visit>
+void for_each_turn(const std::vector<Direction>& directions, Visit&& visit) {
+  const std::size_t last = directions.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double turn = directions[i < last ? i + 1 : 0].angle - directions[i].angle;
+    visit(turn > 0 ? turn : turn + kTurn, i);
+  }
+}
+
+double largest_turn(const std::vector<Direction>& directions) {
+  double largest = 0;
+  for_each_turn(directions, [&](double turn, std::size_t) { largest = std::max(largest, turn); });
+  return largest;
+}
+
 // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
-DirectionGap choose_gap(const std::vector<Direction>& directions, std::size_t used) {
-  DirectionGap gap{.used = used};
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    gap.size = std::max(gap.size, turn_after(directions, i));
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (turn_after(directions, i) < gap.size - kSame) continue;
-    const std::uint32_t a = directions[i].rank, b = directions[(i + 1) % directions.size()].rank;
+DirectionGap choose_gap(const std::vector<Direction>& directions, double largest, std::size_t used) {
+  DirectionGap gap{.size = largest, .used = used};
+  for_each_turn(directions, [&](double turn, std::size_t i) {
+    if (turn < largest - kSame) return;
+    const std::uint32_t a = directions[i].rank, b = directions[i + 1 < directions.size() ? i + 1 : 0].rank;
     const std::pair<std::uint32_t, std::uint32_t> pair = std::minmax(a, b);
     if (pair < std::pair(gap.near, gap.far)) std::tie(gap.near, gap.far) = pair;
-  }
+  });
   return gap;
 }
 
@@ -128,17 +149,15 @@ DirectionGap largest_gap(const Offsets& offsets, const Eigen::Vector3d& normal, 
   const std::vector<Direction>& sorted = directions.sorted;
   const std::size_t used = sorted.size();
   if (used == 0) return {};
-  double smallest = kTurn;
-  for (std::size_t i = 0; i + 1 < used; ++i) {
+  double smallest = sorted.front().angle - sorted.back().angle + kTurn;
+  for (std::size_t i = 0; i + 1 < used; ++i)
     smallest = std::min(smallest, sorted[i + 1].angle - sorted[i].angle);
-  }
-  smallest = std::min(smallest, sorted.front().angle - sorted.back().angle + kTurn);
-  if (smallest > kSame && used > 1) return choose_gap(sorted, used);
+  if (smallest > kSame && used > 1) return choose_gap(sorted, largest_turn(sorted), used);
 
+  const std::vector<Direction>& merged = directions.merged;
   merge_runs(sorted, directions.merged);
-  if (directions.merged.size() > 1) return choose_gap(directions.merged, used);
-  const std::uint32_t only = directions.merged[0].rank;
-  return {.size = kTurn, .used = used, .near = only, .far = only};
+  if (merged.size() > 1) return choose_gap(merged, largest_turn(merged), used);
+  return {.size = kTurn, .used = used, .near = merged[0].rank, .far = merged[0].rank};
 }
 
 }  // namespace lacuna

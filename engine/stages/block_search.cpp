@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -64,7 +65,8 @@ struct BlockSearch::Candidates {
   std::size_t count = 0;
   std::array<double, kMostBlocks * kBlock + kBlock> squared_distance;
   std::array<LocalIndex, kMostBlocks * kBlock + kBlock> index;
-  std::array<std::uint32_t, kMostCandidates> rank;
+  std::array<std::uint32_t, lanes(kMostCandidates)> rank;
+  std::array<LocalIndex, kMostCandidates> place;  // of each rank, the candidate that has it
 };
 
 namespace {
@@ -96,23 +98,58 @@ void point_gaps(double x, double y, double z, std::size_t count, const double* c
   }
 }
 
-// Appends the points of one block that lie within the radius; returns the new count.
+// What the points of one block are compared with, and where those within the radius go.
+struct Query {
+  double x, y, z, squared_radius;
+};
+struct Within {
+  double* squared_distances;
+  LocalIndex* indices;
+  std::size_t count;
+};
+
+// Appends the points of one block that lie within the radius. Writes up to a block beyond the count.
 LACUNA_VECTORISED
-std::size_t within_block(const double* block, double x, double y, double z, double squared_radius,
-                         LocalIndex first_index, double* squared_distances, LocalIndex* indices,
-                         std::size_t count) {
+void append_within(const double* block, const Query& query, LocalIndex first_index, Within& within) {
   std::array<double, kBlock> d;
   for (std::size_t i = 0; i < kBlock; ++i) {
-    const double dx = block[i] - x, dy = block[kBlock + i] - y, dz = block[2 * kBlock + i] - z;
+    const double dx = block[i] - query.x, dy = block[kBlock + i] - query.y,
+                 dz = block[2 * kBlock + i] - query.z;
     d[i] = (dx * dx + dy * dy) + dz * dz;
   }
   for (std::size_t i = 0; i < kBlock; ++i) {
-    squared_distances[count] = d[i];
-    indices[count] = first_index + static_cast<LocalIndex>(i);
-    count += d[i] <= squared_radius;
+    within.squared_distances[within.count] = d[i];
+    within.indices[within.count] = first_index + static_cast<LocalIndex>(i);
+    within.count += d[i] <= query.squared_radius;
   }
-  return count;
 }
+
+#ifdef LACUNA_AVX512
+// The same with the instruction that compilers do not find: compression.
+LACUNA_AVX512 void append_within_avx512(const double* block, const Query& query, LocalIndex first_index,
+                                        Within& within) {
+  const __m512d x = _mm512_set1_pd(query.x), y = _mm512_set1_pd(query.y), z = _mm512_set1_pd(query.z);
+  const __m512d squared_radius = _mm512_set1_pd(query.squared_radius);
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  for (std::size_t half = 0; half < kBlock; half += 8) {
+    const __m512d dx = _mm512_sub_pd(_mm512_loadu_pd(block + half), x);
+    const __m512d dy = _mm512_sub_pd(_mm512_loadu_pd(block + kBlock + half), y);
+    const __m512d dz = _mm512_sub_pd(_mm512_loadu_pd(block + 2 * kBlock + half), z);
+    const __m512d xy = _mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy));
+    const __m512d d = _mm512_add_pd(xy, _mm512_mul_pd(dz, dz));
+    const __mmask8 near = _mm512_cmp_pd_mask(d, squared_radius, _CMP_LE_OQ);
+    const __m256i index = _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(first_index + half)));
+    _mm512_storeu_pd(within.squared_distances + within.count, _mm512_maskz_compress_pd(near, d));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(within.indices + within.count),
+                        _mm256_maskz_compress_epi32(near, index));
+    within.count += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(near)));
+  }
+}
+
+const auto kAppendWithin = has_avx512() ? append_within_avx512 : append_within;
+#else
+constexpr auto kAppendWithin = append_within;
+#endif
 
 }  // namespace
 
@@ -251,39 +288,37 @@ bool BlockSearch::rank(LocalIndex query, double radius, std::size_t k) {
   const double* const low[3] = {c.low[0].data(), c.low[1].data(), c.low[2].data()};
   const double* const high[3] = {c.high[0].data(), c.high[1].data(), c.high[2].data()};
   point_gaps(p.x(), p.y(), p.z(), c.blocks.size(), low, high, c.gap.data());
-  std::size_t count = 0;
+  const Query around{p.x(), p.y(), p.z(), squared_radius};
+  Within within{c.squared_distance.data(), c.index.data(), 0};
   for (std::size_t b = 0; b < c.blocks.size(); ++b) {
     if (c.gap[b] > squared_radius) continue;
-    count = within_block(coordinates_.data() + std::size_t{c.blocks[b]} * 3 * kBlock, p.x(), p.y(), p.z(),
-                         squared_radius, static_cast<LocalIndex>(c.blocks[b] * kBlock),
-                         c.squared_distance.data(), c.index.data(), count);
+    kAppendWithin(coordinates_.data() + std::size_t{c.blocks[b]} * 3 * kBlock, around,
+                  static_cast<LocalIndex>(c.blocks[b] * kBlock), within);
   }
+  const std::size_t count = within.count;
   if (count <= k && count < positions_.size()) return false;
 
-  // Rank 0 is the query itself.
+  // Rank 0 is the query itself. Ties share a rank and leave another empty: then, and where candidates are
+  // many, sort.
   const std::size_t wanted = std::min(k + 1, count);
-  found_.assign(wanted, Neighbour{0, PointId{0}, kNoIndex});
-  std::size_t placed = 0;
+  found_.clear();
   if (count <= kMostCandidates) {
     count_smaller(c.squared_distance.data(), count, c.rank.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      if (c.rank[i] >= wanted) continue;
-      found_[c.rank[i]] = {c.squared_distance[i], ids_[c.index[i]], c.index[i]};
-      ++placed;
-    }
-  }
-  // Ties share a rank, and leave another empty: then, and where candidates are many, sort.
-  const bool distinct =
-      placed == wanted &&
-      std::none_of(found_.begin(), found_.end(), [](const Neighbour& n) { return n.index == kNoIndex; });
-  if (!distinct) {
-    found_.clear();
-    for (std::size_t i = 0; i < count; ++i)
+    std::fill_n(c.place.begin(), std::min(wanted + 1, count), kNoIndex);
+    for (LocalIndex i = 0; i < count; ++i) c.place[c.rank[i]] = i;
+    for (std::size_t rank = 1; rank < wanted && c.place[rank] != kNoIndex; ++rank) {
+      const LocalIndex i = c.place[rank];
       found_.push_back({c.squared_distance[i], ids_[c.index[i]], c.index[i]});
-    std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(wanted), found_.end());
-    found_.resize(wanted);
+    }
+    const bool last_tied = wanted < count && c.place[wanted] == kNoIndex;
+    if (found_.size() + 1 == wanted && !last_tied) return true;
   }
-  found_.erase(found_.begin());
+  found_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (c.index[i] != query) found_.push_back({c.squared_distance[i], ids_[c.index[i]], c.index[i]});
+  }
+  std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(wanted - 1), found_.end());
+  found_.resize(wanted - 1);
   return true;
 }
 

@@ -37,26 +37,25 @@ void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const Loca
   }
 }
 
-double mean(const std::vector<double>& values) {
+double mean_distance(const Offsets& offsets) {
   double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i) sum += offsets.distance[i];
+  return sum / static_cast<double>(offsets.size());
 }
 
 // exp(-d^2 / sigma^2) of every neighbour: in vector arithmetic, or as the standard library has it.
 enum class Precision { kVector, kLibrary };
 
 void weigh(const Offsets& offsets, double sigma, Precision precision, std::vector<double>& weights) {
-  weights.resize(offsets.size());
+  const std::size_t count = offsets.size();
+  if (weights.size() < count) weights.resize(lanes(count));
   const double squared_sigma = sigma * sigma;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = -offsets.squared_distance[i] / squared_sigma;
-  }
+  for (std::size_t i = 0; i < count; ++i) weights[i] = -offsets.squared_distance[i] / squared_sigma;
   constexpr double kTiny = -600;  // where even the nearest neighbour's weight is next to nothing
   if (precision == Precision::kVector && weights.front() > kTiny) {
-    exp_each(weights.data(), weights.size(), weights.data());
+    exp_each(weights.data(), count, weights.data());
   } else {
-    for (double& weight : weights) weight = std::exp(weight);
+    for (std::size_t i = 0; i < count; ++i) weights[i] = std::exp(weights[i]);
   }
 }
 
@@ -173,7 +172,7 @@ std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbour
       continue;
     }
     gather_offsets(points, p, neighbours, w.offsets);
-    LocalSurface surface{.mean_distance = mean(w.offsets.distance)};
+    LocalSurface surface{.mean_distance = mean_distance(w.offsets)};
     fit_plane(criteria.sigma * surface.mean_distance, surface, w);
     const bool given = !given_normals.empty() && usable(given_normals[p]);
     if (given) {

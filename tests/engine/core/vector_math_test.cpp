@@ -18,6 +18,8 @@ TEST_CASE("atan2 of every direction agrees with the standard library to a few un
     x.push_back(random.uniform(-1, 1) * (i % 7 == 0 ? 1e-9 : 1));
     y.push_back(random.uniform(-1, 1) * (i % 11 == 0 ? 1e-9 : 1));
   }
+  x.resize(lanes(x.size()));
+  y.resize(x.size());
   std::vector<double> angles(x.size());
   atan2_each(y.data(), x.data(), x.size(), angles.data());
   double worst = 0;
@@ -31,6 +33,7 @@ TEST_CASE("exp agrees with the standard library down to where it is next to noth
                            -599.9, -700.1,  -1e6, -std::numeric_limits<double>::infinity()};
   Random random(2);
   for (int i = 0; i < 20'000; ++i) x.push_back(-random.uniform(0, i % 2 ? 30 : 600));
+  x.resize(lanes(x.size()));
   std::vector<double> values(x.size());
   exp_each(x.data(), x.size(), values.data());
   double worst = 0;
@@ -42,9 +45,12 @@ TEST_CASE("exp agrees with the standard library down to where it is next to noth
 }
 
 TEST_CASE("a rank is the number of smaller values") {
-  const std::vector<double> values = {3, 1, 2, 2, -5, 9, 1, 7, 8, 2};
+  std::vector<double> values = {3, 1, 2, 2, -5, 9, 1, 7, 8, 2};
+  const std::size_t count = values.size();
+  values.resize(lanes(count), -100);  // beyond the count: to be passed over
   std::vector<std::uint32_t> ranks(values.size());
-  count_smaller(values.data(), values.size(), ranks.data());
+  count_smaller(values.data(), count, ranks.data());
+  ranks.resize(count);
   CHECK(ranks == std::vector<std::uint32_t>{6, 1, 3, 3, 0, 9, 1, 7, 8, 3});
 }
 
