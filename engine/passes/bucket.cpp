@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace lacuna {
 namespace {
@@ -78,12 +79,22 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
   Phase phase(job, "survey", expected);
   Survey survey(job.memory.cells, expected);
-  std::vector<PointBatch> batches(kBatches);
+  struct Counted {
+    PointBatch batch;
+    std::optional<CellCounts> counts;  // none while the cell size is not known
+  };
+  std::vector<Counted> batches(kBatches);
   scan.rewind();
-  job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot]); }, [](std::size_t) {},
+  job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
                     [&](std::size_t slot) {
-                      survey.add(batches[slot]);
-                      phase.advance(batches[slot].size());
+                      Counted& counted = batches[slot];
+                      counted.counts.reset();
+                      if (survey.is_sized()) counted.counts = count_cells(counted.batch, survey.finest());
+                    },
+                    [&](std::size_t slot) {
+                      const Counted& counted = batches[slot];
+                      counted.counts ? survey.add(*counted.counts) : survey.add(counted.batch);
+                      phase.advance(counted.batch.size());
                     },
                     kBatches);
   return survey.finish();

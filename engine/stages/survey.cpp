@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <openvdb/openvdb.h>
 
@@ -43,6 +44,50 @@ double robust_extent(const PointBatch& batch) {
   return extent;
 }
 
+// A cell's place among those of a batch, by the leaf of the grid that holds it.
+class LeafOrder {
+ public:
+  explicit LeafOrder(std::span<const CellCoord> cells) {
+    CellCoord high{INT32_MIN, INT32_MIN, INT32_MIN};
+    for (const CellCoord& cell : cells) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low_[axis] = std::min(low_[axis], cell[axis]);
+        high[axis] = std::max(high[axis], cell[axis]);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      low_[axis] &= ~7;
+      fits_ &= std::int64_t{high[axis]} - low_[axis] < 1 << 21;
+    }
+  }
+
+  bool fits() const { return fits_; }
+
+  std::uint64_t place(const CellCoord& cell) const {
+    std::uint64_t leaf = 0, within = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto steps = static_cast<std::uint64_t>(cell[axis] - low_[axis]);
+      leaf = leaf << 18 | steps >> 3;
+      within = within << 3 | (steps & 7);
+    }
+    return leaf << 9 | within;
+  }
+
+  CellCoord cell(std::uint64_t place) const {
+    CellCoord cell;
+    for (int axis = 2; axis >= 0; --axis) {
+      const int up = 2 - axis;
+      const std::uint64_t steps = (place >> (9 + 18 * up) & 0x3ffff) << 3 | (place >> 3 * up & 7);
+      cell[axis] = low_[axis] + static_cast<std::int32_t>(steps);
+    }
+    return cell;
+  }
+
+ private:
+  CellCoord low_{INT32_MAX, INT32_MAX, INT32_MAX};
+  bool fits_ = true;
+};
+
 }  // namespace
 
 struct Survey::Counts {
@@ -69,6 +114,34 @@ struct Survey::Counts {
     return leaves * sizeof(Leaf) + leaves * sizeof(Leaf::Buffer::ValueType) * Leaf::SIZE;
   }
 };
+
+CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
+  CellCounts counts{.points = batch.size()};
+  std::vector<CellCoord> cells;
+  cells.reserve(batch.size());
+  for (const Eigen::Vector3d& p : batch.positions) {
+    if (!finite(p)) {
+      ++counts.dropped;
+      continue;
+    }
+    counts.bounds.extend(p);
+    cells.push_back(grid.cell_of(p));
+  }
+  const LeafOrder order(cells);
+  if (!order.fits()) {
+    for (const CellCoord& cell : cells) counts.cells.push_back({cell, 1});
+    return counts;
+  }
+  std::vector<std::uint64_t> places;
+  places.reserve(cells.size());
+  for (const CellCoord& cell : cells) places.push_back(order.place(cell));
+  std::sort(places.begin(), places.end());
+  for (std::size_t begin = 0, end; begin < places.size(); begin = end) {
+    for (end = begin; end < places.size() && places[end] == places[begin];) ++end;
+    counts.cells.push_back({order.cell(places[begin]), end - begin});
+  }
+  return counts;
+}
 
 Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
     : memory_(memory), expected_points_(expected_points > 0 ? expected_points : kUnknownPoints) {
@@ -98,14 +171,17 @@ void Survey::choose_cell_size(const PointBatch& batch) {
 
 void Survey::add(const PointBatch& batch) {
   if (!sized_ && std::any_of(batch.positions.begin(), batch.positions.end(), finite)) choose_cell_size(batch);
-  scan_.points += batch.size();
-  for (const Eigen::Vector3d& p : batch.positions) {
-    if (!finite(p)) {
-      ++scan_.dropped;
-      continue;
-    }
-    scan_.bounds.extend(p);
-    counts_->add(scan_.grid.cell_of(p), 1);
+  add(count_cells(batch, finest()));
+}
+
+void Survey::add(const CellCounts& counts) {
+  scan_.points += counts.points;
+  scan_.dropped += counts.dropped;
+  scan_.bounds.extend(counts.bounds);
+  for (const CountedCell& cell : counts.cells) {
+    const int shift = scan_.grid.shift;
+    counts_->add({cell.coord[0] >> shift, cell.coord[1] >> shift, cell.coord[2] >> shift},
+                 static_cast<std::int32_t>(cell.points));
     if (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
   }
 }

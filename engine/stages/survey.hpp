@@ -4,6 +4,7 @@
 #include "engine/data/points.hpp"
 #include "engine/data/tiling.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -20,9 +21,19 @@ struct SurveyedScan {
   std::uint64_t dropped = 0;       // with a non-finite coordinate
 };
 
+// One batch of points, counted per cell.
+struct CellCounts {
+  std::vector<CountedCell> cells;  // near cells next to each other, where the batch allows; repeats allowed
+  Eigen::AlignedBox3d bounds;
+  std::uint64_t points = 0;
+  std::uint64_t dropped = 0;
+};
+CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
+
 // Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever the cells need more than
 // `memory` bytes, or hold too few points each, the size doubles and counts merge, and once more at the end
-// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per point.
+// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per point or, sorted,
+// per cell of a batch.
 class Survey {
  public:
   // `expected_points`: 0 where not known.
@@ -30,6 +41,11 @@ class Survey {
   ~Survey();
 
   void add(const PointBatch& batch);
+  // The same in two steps, of which the first may run in other threads: `add(count_cells(batch, finest()))`,
+  // once the first batch with a finite point has been added.
+  bool is_sized() const { return sized_; }
+  CellGrid finest() const { return {.finest = scan_.grid.finest}; }
+  void add(const CellCounts& counts);
   // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 
@@ -44,7 +60,7 @@ class Survey {
   std::uint64_t memory_;
   std::uint64_t expected_points_;
   SurveyedScan scan_;
-  bool sized_ = false;
+  std::atomic<bool> sized_ = false;
   std::unique_ptr<Counts> counts_;
 };
 
