@@ -42,6 +42,20 @@ Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_
   return summary;
 }
 
+void add_findings(const EvaluatedScan& evaluated, const TracedLoops& traced, double eps, std::int64_t e,
+                  Summary& summary) {
+  Counts& counts = summary.counts;
+  counts.duplicates = counts.points - counts.dropped - evaluated.totals.points;
+  counts.candidates = evaluated.totals.candidates;
+  counts.undefined_normals = evaluated.totals.undefined_normals;
+  counts.eligible_edges = traced.eligible_edges;
+  counts.components = traced.components;
+  summary.mean_neighbours = evaluated.mean_neighbours();
+  summary.mean_edge_length = evaluated.mean_edge_length();
+  summary.eps = eps;
+  summary.e = e;
+}
+
 }  // namespace
 
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
@@ -71,15 +85,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   // Back into the order of the input.
   std::optional<RowSet> turned;
   if (config.normals.orient) turned = orient_normals(evaluated, store, job);
-  summary.counts.duplicates = survey.points - survey.dropped - evaluated.totals.points;
-  summary.counts.candidates = evaluated.totals.candidates;
-  summary.counts.undefined_normals = evaluated.totals.undefined_normals;
-  summary.counts.eligible_edges = traced.eligible_edges;
-  summary.counts.components = traced.components;
-  summary.mean_neighbours = evaluated.mean_neighbours();
-  summary.mean_edge_length = evaluated.mean_edge_length();
-  summary.eps = eps;
-  summary.e = e;
+  add_findings(evaluated, traced, eps, e, summary);
   return publish(std::move(evaluated), store, coherent, std::move(loops), std::move(turned),
                  std::move(summary), job);
 }
