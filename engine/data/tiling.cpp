@@ -7,13 +7,21 @@
 
 namespace lacuna {
 
+namespace {
+
+// Exact to multiply by, so every pass finds the same cell. Exponents of grids are those of normal numbers.
+double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+}
+
+}  // namespace
+
 double CellGrid::edge() const {
-  return std::ldexp(1.0, finest + shift);
+  return power_of_two(finest + shift);
 }
 
 CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
-  // By a power of two, 2^-finest: exact, so every pass finds the same cell.
-  const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - finest) << 52);
+  const double scale = power_of_two(-finest);
   CellCoord cell;
   for (int axis = 0; axis < 3; ++axis) {
     const double index = std::clamp<double>(position[axis] * scale, -kLast, kLast);
@@ -25,12 +33,11 @@ CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
 
 Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) const {
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  const std::int32_t last = kLast >> shift;
   Eigen::AlignedBox3d box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min()[axis] =
-        low[axis] == -(kLast >> shift) ? -kEverywhere : std::ldexp(low[axis] * 1.0, finest + shift);
-    box.max()[axis] =
-        high[axis] == kLast >> shift ? kEverywhere : std::ldexp(high[axis] + 1.0, finest + shift);
+    box.min()[axis] = low[axis] == -last ? -kEverywhere : low[axis] * edge();
+    box.max()[axis] = high[axis] == last ? kEverywhere : (high[axis] + 1.0) * edge();
   }
   return box;
 }
