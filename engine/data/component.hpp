@@ -25,7 +25,7 @@ struct ComponentEdge {
   }
 };
 
-// An edge between vertices that are numbered in ascending order of their ids.
+// An edge between numbered vertices of one component.
 struct LocalEdge {
   LocalIndex a, b;
 };

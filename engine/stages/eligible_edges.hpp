@@ -13,7 +13,7 @@ namespace lacuna {
 struct Strength {
   double mean_distance;  // r_p
   float probability;     // Pi
-  std::uint32_t unused = 0;
+  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
 };
 
 // w_total of the edge where it is eligible, w_prob < max_prob_weight and w_total < max_total_weight; else

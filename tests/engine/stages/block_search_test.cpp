@@ -1,0 +1,105 @@
+// The search in blocks against looking at every point, in any order of the points.
+#include "engine/stages/block_search.hpp"
+
+#include "engine/core/error.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+struct Points {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<PointId> ids;
+};
+
+// Distinct finite points in the order of the cloud, sorted by x first if asked; ids shuffled.
+Points points_of(const Cloud& cloud, bool sorted) {
+  const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+  };
+  std::map<Eigen::Vector3d, bool, decltype(before)> seen(before);
+  Points points;
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (p.allFinite() && seen.emplace(p.array() + 0.0, true).second)
+      points.positions.push_back(p.array() + 0.0);
+  }
+  if (sorted) std::sort(points.positions.begin(), points.positions.end(), before);
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    points.ids.push_back(PointId{(i * 7919 + 13) % 1'000'003});
+  }
+  return points;
+}
+
+std::vector<LocalIndex> nearest_plainly(const Points& points, LocalIndex query, std::size_t k) {
+  std::vector<Neighbour> all;
+  for (LocalIndex i = 0; i < points.positions.size(); ++i) {
+    if (i == query) continue;
+    all.push_back({squared_distance(points.positions[i], points.positions[query]), points.ids[i], i});
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(k, all.size()));
+  std::vector<LocalIndex> indices;
+  for (const Neighbour& n : all) indices.push_back(n.index);
+  return indices;
+}
+
+void check_all(const Points& points, std::size_t k, LocalIndex first = 0) {
+  BlockSearch search(points.positions, points.ids);
+  std::size_t wrong = 0;
+  const auto last = static_cast<LocalIndex>(points.positions.size());
+  LocalIndex expected_query = first;
+  search.nearest(first, last, k, [&](LocalIndex query, std::span<const Neighbour> found) {
+    CHECK(query == expected_query++);
+    std::vector<LocalIndex> indices;
+    for (const Neighbour& n : found) indices.push_back(n.index);
+    wrong += indices != nearest_plainly(points, query, k);
+  });
+  CHECK(expected_query == last);
+  CHECK(wrong == 0);
+}
+
+}  // namespace
+
+TEST_CASE("the neighbours found in blocks are those of looking at every point") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Cloud cloud = random_cloud(7000 + seed);
+    if (cloud.size() > 1500) continue;
+    INFO("seed " << seed << ", " << cloud.size() << " points");
+    Points points;
+    try {
+      points = points_of(cloud, seed % 2 == 0);
+      check_all(points, 1 + seed % 20);
+    } catch (const Error&) {
+      FAIL_CHECK("refused");
+    }
+  }
+}
+
+TEST_CASE("exact ties on a lattice are decided by id, in blocks too") {
+  for (const std::size_t k : {1, 6, 7, 15, 26}) check_all(points_of(lattice(7), true), k);
+}
+
+TEST_CASE("blocks that jump far, and more neighbours than are ranked by counting") {
+  const Cloud clusters = sphere(200).joined(plane(12).translated({1e6, 0, 0})).shuffled(3);
+  check_all(points_of(clusters, false), 15);
+  check_all(points_of(scattered(700, 2), false), 250);
+}
+
+TEST_CASE("queries may start anywhere, and fewer points than k are all neighbours") {
+  check_all(points_of(plane(20).jittered(0.2, 1), true), 15, 133);
+  for (const int n : {1, 2, 15, 16, 17, 33}) check_all(points_of(scattered(n, 4), false), 16);
+}
+
+TEST_CASE("two points too near to be told apart are refused") {
+  const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {1e-160, 0, 0}, {1, 0, 0}};
+  const std::vector<PointId> ids = {PointId{0}, PointId{1}, PointId{2}};
+  BlockSearch search(positions, ids);
+  CHECK_THROWS_AS(search.nearest(0, 3, 2, [](LocalIndex, std::span<const Neighbour>) {}), Error);
+}
+
+}  // namespace lacuna
