@@ -35,7 +35,8 @@ std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointI
 
 // Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights
 // 1 - |n . n'| differ by rounding noise; where such edges disagree about the side, or a normal is at right
-// angles to the next, any of the results is as good as another. All else has one result.
+// angles to the next, or lies level where it should point up, any of the results is as good as another. All
+// else has one result.
 std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   constexpr double kNoise = 1e-12;
   struct Pair {
@@ -61,6 +62,12 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
     return i;
   };
   std::vector<bool> undecided(plain.points.size(), false);
+  std::vector<bool> alone(plain.points.size(), true);
+  for (const Pair& pair : pairs) alone[pair.a] = alone[pair.b] = false;
+  for (std::size_t i = 0; i < alone.size(); ++i) {  // whose own normal says which way is up
+    const auto& normal = plain.points[i].oriented_normal;
+    if (alone[i] && normal) undecided[i] = std::abs(normal->z()) <= kNoise;
+  }
   for (std::size_t first = 0, last; first < pairs.size(); first = last) {
     last = first + 1;  // a group of edges as heavy as each other
     while (last < pairs.size() && pairs[last].weight - pairs[last - 1].weight <= kNoise) ++last;
