@@ -283,7 +283,7 @@ BENCHMARK(nearest);
 void nearest_in_blocks(benchmark::State& state) {
   for (auto _ : state) {
     BlockSearch search(tile().positions, tile().ids);
-    search.nearest(0, tile().owned, kNeighbours, [](LocalIndex, std::span<const Neighbour> found) {
+    search.nearest(0, tile().owned, kNeighbours, [](LocalIndex, std::span<const LocalIndex> found) {
       benchmark::DoNotOptimize(found.data());
     });
   }

@@ -1,22 +1,34 @@
-// Functions compiled for several instruction sets, the best one that the machine has chosen when the
-// program starts. No fused multiply-add and no reordering (see CMakeLists.txt): the same bits from each.
+// Which of the namesakes compiled for several instruction sets (core/lanes) this machine runs.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(LACUNA_PORTABLE)
-#define LACUNA_VECTORISED __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define LACUNA_VECTORISED
-#endif
+#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
 
-// Functions written for AVX-512 (F, DQ, VL), to be called only where `has_avx512()`.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(LACUNA_PORTABLE)
-#include <immintrin.h>
-#define LACUNA_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl")))
-namespace lacuna {
-inline bool has_avx512() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl");
-}
-}  // namespace lacuna
+// Declares a function that a *.lanes.cpp defines, and the best of them that the machine has, under its name
+// in namespace lacuna::fastest.
+#define LACUNA_DISPATCH(Signature, name)                                              \
+  inline namespace v4 {                                                               \
+  Signature name;                                                                     \
+  }                                                                                   \
+  inline namespace v3 {                                                               \
+  Signature name;                                                                     \
+  }                                                                                   \
+  inline namespace plain {                                                            \
+  Signature name;                                                                     \
+  }                                                                                   \
+  namespace fastest {                                                                 \
+  inline Signature* const name = __builtin_cpu_supports("x86-64-v4")   ? v4::name     \
+                                 : __builtin_cpu_supports("x86-64-v3") ? v3::name     \
+                                                                       : plain::name; \
+  }
+
+#else
+
+#define LACUNA_DISPATCH(Signature, name)      \
+  inline namespace plain {                    \
+  Signature name;                             \
+  }                                           \
+  namespace fastest {                         \
+  inline Signature* const name = plain::name; \
+  }
+
 #endif

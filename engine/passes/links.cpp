@@ -105,8 +105,8 @@ class Linker {
       const auto begin =
           static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
       const auto end = static_cast<LocalIndex>(begin + tiling_.cells[cell].points);
-      search.nearest(begin, end, k_, [&](LocalIndex p, std::span<const Neighbour> found) {
-        for (const Neighbour& q : found) link(stored[p], rows[p], stored[q.index], rows[q.index]);
+      search.nearest(begin, end, k_, [&](LocalIndex p, std::span<const LocalIndex> found) {
+        for (const LocalIndex q : found) link(stored[p], rows[p], stored[q], rows[q]);
       });
     }
     send();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/data/neighbourhoods.hpp"
+#include "engine/stages/candidates.hpp"
 #include "engine/stages/search.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,13 +15,14 @@
 namespace lacuna {
 
 // Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a
-// tree that needs no building beyond its boxes. One walk finds the blocks around a block of queries, within
-// a radius guessed from the last ones. Distances are compared in vectors, and the neighbours ranked by
-// counting how many are nearer. Where the guess holds too few, the query is looked up again within a bound;
-// where that holds too many (the order jumps far), in a `PointTree`, built when it is first needed.
+// tree that needs no building beyond its boxes. One walk finds the blocks around a block of queries; each
+// query takes the points within a radius, guessed from how many the query before found, and eight queries
+// are ranked side by side. Few queries need more care: where the guess holds too few points or too many,
+// where the order jumps, or where two distances are next to equal. These are looked up again within a bound,
+// or in a `PointTree`, built when it is first needed.
 //
-// Exact: bounds err on the far side only, and every distance is computed as the method says.
-// Cost: 16 points a block; memory: 32 bytes a point.
+// Exact: bounds err on the far side only, and ranks that rounding could touch are decided by the distances
+// as the method says. Cost: 16 points a block; memory: 32 bytes a point.
 class BlockSearch {
  public:
   // Over distinct points, which must outlive it.
@@ -31,29 +34,39 @@ class BlockSearch {
   // underflows.
   template <class Visit>
   void nearest(LocalIndex first, LocalIndex last, std::size_t k, Visit&& visit) {
-    for (LocalIndex query = first; query < last; ++query) {
-      find(query, last, k);
-      visit(query, std::span<const Neighbour>(found_));
+    for (LocalIndex begin = first, end; begin < last; begin = end) {
+      end = std::min<LocalIndex>(last, (begin / kBlock + 1) * kBlock);
+      find(begin, end, k);
+      for (LocalIndex query = begin; query < end; ++query) visit(query, found(query - begin));
     }
   }
 
  private:
   struct Boxes;
-  struct Candidates;
-  void find(LocalIndex query, LocalIndex last, std::size_t k);
-  double reach_of(LocalIndex query, std::size_t k);
+  void find(LocalIndex first, LocalIndex last, std::size_t k);
+  void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
+  void rank(LocalIndex first, LocalIndex last, std::size_t place);
+  void find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
+  double reach_of(LocalIndex query);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
-  bool rank(LocalIndex query, double radius, std::size_t k);
+  std::span<const LocalIndex> found(std::size_t place) const {
+    return std::span(found_).subspan(place * neighbours_, neighbours_);
+  }
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const PointId> ids_;
-  std::vector<double> coordinates_;  // per block: 16 x, 16 y, 16 z; beyond the last point: infinite
-  std::vector<Boxes> levels_;        // of blocks, of groups of eight, of groups of these, ...
-  std::unique_ptr<Candidates> candidates_;
-  std::vector<Neighbour> found_;
-  double last_radius_ = 0;      // of the query before
-  double guess_ = 0;            // of the last two; 0: none yet
-  std::vector<double> beside_;  // working space
+  std::vector<Block> blocks_;
+  std::vector<Boxes> levels_;  // of blocks, of groups of eight, of groups of these, ...
+
+  double guess_ = 0;     // radius for the next query; 0: none yet
+  double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
+  Sight sight_;
+  std::array<CandidateList, kBlock> lists_;  // of the queries of a block
+  std::vector<KeyRow> keys_;
+  std::size_t neighbours_ = 0;      // of each query
+  std::vector<LocalIndex> found_;   // by query of the block
+  std::vector<Neighbour> careful_;  // working space
+  std::vector<double> beside_;
   std::optional<PointTree> tree_;
 };
 

@@ -1,145 +1,30 @@
 #include "engine/stages/evaluate.hpp"
 
-#include "engine/core/vector_math.hpp"
+#include "engine/criteria/judge.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-
-#include <Eigen/Eigenvalues>
+#include <numeric>
 
 namespace lacuna {
 namespace {
 
-struct Weights {
-  std::array<double, kCriteria> share;  // sum to 1
-};
-
-Weights normalised_weights(const CriteriaConfig& config) {
-  double sum = 0;
-  for (const Criterion& criterion : kCriteriaTable) sum += config.*criterion.weight;
-  Weights weights;
-  for (std::size_t i = 0; i < kCriteria; ++i) weights.share[i] = config.*kCriteriaTable[i].weight / sum;
-  return weights;
-}
-
-// Working space of one thread, used again from point to point.
-struct Workspace {
-  Offsets offsets;
-  std::vector<double> weights;
-  Directions directions;
-};
-
-void gather_offsets(const TilePoints& points, LocalIndex p, std::span<const LocalIndex> neighbours,
-                    Offsets& offsets) {
-  offsets.resize(neighbours.size());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    offsets.set(i, points.positions[neighbours[i]] - points.positions[p]);
-  }
-}
-
-double mean_distance(const Offsets& offsets) {
-  double sum = 0;
-  for (std::size_t i = 0; i < offsets.size(); ++i) sum += offsets.distance[i];
-  return sum / static_cast<double>(offsets.size());
-}
-
-// exp(-d^2 / sigma^2) of every neighbour: in vector arithmetic, or as the standard library has it.
-enum class Precision { kVector, kLibrary };
-
-void weigh(const Offsets& offsets, double sigma, Precision precision, std::vector<double>& weights) {
-  const std::size_t count = offsets.size();
-  if (weights.size() < count) weights.resize(lanes(count));
-  const double squared_sigma = sigma * sigma;
-  for (std::size_t i = 0; i < count; ++i) weights[i] = -offsets.squared_distance[i] / squared_sigma;
-  constexpr double kTiny = -600;  // where even the nearest neighbour's weight is next to nothing
-  if (precision == Precision::kVector && weights.front() > kTiny) {
-    exp_each(weights.data(), count, weights.data());
-  } else {
-    for (std::size_t i = 0; i < count; ++i) weights[i] = std::exp(weights[i]);
-  }
-}
-
-// mu_p - p and C_p (4.3, 4.4).
-struct Moments {
-  Eigen::Vector3d mean{0, 0, 0};
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
-Moments weighted_moments(const Offsets& offsets, const std::vector<double>& weights) {
-  Moments moments;
-  double total = 0, x = 0, y = 0, z = 0;
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    total += weights[i];
-    x += weights[i] * offsets.x[i];
-    y += weights[i] * offsets.y[i];
-    z += weights[i] * offsets.z[i];
-  }
-  if (total == 0) return moments;
-  moments.mean = Eigen::Vector3d(x, y, z) / total;
-  x = moments.mean.x(), y = moments.mean.y(), z = moments.mean.z();
-  double xx = 0, yx = 0, yy = 0, zx = 0, zy = 0, zz = 0;
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    const double dx = x - offsets.x[i], dy = y - offsets.y[i], dz = z - offsets.z[i];
-    const double wx = weights[i] * dx, wy = weights[i] * dy, wz = weights[i] * dz;
-    xx += wx * dx;
-    yx += wy * dx;
-    yy += wy * dy;
-    zx += wz * dx;
-    zy += wz * dy;
-    zz += wz * dz;
-  }
-  moments.covariance << xx, yx, zx, yx, yy, zy, zx, zy, zz;
-  return moments;
-}
-
-// Sets the mean, the eigenvalues and, where there is one, the normal of the surface.
-// Differs from the paper: sigma = r_p by default, not r_p / 3, with which only one or two points count.
-void fit_plane(double sigma, LocalSurface& surface, Workspace& w) {
-  weigh(w.offsets, sigma, Precision::kVector, w.weights);
-  Moments moments = weighted_moments(w.offsets, w.weights);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(moments.covariance);
-
-  // Between eigenvalues this near, the closed form loses digits, and the last digits of the weights decide
-  // where the normal points: then no digit is given away.
-  constexpr double kNear = 1e-3;
-  const Eigen::Vector3d values = solver.eigenvalues();
-  const double near = kNear * values.sum();
-  if (!(values[1] - values[0] > near && values[2] - values[1] > near)) {
-    weigh(w.offsets, sigma, Precision::kLibrary, w.weights);
-    moments = weighted_moments(w.offsets, w.weights);
-    solver.compute(moments.covariance);
-  }
-  surface.mean_offset = moments.mean;
-  surface.eigenvalues = solver.eigenvalues().reverse();
-  // No more than rounding noise between the two smallest: no plane fits better than another.
-  constexpr double kSameEigenvalue = 1e-12;
-  surface.has_normal =
-      surface.eigenvalues[1] - surface.eigenvalues[2] > kSameEigenvalue * surface.eigenvalues.sum();
-  surface.normal = solver.eigenvectors().col(0);
-}
-
-// At a sharp crease the estimated normal halves the angle between the two faces, and the faces look like a
-// boundary; a quarter turn about the crease may show a surface on both sides (4.6).
-void turn_at_crease(LocalSurface& surface, double threshold, double cos_cone, Workspace& w) {
-  const double before = angle_probability(surface);
-  if (!(before > threshold) || surface.gap.near == DirectionGap::kNone) return;
-  const auto in_plane = [&](std::uint32_t rank) -> Eigen::Vector3d {
-    const Eigen::Vector3d offset = w.offsets[rank];
-    return offset - surface.normal * surface.normal.dot(offset);
-  };
-  const Eigen::Vector3d crease = in_plane(surface.gap.far) - in_plane(surface.gap.near);
-  constexpr double kOnePoint = 1e-12;
-  const double distances = w.offsets.distance[surface.gap.near] + w.offsets.distance[surface.gap.far];
-  if (crease.norm() <= kOnePoint * distances) return;
-
-  LocalSurface turned = surface;
-  turned.normal = crease.cross(surface.normal).normalized();
-  turned.gap = largest_gap(w.offsets, turned.normal, cos_cone, w.directions);
-  if (angle_probability(turned) < before / 2) surface = turned;
-}
-
 constexpr double kNoCone = 2.0;  // no direction is that steep
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+JudgeParameters judge_parameters(const NormalsConfig& normals, const CriteriaConfig& criteria) {
+  JudgeParameters parameters{
+      .sigma = criteria.sigma,
+      .cos_cone = criteria.cone == 0 ? kNoCone : std::cos(criteria.cone * std::numbers::pi / 180),
+      .crease_threshold = normals.crease_threshold};
+  static_assert(std::size(decltype(parameters.shares){}) == kCriteria);
+  double sum = 0;
+  for (const Criterion& criterion : kCriteriaTable) sum += criteria.*criterion.weight;
+  for (std::size_t i = 0; i < kCriteria; ++i) parameters.shares[i] = criteria.*kCriteriaTable[i].weight / sum;
+  return parameters;
+}
 
 // A point that sees no other.
 Evaluation lone_point() {
@@ -148,8 +33,109 @@ Evaluation lone_point() {
   return lone;
 }
 
-bool usable(const Eigen::Vector3d& normal) {
-  return normal.allFinite() && normal.cwiseAbs().maxCoeff() > 0;
+// Points with nearly as many neighbours each stand side by side, or most of a bundle would wait for the
+// largest neighbourhood. They come from a run of the store order, so that they share the cache.
+class Bundler {
+ public:
+  Bundler(const TilePoints& points, const Rows& neighbourhoods,
+          std::span<const Eigen::Vector3d> given_normals)
+      : points_(points), neighbourhoods_(neighbourhoods), given_normals_(given_normals) {}
+
+  // visit(bundle, points): the points of a bundle's lanes; a last one that is not full repeats a point.
+  template <class Visit>
+  void for_each_bundle(Visit&& visit) {
+    constexpr LocalIndex kRun = 64;
+    for (LocalIndex first = 0; first < points_.owned; first += kRun) {
+      order_by_count(first, std::min(first + kRun, points_.owned));
+      for (std::size_t i = 0; i < order_.size(); i += kBundle) {
+        for (std::size_t lane = 0; lane < kBundle; ++lane)
+          lanes_[lane] = order_[std::min(i + lane, order_.size() - 1)];
+        visit(gather(), std::span<const LocalIndex>(lanes_).first(std::min(kBundle, order_.size() - i)));
+      }
+    }
+  }
+
+ private:
+  std::size_t count(LocalIndex p) const { return neighbourhoods_[p].size(); }
+
+  void order_by_count(LocalIndex first, LocalIndex last) {
+    order_.clear();
+    for (LocalIndex p = first; p < last; ++p) {
+      if (count(p) > 0) order_.push_back(p);
+    }
+    std::sort(order_.begin(), order_.end(),
+              [&](LocalIndex a, LocalIndex b) { return count(a) != count(b) ? count(a) < count(b) : a < b; });
+  }
+
+  const Bundle& gather() {
+    const std::size_t rows = count(lanes_.back());
+    if (rows > capacity_) grow(rows);
+    bundle_.rows = rows;
+    bundle_.sorted_rows = std::min(rows, kMostSortedDirections);
+    bundle_.network = sorting_network(bundle_.sorted_rows, bundle_.sorted_rows);
+    for (std::size_t lane = 0; lane < kBundle; ++lane) {
+      const LocalIndex p = lanes_[lane];
+      const auto neighbours = neighbourhoods_[p];
+      const Eigen::Vector3d at = points_.positions[p];
+      bundle_.counts.at[lane] = static_cast<double>(neighbours.size());
+      std::size_t row = 0;
+      for (; row < neighbours.size(); ++row) {
+        const Eigen::Vector3d& q = points_.positions[neighbours[row]];
+        bundle_.x[row].at[lane] = q.x() - at.x();
+        bundle_.y[row].at[lane] = q.y() - at.y();
+        bundle_.z[row].at[lane] = q.z() - at.z();
+      }
+      for (; row < rows; ++row)
+        bundle_.x[row].at[lane] = bundle_.y[row].at[lane] = bundle_.z[row].at[lane] = 0;
+      const Eigen::Vector3d normal = given_normal(p);
+      for (int axis = 0; axis < 3; ++axis) bundle_.given_normals[axis].at[lane] = normal[axis];
+    }
+    return bundle_;
+  }
+
+  void grow(std::size_t rows) {
+    capacity_ = std::max(rows, 2 * capacity_);
+    Eight** const columns[] = {&bundle_.x,        &bundle_.y,      &bundle_.z,
+                               &bundle_.distance, &bundle_.weight, &bundle_.direction};
+    memory_.resize(capacity_ * std::size(columns));
+    Eight* column = memory_.data();
+    for (Eight** place : columns) {
+      *place = column;
+      column += capacity_;
+    }
+  }
+
+  Eigen::Vector3d given_normal(LocalIndex p) const {
+    if (given_normals_.empty()) return Eigen::Vector3d::Constant(kUndefined);
+    const Eigen::Vector3d& normal = given_normals_[p];
+    const bool usable = normal.allFinite() && normal.cwiseAbs().maxCoeff() > 0;
+    return usable ? Eigen::Vector3d(normal.stableNormalized()) : Eigen::Vector3d::Constant(kUndefined);
+  }
+
+  const TilePoints& points_;
+  const Rows& neighbourhoods_;
+  std::span<const Eigen::Vector3d> given_normals_;
+  std::vector<LocalIndex> order_;
+  std::array<LocalIndex, kBundle> lanes_{};
+  Bundle bundle_;
+  std::size_t capacity_ = 0;
+  std::vector<Eight> memory_;
+};
+
+Evaluation evaluation(const Judgements& judged, std::size_t lane, std::span<const LocalIndex> neighbours) {
+  Evaluation e;
+  for (std::size_t i = 0; i < kCriteria; ++i) e.criteria[i] = judged.criteria[i].at[lane];
+  for (int axis = 0; axis < 3; ++axis) {
+    e.normal[axis] = judged.normal[axis].at[lane];
+    e.mean_offset[axis] = judged.mean_offset[axis].at[lane];
+  }
+  e.probability = judged.probability.at[lane];
+  e.mean_distance = judged.mean_distance.at[lane];
+  if (judged.gap_near.at[lane] >= 0) {
+    e.gap_near = neighbours[static_cast<std::size_t>(judged.gap_near.at[lane])];
+    e.gap_far = neighbours[static_cast<std::size_t>(judged.gap_far.at[lane])];
+  }
+  return e;
 }
 
 }  // namespace
@@ -161,44 +147,15 @@ double round_to_step(double value) {
 std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria) {
-  const Weights weights = normalised_weights(criteria);
-  const double cos_cone = criteria.cone == 0 ? kNoCone : std::cos(criteria.cone * std::numbers::pi / 180);
-  std::vector<Evaluation> evaluations(points.owned);
-  Workspace w;
-  for (LocalIndex p = 0; p < points.owned; ++p) {
-    const auto neighbours = neighbourhoods[p];
-    if (neighbours.empty()) {
-      evaluations[p] = lone_point();
-      continue;
-    }
-    gather_offsets(points, p, neighbours, w.offsets);
-    LocalSurface surface{.mean_distance = mean_distance(w.offsets)};
-    fit_plane(criteria.sigma * surface.mean_distance, surface, w);
-    const bool given = !given_normals.empty() && usable(given_normals[p]);
-    if (given) {
-      surface.has_normal = true;
-      surface.normal = given_normals[p].stableNormalized();
-    }
-    if (surface.has_normal) {
-      surface.gap = largest_gap(w.offsets, surface.normal, cos_cone, w.directions);
-      if (!given) turn_at_crease(surface, normals.crease_threshold, cos_cone, w);
-    }
-
-    Evaluation& result = evaluations[p];
-    double sum = 0;
-    for (std::size_t i = 0; i < kCriteria; ++i) {
-      result.criteria[i] = kCriteriaTable[i].probability(surface);
-      sum += weights.share[i] * result.criteria[i];
-    }
-    result.probability = round_to_step(sum);
-    result.mean_distance = surface.mean_distance;
-    result.mean_offset = surface.mean_offset;
-    if (surface.has_normal) result.normal = surface.normal;
-    if (surface.gap.near != DirectionGap::kNone) {
-      result.gap_near = neighbours[surface.gap.near];
-      result.gap_far = neighbours[surface.gap.far];
-    }
-  }
+  const JudgeParameters parameters = judge_parameters(normals, criteria);
+  std::vector<Evaluation> evaluations(points.owned, lone_point());
+  Judgements judgements;
+  Bundler(points, neighbourhoods, given_normals)
+      .for_each_bundle([&](const Bundle& bundle, std::span<const LocalIndex> judged) {
+        fastest::judge(bundle, parameters, judgements);
+        for (std::size_t lane = 0; lane < judged.size(); ++lane)
+          evaluations[judged[lane]] = evaluation(judgements, lane, neighbourhoods[judged[lane]]);
+      });
   return evaluations;
 }
 

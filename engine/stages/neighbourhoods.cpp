@@ -1,6 +1,7 @@
 #include "engine/stages/neighbourhoods.hpp"
 
 #include "engine/stages/block_search.hpp"
+#include "engine/stages/nearest_lists.hpp"
 #include "engine/stages/search.hpp"
 
 #include <algorithm>
@@ -9,53 +10,61 @@
 namespace lacuna {
 namespace {
 
-Neighbour neighbour(const TilePoints& points, LocalIndex from, LocalIndex to) {
-  return {squared_distance(points.positions[from], points.positions[to]), points.ids[to], to};
-}
+// N_p^k of every owned point.
+class Nearest {
+ public:
+  Nearest(const TilePoints& points, std::size_t k) {
+    BlockSearch search(points.positions, points.ids);
+    search.nearest(0, points.owned, k, [&](LocalIndex p, std::span<const LocalIndex> found) {
+      if (p == 0) {
+        lists_.count = found.size();
+        lists_.stride = (found.size() + kListLine - 1) / kListLine;
+        lines_.resize(lists_.stride * points.owned);
+        lists_.lines = lines_.data();
+      }
+      LocalIndex* const row = lines_[p * lists_.stride].points;
+      std::fill(std::copy(found.begin(), found.end(), row), row + lists_.stride * kListLine, kNoIndex);
+    });
+  }
 
-// N_p^k of every owned point, and the last of each in neighbour order: q is in N_p^k if it is not after it.
-struct NearestLists {
-  Rows lists;
-  std::vector<Neighbour> last;
+  const NearestLists& lists() const { return lists_; }
+  std::span<const LocalIndex> operator[](LocalIndex p) const {
+    return {lists_.lines[p * lists_.stride].points, lists_.count};
+  }
+  bool holds(LocalIndex p, LocalIndex q) const {
+    const auto row = (*this)[p];
+    return std::find(row.begin(), row.end(), q) != row.end();
+  }
+
+ private:
+  std::vector<ListLine> lines_;
+  NearestLists lists_{};
 };
 
-NearestLists nearest_lists(const TilePoints& points, std::size_t k) {
-  NearestLists nearest;
-  nearest.lists.offsets.reserve(points.owned + 1);
-  nearest.lists.indices.reserve(points.owned * std::min<std::size_t>(k, points.size()));
-  nearest.last.reserve(points.owned);
-  BlockSearch search(points.positions, points.ids);
-  search.nearest(0, points.owned, k, [&](LocalIndex, std::span<const Neighbour> found) {
-    for (const Neighbour& q : found) nearest.lists.indices.push_back(q.index);
-    nearest.lists.offsets.push_back(static_cast<std::uint32_t>(nearest.lists.indices.size()));
-    nearest.last.push_back(found.empty() ? Neighbour{-1.0, PointId{0}, kNoIndex} : found.back());
-  });
-  return nearest;
-}
-
-// Row p: the owned points q with p in N_q^k but q not in N_p^k.
-Rows one_sided(const TilePoints& points, const NearestLists& nearest) {
-  const auto for_each_edge = [&](auto&& visit) {
-    for (LocalIndex q = 0; q < points.owned; ++q) {
-      for (const LocalIndex p : nearest.lists[q]) {
-        if (points.is_owned(p) && nearest.last[p] < neighbour(points, p, q)) visit(p, q);
-      }
-    }
-  };
+// Row q: the owned points p with q in N_p^k but p not in N_q^k.
+Rows one_sided(const TilePoints& points, const Nearest& nearest) {
+  std::vector<OneSidedEdge> edges;
+  std::size_t count = 0;
+  for (LocalIndex p = 0; p < points.owned; ++p) {
+    const std::size_t most = count + nearest.lists().count;
+    if (edges.size() < most) edges.resize(2 * most);
+    count += fastest::find_one_sided(nearest.lists(), p, points.owned, edges.data() + count);
+  }
+  edges.resize(count);
   Rows rows;
   rows.offsets.assign(points.owned + 1, 0);
-  for_each_edge([&](LocalIndex p, LocalIndex) { ++rows.offsets[p + 1]; });
-  for (LocalIndex p = 0; p < points.owned; ++p) rows.offsets[p + 1] += rows.offsets[p];
-  rows.indices.resize(rows.offsets.back());
+  for (const OneSidedEdge& edge : edges) ++rows.offsets[edge.q + 1];
+  for (LocalIndex q = 0; q < points.owned; ++q) rows.offsets[q + 1] += rows.offsets[q];
+  rows.indices.resize(count);
   std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for_each_edge([&](LocalIndex p, LocalIndex q) { rows.indices[next[p]++] = q; });
+  for (const OneSidedEdge& edge : edges) rows.indices[next[edge.q]++] = edge.p;
   return rows;
 }
 
 }  // namespace
 
 Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
-  const NearestLists nearest = nearest_lists(points, k);
+  const Nearest nearest(points, k);
   const Rows others = one_sided(points, nearest);
   const double squared_eps = eps * eps;
   std::optional<PointTree> tree;
@@ -63,26 +72,29 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
 
   Rows neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
-  neighbourhoods.indices.reserve(nearest.lists.indices.size() + others.indices.size());
+  neighbourhoods.indices.reserve(points.owned * std::min(k, points.size()) + others.indices.size());
   std::vector<Neighbour> added, ball;
   for (LocalIndex p = 0; p < points.owned; ++p) {
+    const auto row = nearest[p];
+    neighbourhoods.indices.insert(neighbourhoods.indices.end(), row.begin(), row.end());
+
+    // Not among the k nearest, so after them.
     added.clear();
     const auto add = [&](LocalIndex q) {
-      const Neighbour candidate = neighbour(points, p, q);
-      if (nearest.last[p] < candidate) added.push_back(candidate);
+      added.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[q], q});
     };
     for (const LocalIndex q : others[p]) add(q);
-    for (const LocalIndex q : points.linked[p]) add(q);
+    for (const LocalIndex q : points.linked[p]) {
+      if (!nearest.holds(p, q)) add(q);
+    }
     if (eps > 0) {
       tree->within(p, squared_eps, ball);
       std::erase_if(added, [&](const Neighbour& q) { return q.squared_distance <= squared_eps; });
       for (const Neighbour& q : ball) {
-        if (nearest.last[p] < q) added.push_back(q);
+        if (!nearest.holds(p, q.index)) added.push_back(q);
       }
     }
     std::sort(added.begin(), added.end());
-    const auto row = nearest.lists[p];
-    neighbourhoods.indices.insert(neighbourhoods.indices.end(), row.begin(), row.end());
     for (const Neighbour& q : added) neighbourhoods.indices.push_back(q.index);
     neighbourhoods.offsets.push_back(static_cast<std::uint32_t>(neighbourhoods.indices.size()));
   }

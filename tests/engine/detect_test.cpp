@@ -62,11 +62,9 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
     return i;
   };
   std::vector<bool> undecided(plain.points.size(), false);
-  std::vector<bool> alone(plain.points.size(), true);
-  for (const Pair& pair : pairs) alone[pair.a] = alone[pair.b] = false;
-  for (std::size_t i = 0; i < alone.size(); ++i) {  // whose own normal says which way is up
-    const auto& normal = plain.points[i].oriented_normal;
-    if (alone[i] && normal) undecided[i] = std::abs(normal->z()) <= kNoise;
+  for (std::size_t i = 0; i < plain.points.size(); ++i) {
+    const reference::Point& p = plain.points[i];
+    undecided[i] = p.is_top && std::abs(p.normal->z()) <= kNoise;
   }
   for (std::size_t first = 0, last; first < pairs.size(); first = last) {
     last = first + 1;  // a group of edges as heavy as each other

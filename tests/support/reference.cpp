@@ -428,6 +428,7 @@ void orient_normals(const Positions& positions, Detection& result) {
   for (PointId root : roots) {
     Point& highest = result.points[value(root)];
     if (!highest.normal || highest.oriented_normal) continue;
+    highest.is_top = true;
     highest.oriented_normal = points_up(*highest.normal) ? *highest.normal : Vector3d(-*highest.normal);
     std::vector<PointId> reached{root};
     while (!reached.empty()) {

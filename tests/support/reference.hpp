@@ -28,6 +28,7 @@ struct Point {
   // 2. Normals. None where undefined.
   std::optional<Eigen::Vector3d> normal;           // as the criteria used it, of either sign
   std::optional<Eigen::Vector3d> oriented_normal;  // the same line; only with normals.orient
+  bool is_top = false;                             // of its component: its normal says which way is up
   bool turned = false;                             // at a crease
   bool turned_by_rounding = false;                 // or not: the turn halves the angle probability exactly
 

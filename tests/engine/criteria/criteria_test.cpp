@@ -1,6 +1,8 @@
 // Each criterion on its own, on surfaces drawn by hand.
-#include "engine/criteria/criterion.hpp"
-#include "engine/criteria/direction_gap.hpp"
+#include "engine/criteria/angle.hpp"
+#include "engine/criteria/halfdisc.hpp"
+#include "engine/criteria/judge.hpp"
+#include "engine/criteria/shape.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -14,14 +16,21 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kNoCone = 2;
+constexpr double kNone = -1;
 
-DirectionGap gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
-                    const Vector3d& normal = {0, 0, 1}) {
-  Offsets columns;
-  columns.resize(offsets.size());
-  for (std::size_t i = 0; i < offsets.size(); ++i) columns.set(i, offsets[i]);
-  Directions directions;
-  return largest_gap(columns, normal, cos_cone, directions);
+// One point's neighbourhood as the third of a bundle.
+GapFit gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
+              const Vector3d& normal = {0, 0, 1}) {
+  constexpr std::size_t kPoint = 2;
+  std::vector<Eight> x(offsets.size()), y(offsets.size()), z(offsets.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    x[i].at[kPoint] = offsets[i].x();
+    y[i].at[kPoint] = offsets[i].y();
+    z[i].at[kPoint] = offsets[i].z();
+  }
+  Bundle bundle{.rows = offsets.size(), .x = x.data(), .y = y.data(), .z = z.data()};
+  bundle.counts.at[kPoint] = double(offsets.size());
+  return largest_gap_carefully(bundle, kPoint, normal.data(), cos_cone);
 }
 
 // In the plane, at these degrees; nearest first.
@@ -35,7 +44,7 @@ std::vector<Vector3d> at_degrees(const std::vector<double>& degrees) {
 }
 
 TEST_CASE("the largest gap is the one between neighbours side by side, the nearer of them named first") {
-  const DirectionGap gap = gap_of(at_degrees({200, 0, 90, 300}));
+  const GapFit gap = gap_of(at_degrees({200, 0, 90, 300}));
   CHECK(gap.size == Approx(110 * kPi / 180));
   CHECK(gap.near == 0);
   CHECK(gap.far == 2);
@@ -43,39 +52,39 @@ TEST_CASE("the largest gap is the one between neighbours side by side, the neare
 }
 
 TEST_CASE("a gap across the jump of the angle is seen") {
-  const DirectionGap gap = gap_of(at_degrees({-60, 0, 60, 100, -100}));
+  const GapFit gap = gap_of(at_degrees({-60, 0, 60, 100, -100}));
   CHECK(gap.size == Approx(160 * kPi / 180));
   CHECK((gap.near == 3 && gap.far == 4));
 }
 
 TEST_CASE("of equal gaps the one is taken whose neighbours come first") {
-  const DirectionGap gap = gap_of(at_degrees({180, 0, 270, 90}));
+  const GapFit gap = gap_of(at_degrees({180, 0, 270, 90}));
   CHECK(gap.size == Approx(kPi / 2));
   CHECK((gap.near == 0 && gap.far == 2));
 }
 
 TEST_CASE("neighbours in one direction are one, the nearest stands for it, across the jump too") {
   for (const double turn : {0.0, 180.0, 77.0}) {
-    const DirectionGap gap = gap_of(at_degrees({10 + turn, turn, turn + 360, 100 + turn, turn - 360}));
+    const GapFit gap = gap_of(at_degrees({10 + turn, turn, turn + 360, 100 + turn, turn - 360}));
     CHECK(gap.used == 5);
     CHECK((gap.near == 1 && gap.far == 3));
     CHECK(gap.size == Approx(260 * kPi / 180));
   }
-  const DirectionGap one = gap_of(at_degrees({45, 45, 45}));
+  const GapFit one = gap_of(at_degrees({45, 45, 45}));
   CHECK(one.size == Approx(2 * kPi));
   CHECK((one.near == 0 && one.far == 0 && one.used == 3));
 }
 
 TEST_CASE("without a direction there is no gap: no neighbours, or all along the normal") {
-  CHECK(gap_of({}).near == DirectionGap::kNone);
-  const DirectionGap along = gap_of({{0, 0, 1}, {0, 0, -2}});
-  CHECK((along.used == 0 && along.near == DirectionGap::kNone && along.far == DirectionGap::kNone));
+  CHECK(gap_of({}).near == kNone);
+  const GapFit along = gap_of({{0, 0, 1}, {0, 0, -2}});
+  CHECK((along.used == 0 && along.near == kNone && along.far == kNone));
 }
 
 TEST_CASE("directions strictly within the cone about the normal are not used") {
   const double cos_cone = std::cos(45 * kPi / 180);
   const std::vector<Vector3d> offsets = {{1, 0, 0.9}, {0, 1, 1.1}, {-1, 0, -0.9}, {0, -1, -1.1}};
-  const DirectionGap gap = gap_of(offsets, cos_cone);
+  const GapFit gap = gap_of(offsets, cos_cone);
   CHECK(gap.used == 2);
   CHECK((gap.near == 0 && gap.far == 2));
   CHECK(gap_of(offsets).used == 4);
@@ -86,16 +95,16 @@ TEST_CASE("the sign and the place of the normal do not change the gap") {
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Vector3d> turned;
   for (const Vector3d& offset : flat) turned.push_back(rotation * offset);
-  const DirectionGap expected = gap_of(flat);
+  const GapFit expected = gap_of(flat);
   for (const double sign : {1.0, -1.0}) {
-    const DirectionGap gap = gap_of(turned, kNoCone, sign * rotation.col(2));
+    const GapFit gap = gap_of(turned, kNoCone, sign * rotation.col(2));
     CHECK(gap.size == Approx(expected.size));
     CHECK((gap.near == expected.near && gap.far == expected.far));
   }
 }
 
-LocalSurface with_gap(double size, std::size_t used) {
-  LocalSurface surface;
+Surface<double> with_gap(double size, double used) {
+  Surface<double> surface;
   surface.has_normal = true;
   surface.normal = {0, 0, 1};
   surface.gap = {.size = size, .used = used, .near = 0, .far = 1};
@@ -108,13 +117,13 @@ TEST_CASE("the angle probability is 0 for even directions, 1 for half a turn, an
   CHECK(angle_probability(with_gap(1.5 * kPi, 8)) == 1);
   CHECK(angle_probability(with_gap((2 * kPi / 8 + kPi) / 2, 8)) == Approx(0.5));
   CHECK(angle_probability(with_gap(0.1, 2)) == 1);
-  LocalSurface no_normal = with_gap(0.1, 8);
+  Surface<double> no_normal = with_gap(0.1, 8);
   no_normal.has_normal = false;
   CHECK(angle_probability(no_normal) == 1);
 }
 
 TEST_CASE("the halfdisc probability is 1 where the mean lies at the centroid of a half disc or beyond") {
-  LocalSurface surface = with_gap(1, 8);
+  Surface<double> surface = with_gap(1, 8);
   surface.mean_distance = 3;
   const double centroid = 4 * 3 / (3 * kPi);
   for (const double share : {0.0, 0.25, 1.0, 1.5}) {
@@ -127,7 +136,7 @@ TEST_CASE("the halfdisc probability is 1 where the mean lies at the centroid of 
 
 TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small at the other three shapes") {
   const auto shape = [](double a, double b, double c) {
-    LocalSurface surface;
+    Surface<double> surface;
     surface.eigenvalues = {a, b, c};
     return shape_probability(surface);
   };

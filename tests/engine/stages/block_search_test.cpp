@@ -53,10 +53,10 @@ void check_all(const Points& points, std::size_t k, LocalIndex first = 0) {
   std::size_t wrong = 0;
   const auto last = static_cast<LocalIndex>(points.positions.size());
   LocalIndex expected_query = first;
-  search.nearest(first, last, k, [&](LocalIndex query, std::span<const Neighbour> found) {
+  search.nearest(first, last, k, [&](LocalIndex query, std::span<const LocalIndex> found) {
     CHECK(query == expected_query++);
     std::vector<LocalIndex> indices;
-    for (const Neighbour& n : found) indices.push_back(n.index);
+    for (const LocalIndex n : found) indices.push_back(n);
     wrong += indices != nearest_plainly(points, query, k);
   });
   CHECK(expected_query == last);
@@ -99,7 +99,7 @@ TEST_CASE("two points too near to be told apart are refused") {
   const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {1e-160, 0, 0}, {1, 0, 0}};
   const std::vector<PointId> ids = {PointId{0}, PointId{1}, PointId{2}};
   BlockSearch search(positions, ids);
-  CHECK_THROWS_AS(search.nearest(0, 3, 2, [](LocalIndex, std::span<const Neighbour>) {}), Error);
+  CHECK_THROWS_AS(search.nearest(0, 3, 2, [](LocalIndex, std::span<const LocalIndex>) {}), Error);
 }
 
 }  // namespace lacuna

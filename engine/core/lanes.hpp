@@ -1,0 +1,194 @@
+// Numbers of several points side by side in one register, and the functions of them that the hot stages
+// need. Formulas are written once, for a `Real` that is a `double` or `Lanes`.
+//
+// Sources named *.lanes.cpp are compiled once per instruction set (CMakeLists.txt), each time in a
+// namespace of its own, with registers of their full width; `core/dispatch.hpp` picks one when the program
+// starts. No fused multiply-add and no reordering: the same bits from each. These sources include nothing
+// that leaves functions behind which other code would share: no containers, no Eigen.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#if !defined(LACUNA_LANES)
+#define LACUNA_LANES plain
+#endif
+#define LACUNA_INLINE inline __attribute__((always_inline))
+
+namespace lacuna {
+inline namespace LACUNA_LANES {
+
+#if defined(__AVX512F__)
+inline constexpr std::size_t kLaneBytes = 64;
+#elif defined(__AVX2__)
+inline constexpr std::size_t kLaneBytes = 32;
+#else
+inline constexpr std::size_t kLaneBytes = 16;
+#endif
+inline constexpr std::size_t kLanes = kLaneBytes / sizeof(double);
+
+using Lanes = double __attribute__((vector_size(kLaneBytes)));
+using LaneBits =
+    std::int64_t __attribute__((vector_size(kLaneBytes)));  // as a mask: all bits of a lane or none
+
+LACUNA_INLINE Lanes load(const double* from) {
+  Lanes lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+LACUNA_INLINE void store(double* to, Lanes lanes) {
+  __builtin_memcpy(to, &lanes, sizeof lanes);
+}
+LACUNA_INLINE Lanes all_lanes(double value) {
+  return value - Lanes{};
+}
+
+LACUNA_INLINE bool any(bool mask) {
+  return mask;
+}
+LACUNA_INLINE bool any(LaneBits mask) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
+#elif defined(__AVX2__)
+  return !_mm256_testz_si256(reinterpret_cast<__m256i>(mask), reinterpret_cast<__m256i>(mask));
+#else
+  std::int64_t some = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) some |= mask[i];
+  return some != 0;
+#endif
+}
+
+LACUNA_INLINE double select(bool mask, double a, double b) {
+  return mask ? a : b;
+}
+LACUNA_INLINE Lanes select(LaneBits mask, Lanes a, Lanes b) {
+  return mask ? a : b;
+}
+
+template <class Real>
+LACUNA_INLINE Real smaller(Real a, Real b) {
+  return a < b ? a : b;
+}
+template <class Real>
+LACUNA_INLINE Real larger(Real a, Real b) {
+  return a > b ? a : b;
+}
+
+LACUNA_INLINE double root(double x) {
+  return __builtin_sqrt(x);
+}
+LACUNA_INLINE Lanes root(Lanes x) {
+  Lanes roots;
+  for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrt(x[i]);
+  return roots;
+}
+
+LACUNA_INLINE std::int64_t bits(double x) {
+  return std::bit_cast<std::int64_t>(x);
+}
+LACUNA_INLINE LaneBits bits(Lanes x) {
+  return reinterpret_cast<LaneBits>(x);
+}
+LACUNA_INLINE double from_bits(std::int64_t x) {
+  return std::bit_cast<double>(x);
+}
+LACUNA_INLINE Lanes from_bits(LaneBits x) {
+  return reinterpret_cast<Lanes>(x);
+}
+
+template <class Real>
+LACUNA_INLINE Real magnitude(Real x) {
+  return from_bits(bits(x) & INT64_MAX);
+}
+
+// exp(x) for -600 <= x <= 0, to 2 units in the last place; 0 from -700 down.
+template <class Real>
+LACUNA_INLINE Real exponential(Real x) {
+  constexpr double kLn2High = 6.93145751953125e-1, kLn2Low = 1.42860682030941723212e-6;
+  constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest integer in the lowest bits
+  const Real bounded = larger(x, Real{} - 700.0);
+  const Real shifted = bounded * std::numbers::log2e + kRound;
+  const Real n = shifted - kRound;
+  const Real r = (bounded - n * kLn2High) - n * kLn2Low;  // |r| <= ln 2 / 2
+  // Taylor to r^13: the next term is below 1e-17.
+  Real sum = r * (1.0 / 6227020800) + 1.0 / 479001600;
+  sum = sum * r + 1.0 / 39916800;
+  sum = sum * r + 1.0 / 3628800;
+  sum = sum * r + 1.0 / 362880;
+  sum = sum * r + 1.0 / 40320;
+  sum = sum * r + 1.0 / 5040;
+  sum = sum * r + 1.0 / 720;
+  sum = sum * r + 1.0 / 120;
+  sum = sum * r + 1.0 / 24;
+  sum = sum * r + 1.0 / 6;
+  sum = sum * r + 0.5;
+  sum = sum * r + 1.0;
+  sum = sum * r + 1.0;
+  const Real power = from_bits((bits(shifted) + 1023) << 52);
+  return select(x > -700.0, sum * power, Real{});
+}
+
+// The angle of the direction (x, y) in [-pi, pi], to 2 units in the last place; (0, 0) gives 0.
+// After Moshier, Cephes (atan.c): one reduction to |t| <= tan(pi / 8) and a rational function.
+template <class Real>
+LACUNA_INLINE Real angle_of(Real y, Real x) {
+  constexpr double kPi = std::numbers::pi;
+  constexpr double kTanEighth = 0.41421356237309503;  // tan(pi / 8)
+  const Real ax = magnitude(x), ay = magnitude(y);
+  const Real large = larger(ax, ay), small = smaller(ax, ay);
+  // tan(a - pi / 4) = (tan a - 1) / (tan a + 1)
+  const auto steep = small > kTanEighth * large;
+  const Real numerator = select(steep, small - large, small);
+  const Real denominator = select(steep, small + large, large);
+  const Real t = numerator / select(denominator > 0.0, denominator, Real{} + 1.0);
+  const Real z = t * t;
+  const Real p =
+      ((((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
+        1.228866684490136173410e2) *
+           z -
+       6.485021904942025371773e1);
+  const Real q =
+      (((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) *
+            z +
+        4.853903996359136964868e2) *
+           z +
+       1.945506571482613964425e2);
+  Real angle = t + t * (z * p / q);
+  angle = select(steep, angle + kPi / 4, angle);
+  angle = select(ay > ax, kPi / 2 - angle, angle);
+  angle = select(x < 0.0, kPi - angle, angle);
+  return select(y < 0.0, -angle, angle);
+}
+
+// Sine and cosine of 0 <= x <= pi / 3, to 1e-16.
+template <class Real>
+LACUNA_INLINE void sine_and_cosine(Real x, Real& sine, Real& cosine) {
+  const Real z = x * x;
+  Real s = z * (1.0 / 355687428096000) - 1.0 / 1307674368000;
+  s = s * z + 1.0 / 6227020800;
+  s = s * z - 1.0 / 39916800;
+  s = s * z + 1.0 / 362880;
+  s = s * z - 1.0 / 5040;
+  s = s * z + 1.0 / 120;
+  s = s * z - 1.0 / 6;
+  sine = x + x * (s * z);
+  Real c = z * (-1.0 / 6402373705728000) + 1.0 / 20922789888000;
+  c = c * z - 1.0 / 87178291200;
+  c = c * z + 1.0 / 479001600;
+  c = c * z - 1.0 / 3628800;
+  c = c * z + 1.0 / 40320;
+  c = c * z - 1.0 / 720;
+  c = c * z + 1.0 / 24;
+  c = c * z - 0.5;
+  cosine = c * z + 1.0;
+}
+
+}  // namespace LACUNA_LANES
+}  // namespace lacuna

@@ -1,0 +1,152 @@
+#include "engine/criteria/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace lacuna {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Vector3d> offsets_of(const Bundle& bundle, std::size_t point) {
+  std::vector<Vector3d> offsets;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(bundle.counts.at[point]); ++i)
+    offsets.emplace_back(bundle.x[i].at[point], bundle.y[i].at[point], bundle.z[i].at[point]);
+  return offsets;
+}
+
+double squared_length(const Vector3d& v) {
+  return (v.x() * v.x() + v.y() * v.y()) + v.z() * v.z();
+}
+
+// ---- The largest gap
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// Directions nearer than this are one direction (its nearest neighbour stands for it), gaps nearer than this
+// are equally large: exact symmetries of the points must not be decided by rounding.
+constexpr double kSame = 1e-9;
+
+struct Direction {
+  double angle;
+  std::uint32_t rank;  // of the neighbour
+
+  friend bool operator<(const Direction& a, const Direction& b) {
+    return std::tie(a.angle, a.rank) < std::tie(b.angle, b.rank);
+  }
+};
+
+// Of the neighbours that have a stable one, sorted.
+std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, const Vector3d& normal,
+                                         double cos_cone) {
+  // A neighbour whose projection is shorter than this share of its distance projects onto p.
+  constexpr double kNoDirection = 1e-12;
+  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::vector<Direction> directions;
+  for (std::uint32_t rank = 0; rank < offsets.size(); ++rank) {
+    const Vector3d& offset = offsets[rank];
+    const double distance = std::sqrt(squared_length(offset));
+    const double x = u.dot(offset), y = v.dot(offset), shortest = kNoDirection * distance;
+    if (x * x + y * y <= shortest * shortest || std::abs(normal.dot(offset)) > cos_cone * distance) continue;
+    directions.push_back({std::atan2(y, x), rank});
+  }
+  std::sort(directions.begin(), directions.end());
+  return directions;
+}
+
+// Runs of directions each within kSame of the one before, across pi too, become one.
+std::vector<Direction> merge_runs(const std::vector<Direction>& sorted) {
+  const std::size_t m = sorted.size();
+  const auto before = [&](std::size_t i) {
+    return i == 0 ? sorted[0].angle - sorted[m - 1].angle + kTurn : sorted[i].angle - sorted[i - 1].angle;
+  };
+  // Start behind a wider gap, so that no run is cut, and go round once.
+  std::size_t start = 0;
+  while (start < m && before(start) <= kSame) ++start;
+  if (start == m) start = 0;  // all are one direction
+  std::vector<Direction> merged;
+  for (std::size_t step = 0; step < m; ++step) {
+    const std::size_t i = (start + step) % m;
+    if (step == 0 || before(i) > kSame) {
+      merged.push_back(sorted[i]);
+    } else if (sorted[i].rank < merged.back().rank) {
+      merged.back() = sorted[i];
+    }
+  }
+  return merged;
+}
+
+// visit(turn, i) for the turn from each direction to the next, the last to the first.
+template <class Visit>
+void for_each_turn(const std::vector<Direction>& directions, Visit&& visit) {
+  const std::size_t last = directions.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double turn = directions[i < last ? i + 1 : 0].angle - directions[i].angle;
+    visit(turn > 0 ? turn : turn + kTurn, i);
+  }
+}
+
+}  // namespace
+
+PlaneFit fit_plane_carefully(const Bundle& bundle, std::size_t point, double sigma) {
+  const std::vector<Vector3d> offsets = offsets_of(bundle, point);
+  std::vector<double> weights;
+  double total = 0;
+  Vector3d mean{0, 0, 0};
+  for (const Vector3d& offset : offsets) {
+    weights.push_back(std::exp(-squared_length(offset) / (sigma * sigma)));
+    total += weights.back();
+    mean += weights.back() * offset;
+  }
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  if (total > 0) {
+    mean /= total;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const Vector3d d = mean - offsets[i];
+      const Vector3d weighted = weights[i] * d;
+      covariance += weighted * d.transpose();
+    }
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.compute(covariance);
+  const Vector3d values = solver.eigenvalues(), normal = solver.eigenvectors().col(0);
+  // No more than rounding noise between the two smallest: no plane fits better than another.
+  constexpr double kSameEigenvalue = 1e-12;
+  return {.mean_offset = {mean.x(), mean.y(), mean.z()},
+          .eigenvalues = {values[2], values[1], values[0]},
+          .normal = {normal.x(), normal.y(), normal.z()},
+          .has_normal = values[1] - values[0] > kSameEigenvalue * values.sum()};
+}
+
+GapFit largest_gap_carefully(const Bundle& bundle, std::size_t point, const double normal[3],
+                             double cos_cone) {
+  const Vector3d n(normal[0], normal[1], normal[2]);
+  const std::vector<Direction> sorted = sorted_directions(offsets_of(bundle, point), n, cos_cone);
+  GapFit gap{.used = static_cast<double>(sorted.size())};
+  if (sorted.empty()) return gap;
+  const std::vector<Direction> directions = merge_runs(sorted);
+  for_each_turn(directions, [&](double turn, std::size_t) { gap.size = std::max(gap.size, turn); });
+
+  // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::pair<std::uint32_t, std::uint32_t> first{kNone, kNone};
+  for_each_turn(directions, [&](double turn, std::size_t i) {
+    if (turn < gap.size - kSame) return;
+    const std::uint32_t a = directions[i].rank, b = directions[i + 1 < directions.size() ? i + 1 : 0].rank;
+    first = std::min(first, {std::min(a, b), std::max(a, b)});
+  });
+  gap.near = first.first;
+  gap.far = first.second;
+  return gap;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,68 @@
+// The surface around a point, as its neighbours tell it: what the criteria judge. For a `Real` that is one
+// number or those of several points (core/lanes).
+#pragma once
+
+#include "engine/core/lanes.hpp"
+
+namespace lacuna {
+inline namespace LACUNA_LANES {
+
+template <class Real>
+struct Vector {
+  Real x, y, z;
+
+  friend LACUNA_INLINE Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend LACUNA_INLINE Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend LACUNA_INLINE Vector operator*(Vector a, Real s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend LACUNA_INLINE Vector operator/(Vector a, Real s) { return {a.x / s, a.y / s, a.z / s}; }
+};
+
+template <class Real>
+LACUNA_INLINE Real dot(Vector<Real> a, Vector<Real> b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+template <class Real>
+LACUNA_INLINE Vector<Real> cross(Vector<Real> a, Vector<Real> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+LACUNA_INLINE Real norm(Vector<Real> a) {
+  return root(dot(a, a));
+}
+template <class Mask, class Real>
+LACUNA_INLINE Vector<Real> select(Mask mask, Vector<Real> a, Vector<Real> b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+// What is left of `a` in the plane with this unit normal.
+template <class Real>
+LACUNA_INLINE Vector<Real> in_plane(Vector<Real> a, Vector<Real> normal) {
+  return a - normal * dot(normal, a);
+}
+
+// The largest gap between the directions of a point's neighbours in its tangent plane (paper, 4.2).
+// Neighbours are named by their rank in neighbour order.
+template <class Real>
+struct Gap {
+  static constexpr double kNone = -1;
+
+  Real size{};                 // radians; 2 pi with one direction
+  Real used{};                 // m: neighbours that have a stable direction
+  Real near = kNone + Real{};  // gap neighbours, nearer first; equal with one direction
+  Real far = kNone + Real{};
+};
+
+// p itself takes part in no sum, and every sum is taken in neighbour order.
+template <class Real>
+struct Surface {
+  using Mask = decltype(Real{} < Real{});
+
+  Real mean_distance{};        // r_p
+  Vector<Real> mean_offset{};  // mu_p - p, weighted by exp(-d^2 / sigma^2)
+  Vector<Real> eigenvalues{};  // of C_p up to a common factor, largest first
+  Mask has_normal{};
+  Vector<Real> normal{};  // unit
+  Gap<Real> gap;
+};
+
+}  // namespace LACUNA_LANES
+}  // namespace lacuna

@@ -1,0 +1,70 @@
+// What the search in blocks does most: distances from one query to the points of many blocks, and the
+// nearest of eight queries ranked side by side. Plain arrays, compiled for each instruction set.
+#pragma once
+
+#include "engine/core/dispatch.hpp"
+#include "engine/core/sorting_network.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace lacuna {
+
+inline constexpr std::size_t kBlock = 16;        // points a block
+inline constexpr std::size_t kFan = 8;           // blocks or groups a group
+inline constexpr std::size_t kMostBlocks = 128;  // in sight
+
+// Squared distances between a box and those of a group.
+using BoxGaps = void(const double* low, const double* high, const double* const lows[3],
+                     const double* const highs[3], double* gaps);
+LACUNA_DISPATCH(BoxGaps, box_gaps)
+
+// Sixteen points; beyond the last one: infinite.
+struct alignas(64) Block {
+  double coordinates[3][kBlock];
+};
+
+// Blocks around some queries.
+struct alignas(64) Sight {
+  double low[3][kMostBlocks];  // their boxes
+  double high[3][kMostBlocks];
+  std::uint32_t blocks[kMostBlocks];  // their numbers among all
+  std::size_t count = 0;
+  const Block* all = nullptr;
+};
+
+// Candidates for a query's neighbours, by slot. A key is a squared distance whose lowest bits are replaced
+// by the slot, so that it can be sorted as one number; distances whose keys differ in the slot only are
+// nearer to each other than keys can tell.
+inline constexpr std::size_t kSlotBits = 7;
+inline constexpr std::size_t kMostCandidates = kMostSortedRows;
+static_assert(kMostCandidates == std::size_t{1} << kSlotBits);
+
+inline std::size_t slot_of(double key) {
+  return std::bit_cast<std::uint64_t>(key) % kMostCandidates;
+}
+
+struct alignas(64) CandidateList {
+  double keys[kMostCandidates + kBlock];
+  std::uint32_t points[kMostCandidates + kBlock];
+  std::size_t count;
+};
+
+// All points in sight within the radius of the query, itself among them; kMostCandidates + 1 if there are
+// more than that.
+using FindWithin = void(const Sight&, const double* query, double squared_radius, CandidateList&);
+LACUNA_DISPATCH(FindWithin, find_within)
+
+// A number of each of eight queries.
+inline constexpr std::size_t kQueries = 8;
+struct alignas(64) KeyRow {
+  double at[kQueries];
+};
+
+// Sorts each query's keys, the first `wanted` of them into the first rows. tied[i]: whether two of these of
+// query i cannot tell which is nearer.
+using SortKeys = void(KeyRow* rows, const SortingNetwork&, std::size_t wanted, bool* tied);
+LACUNA_DISPATCH(SortKeys, sort_keys)
+
+}  // namespace lacuna

@@ -1,0 +1,64 @@
+#include "engine/core/sorting_network.hpp"
+
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+std::vector<int> sorted_by_network(std::vector<int> values, std::size_t wanted) {
+  const SortingNetwork network = sorting_network(values.size(), wanted);
+  for (std::size_t i = 0; i < network.count; ++i) {
+    const auto [low, high] = network.comparisons[i];
+    if (values[high] < values[low]) std::swap(values[low], values[high]);
+  }
+  return values;
+}
+
+bool first_are_sorted(const std::vector<int>& values, std::size_t wanted) {
+  std::vector<int> expected = values, found = sorted_by_network(values, wanted);
+  std::sort(expected.begin(), expected.end());
+  return std::equal(expected.begin(), expected.begin() + std::ptrdiff_t(wanted), found.begin());
+}
+
+}  // namespace
+
+// What sorts every row of zeros and ones sorts everything (Knuth, 5.3.4, theorem Z).
+TEST_CASE("a sorting network of few rows puts the wanted ones first, whatever the numbers") {
+  std::size_t wrong = 0;
+  for (std::size_t rows = 1; rows <= 12; ++rows) {
+    for (std::size_t wanted = 1; wanted <= rows; ++wanted) {
+      for (unsigned bits = 0; bits < 1u << rows; ++bits) {
+        std::vector<int> values;
+        for (std::size_t i = 0; i < rows; ++i) values.push_back(bits >> i & 1);
+        wrong += !first_are_sorted(values, wanted);
+      }
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a sorting network of many rows puts the wanted ones first") {
+  Random random(4);
+  std::size_t wrong = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const auto rows = std::size_t(random.whole(1, kMostSortedRows));
+    const auto wanted = std::size_t(random.whole(1, std::int64_t(rows)));
+    std::vector<int> values;
+    for (std::size_t i = 0; i < rows; ++i) values.push_back(int(random.whole(0, round % 2 ? 1000 : 1)));
+    wrong += !first_are_sorted(values, wanted);
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("fewer wanted rows need fewer comparisons") {
+  CHECK(sorting_network(32, 32).count == 191);  // Batcher's number
+  CHECK(sorting_network(32, 17).count < 185);
+  CHECK(sorting_network(1, 1).count == 0);
+}
+
+}  // namespace lacuna
