@@ -248,8 +248,8 @@ void order_tile(benchmark::State& state, SampleOrder order) {
   const UnorderedTile unordered(order);
   const std::vector<std::uint32_t> cells = unordered.cells(CellIndex(unordered.tiling));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(lacuna::order_tile(unordered.stored, cells, unordered.tiling.cells.size(),
-                                                unordered.tiling.grid));
+    benchmark::DoNotOptimize(
+        lacuna::order_tile(unordered.stored, cells, unordered.tiling.cells.size(), unordered.tiling.grid));
   }
   time_per(state, "per_point", kPoints);
 }

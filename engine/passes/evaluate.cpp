@@ -65,16 +65,20 @@ Sight foreign_sight(const TileStore& store, std::span<const Link> links,
 TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& links,
                   std::span<const std::uint32_t> halo) {
   const Tile& tile = store.tiling().tiles[index];
+  const std::vector<StoredPoint> owned = store.points(index);
+  const Sight sight = foreign_sight(store, links, halo);
   TilePoints points;
+  points.positions.reserve(owned.size() + sight.rows.size());
+  points.ids.reserve(owned.size() + sight.rows.size());
+  points.rows.reserve(owned.size() + sight.rows.size());
   const auto add = [&](const StoredPoint& p, Row row) {
     points.positions.push_back(p.position());
     points.ids.push_back(p.id);
     points.rows.push_back(row);
   };
   std::uint64_t row = value(tile.first_row);
-  for (const StoredPoint& p : store.points(index)) add(p, Row{row++});
+  for (const StoredPoint& p : owned) add(p, Row{row++});
   points.owned = static_cast<LocalIndex>(points.size());
-  const Sight sight = foreign_sight(store, links, halo);
   for (std::size_t i = 0; i < sight.rows.size(); ++i) add(sight.points[i], sight.rows[i]);
 
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
@@ -105,6 +109,7 @@ class TileRecorder {
         evaluations_(evaluations) {}
 
   void record() {
+    mark_border();
     record_strengths();
     record_edges();
     record_candidates();
@@ -136,13 +141,36 @@ class TileRecorder {
   }
   float probability(LocalIndex p) const { return static_cast<float>(evaluations_[p].probability); }
 
-  void record_strengths() {
-    std::vector<Strength> strengths;
-    strengths.reserve(points_.owned);
+  void mark_border() {
+    is_border_.resize(points_.owned);
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      strengths.push_back({evaluations_[p].mean_distance, probability(p)});
+      const auto neighbours = neighbourhoods_[p];
+      is_border_[p] = std::any_of(neighbours.begin(), neighbours.end(),
+                                  [&](LocalIndex q) { return !points_.is_owned(q); });
     }
-    scan_.strengths.write(value(store_.tiling().tiles[tile_].first_row), strengths);
+  }
+
+  // Other tiles ask for those of points with neighbours among theirs: whole runs that hold none stay
+  // unwritten.
+  void record_strengths() {
+    constexpr LocalIndex kRun = 64;
+    const std::uint64_t first_row = value(store_.tiling().tiles[tile_].first_row);
+    std::vector<Strength> strengths;
+    const auto write = [&](LocalIndex end) {
+      if (!strengths.empty()) scan_.strengths.write(first_row + end - strengths.size(), strengths);
+      strengths.clear();
+    };
+    for (LocalIndex begin = 0, end; begin < points_.owned; begin = end) {
+      end = std::min(begin + kRun, points_.owned);
+      if (std::any_of(is_border_.begin() + begin, is_border_.begin() + end,
+                      [](bool border) { return border; })) {
+        for (LocalIndex p = begin; p < end; ++p)
+          strengths.push_back({evaluations_[p].mean_distance, probability(p)});
+      } else {
+        write(begin);
+      }
+    }
+    write(points_.owned);
   }
 
   void record_edges() {
@@ -159,11 +187,7 @@ class TileRecorder {
     for (const TileEdge& edge : edges.inside) is_vertex[edge.a] = is_vertex[edge.b] = true;
     std::vector<StoredVertex> vertices;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      const auto neighbours = neighbourhoods_[p];
-      if (!is_vertex[p] && std::all_of(neighbours.begin(), neighbours.end(),
-                                       [&](LocalIndex q) { return points_.is_owned(q); })) {
-        continue;
-      }
+      if (!is_vertex[p] && !is_border_[p]) continue;
       const Eigen::Vector3f surface = evaluations_[p].mean_offset.cast<float>();
       vertices.push_back({p, probability(p), {surface.x(), surface.y(), surface.z()}, stored(p)});
     }
@@ -240,6 +264,7 @@ class TileRecorder {
   const TilePoints& points_;
   const Rows& neighbourhoods_;
   const std::vector<Evaluation>& evaluations_;
+  std::vector<std::uint8_t> is_border_;  // has foreign neighbours
   std::vector<TileIndex> leans_on_;
 };
 

@@ -71,7 +71,7 @@ struct EvaluatedScan {
   Spill<StoredCrossing> crossings;
   Spill<StoredVertex> vertices;        // in ascending owned index
   Spill<StoredCandidate> candidates;   // in ascending row
-  Column<Strength> strengths;          // by row
+  Column<Strength> strengths;          // by row, of points with neighbours in other tiles
   Spill<StoredResult> results;         // by block of ids; empty without output.points
   Spill<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
   Spill<OrientationCrossing> orientation_crossings;

@@ -38,51 +38,90 @@ void sort_unique(std::vector<std::uint32_t>& cells) {
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-// Groups hold at most about `group_points` points in sight.
-Border plan_border(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points) {
-  Border border;
-  Group group;
-  std::uint64_t gathered = 0;
-  const auto close_group = [&] {
-    if (group.empty()) return;
-    sort_unique(group.sight);
-    border.groups.push_back(std::move(group));
-    group = {};
-    gathered = 0;
-  };
-  std::vector<std::uint32_t> sight;
-  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-    const Eigen::AlignedBox3d box = tiling.cell_box(cell);
-    const double reach = squared_reach(tiling, cell, k);
+// Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs.
+class BorderPlan {
+ public:
+  // Groups hold at most about `group_points` points in sight.
+  BorderPlan(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points)
+      : tiling_(tiling), tile_(tile), k_(k), group_points_(group_points) {
+    if (!tiling.nodes.empty()) visit(0);
+    close_group();
+  }
+
+  const Border& border() const { return border_; }
+
+ private:
+  void visit(std::uint32_t index) {
+    const CellNode& node = tiling_.nodes[index];
+    if (node.last <= tile_.first_cell || node.first >= tile_.last_cell) return;
+    const bool inside = node.first >= tile_.first_cell && node.last <= tile_.last_cell;
+    if (inside && is_interior(node)) return;
+    if (node.left != 0) {
+      visit(node.left);
+      visit(node.right);
+      return;
+    }
+    for (std::uint32_t cell = node.first; cell < node.last; ++cell) plan_cell(cell);
+  }
+
+  // More than k points within a box have their neighbours within its diagonal.
+  bool is_interior(const CellNode& node) const {
+    if (node.points <= k_) return false;
+    const Eigen::AlignedBox3d box = tiling_.box(node);
+    return !leaves_tile(box, max_squared_distance(box, box));
+  }
+
+  bool leaves_tile(const Eigen::AlignedBox3d& box, double squared_reach) const {
     bool leaves = false;
-    for_each_cell_near(tiling, box, reach, tile.first_cell, tile.last_cell, [&](std::uint32_t) {
+    for_each_cell_near(tiling_, box, squared_reach, tile_.first_cell, tile_.last_cell, [&](std::uint32_t) {
       leaves = true;
       return false;
     });
-    if (!leaves) continue;
-    sight.clear();
+    return leaves;
+  }
+
+  void plan_cell(std::uint32_t cell) {
+    const Eigen::AlignedBox3d box = tiling_.cell_box(cell);
+    const double reach = squared_reach(tiling_, cell, k_);
+    if (!leaves_tile(box, reach)) return;
+    sight_.clear();
     std::uint64_t points = 0;
-    for_each_cell_near(tiling, box, reach, 0, 0, [&](std::uint32_t near) {
-      sight.push_back(near);
-      points += tiling.cells[near].points;
+    for_each_cell_near(tiling_, box, reach, 0, 0, [&](std::uint32_t near) {
+      sight_.push_back(near);
+      points += tiling_.cells[near].points;
       return points <= kFarReach;
     });
     if (points > kFarReach) {
-      border.far_cells.push_back(cell);
-      continue;
+      border_.far_cells.push_back(cell);
+      return;
     }
-    group.border.push_back(cell);
-    group.sight.insert(group.sight.end(), sight.begin(), sight.end());
-    gathered += points;
-    if (gathered > 8 * group_points) {  // neighbours share most of their sight: count it once
-      sort_unique(group.sight);
-      gathered = points_of(tiling, group.sight);
-      if (gathered > group_points) close_group();
+    group_.border.push_back(cell);
+    group_.sight.insert(group_.sight.end(), sight_.begin(), sight_.end());
+    gathered_ += points;
+    if (gathered_ > 8 * group_points_) {  // neighbours share most of their sight: count it once
+      sort_unique(group_.sight);
+      gathered_ = points_of(tiling_, group_.sight);
+      if (gathered_ > group_points_) close_group();
     }
   }
-  close_group();
-  return border;
-}
+
+  void close_group() {
+    if (group_.empty()) return;
+    sort_unique(group_.sight);
+    border_.groups.push_back(std::move(group_));
+    group_ = {};
+    gathered_ = 0;
+  }
+
+  const Tiling& tiling_;
+  const Tile& tile_;
+  std::size_t k_;
+  std::uint64_t group_points_;
+  Border border_;
+  Group group_;
+  std::uint64_t gathered_ = 0;
+  std::vector<std::uint32_t> sight_;
+};
 
 class Linker {
  public:
@@ -197,8 +236,9 @@ class Linker {
 
   // p has q among its k nearest.
   void link(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
+    const Tile& here = tiling_.tiles[tile_];
+    if (q_row >= here.first_row && value(q_row) < value(here.first_row) + here.points) return;
     const TileIndex q_tile = tiling_.tile_of_row(q_row);
-    if (q_tile == tile_) return;
     sent_.push_back({tile_, {q_row, q, local(p_row, tile_), 0}});
     sent_.push_back({q_tile, {p_row, p, local(q_row, q_tile), 1}});
   }
@@ -245,10 +285,10 @@ Spill<Link> link_tiles(const TileStore& store, Job& job) {
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarReach / 4);
-    const Border border = plan_border(tiling, tile, k, group_points);
+    const BorderPlan plan(tiling, tile, k, group_points);
     Linker linker(store, k, static_cast<TileIndex>(t), inboxes);
-    for (const Group& group : border.groups) linker.link_group(group);
-    for (const std::uint32_t cell : border.far_cells) linker.link_far_cell(cell);
+    for (const Group& group : plan.border().groups) linker.link_group(group);
+    for (const std::uint32_t cell : plan.border().far_cells) linker.link_far_cell(cell);
     phase.advance(tile.points);
   });
   return inboxes;

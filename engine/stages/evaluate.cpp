@@ -59,12 +59,13 @@ class Bundler {
   std::size_t count(LocalIndex p) const { return neighbourhoods_[p].size(); }
 
   void order_by_count(LocalIndex first, LocalIndex last) {
-    order_.clear();
+    keys_.clear();
     for (LocalIndex p = first; p < last; ++p) {
-      if (count(p) > 0) order_.push_back(p);
+      if (count(p) > 0) keys_.push_back(std::uint64_t{count(p)} << 32 | p);
     }
-    std::sort(order_.begin(), order_.end(),
-              [&](LocalIndex a, LocalIndex b) { return count(a) != count(b) ? count(a) < count(b) : a < b; });
+    std::sort(keys_.begin(), keys_.end());
+    order_.clear();
+    for (const std::uint64_t key : keys_) order_.push_back(static_cast<LocalIndex>(key));
   }
 
   const Bundle& gather() {
@@ -115,6 +116,7 @@ class Bundler {
   const TilePoints& points_;
   const Rows& neighbourhoods_;
   std::span<const Eigen::Vector3d> given_normals_;
+  std::vector<std::uint64_t> keys_;  // (count, point)
   std::vector<LocalIndex> order_;
   std::array<LocalIndex, kBundle> lanes_{};
   Bundle bundle_;
