@@ -38,6 +38,18 @@ TEST_CASE("without commit nothing is left, and an older result stays", "[io]") {
   CHECK(read_file(folder / "a.bin") == "old");
 }
 
+TEST_CASE("the start of a file is overwritten, and what follows goes on behind it", "[io]") {
+  const ScratchFolder folder;
+  OutputFile out(folder / "a.bin");
+  const std::string long_text(3u << 20, 'x');
+  out.write("????" + long_text);
+  out.overwrite_start("1234");
+  out.write(std::as_bytes(std::span("end", 3)));
+  out.overwrite_start("12");
+  out.commit();
+  CHECK(read_file(folder / "a.bin") == "1234" + long_text + "end");
+}
+
 TEST_CASE("a full disk is an error that names the file, and leaves nothing", "[io]") {
   const ScratchFolder folder;
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{3} << 20}) {
