@@ -7,7 +7,6 @@
 #include <optional>
 #include <thread>
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -105,14 +104,6 @@ void Crew::for_each_within(std::span<const std::uint64_t> needs, std::uint64_t b
   arena_->arena.execute(
       [&] { tbb::parallel_for(std::size_t{0}, threads(), work, tbb::simple_partitioner()); });
   admission.rethrow();
-}
-
-void Crew::for_blocks(std::size_t count, std::size_t grain,
-                      const std::function<void(std::size_t, std::size_t)>& body) const {
-  arena_->arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const auto& block) { body(block.begin(), block.end()); });
-  });
 }
 
 void Crew::pipeline(const std::function<bool(std::size_t)>& produce,
