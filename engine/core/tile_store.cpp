@@ -73,4 +73,9 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
   duplicates_.append(index, duplicates);
 }
 
+void TileStore::seal() {
+  tiling_.recount();
+  assert(tiling_.check());
+}
+
 }  // namespace lacuna
