@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -110,6 +111,25 @@ TEST_CASE("a body may itself use the crew") {
   crew.for_each_within(std::vector<std::uint64_t>(20, 1), 4,
                        [&](std::size_t) { crew.for_each(10, [&](std::size_t) { ++sum; }); });
   CHECK(sum == 200);
+}
+
+// It could wait for the memory of the one that is on its own stack: for ever. Threads that help are slow, so
+// that there is something to wait for.
+TEST_CASE("a thread that waits within a body starts no other body meanwhile") {
+  static thread_local int bodies_here = 0;
+  std::atomic<int> entangled = 0;
+  for (int round = 0; round < 100; ++round) {
+    const Crew crew(3);
+    crew.for_each_within(std::vector<std::uint64_t>(3, 1), 3, [&](std::size_t) {
+      entangled += bodies_here++ > 0;
+      const auto here = std::this_thread::get_id();
+      crew.for_each(4, [&](std::size_t) {
+        std::this_thread::sleep_for(std::this_thread::get_id() == here ? 100us : 1000us);
+      });
+      --bodies_here;
+    });
+  }
+  CHECK(entangled == 0);
 }
 
 TEST_CASE("a pipeline consumes in the order produced, and no slot is used again before that") {
