@@ -102,7 +102,7 @@ TEST_CASE("a component larger than the memory of the global stage has the loops 
 
 TEST_CASE("random clouds have the loops of the plain method in as little memory as there is") {
   std::size_t loops = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Cloud cloud = random_cloud(10'000 + seed);
     Config config = random_config(seed, typical_spacing(cloud));
     config.neighbourhood.eps_fraction = 0;
@@ -116,7 +116,7 @@ TEST_CASE("random clouds have the loops of the plain method in as little memory 
     CHECK(traced.wrong_rows == 0);
     loops += traced.loops.size();
   }
-  CHECK(loops > 50);
+  CHECK(loops > 20);
 }
 
 TEST_CASE("raw loops are sorted by first id, then length, then ids") {
