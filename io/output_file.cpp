@@ -40,27 +40,36 @@ OutputFile::~OutputFile() {
   if (!committed_) ::unlink(partial_.c_str());
 }
 
-void OutputFile::write(const void* bytes, std::size_t count) {
+void OutputFile::write(std::span<const std::byte> bytes) {
   assert(descriptor_ >= 0);
-  const auto* from = static_cast<const std::byte*>(bytes);
-  while (count > 0) {
-    const std::size_t fitting = std::min(count, kBufferBytes - buffer_.size());
-    buffer_.insert(buffer_.end(), from, from + fitting);
-    from += fitting;
-    count -= fitting;
+  while (!bytes.empty()) {
+    const auto fitting = bytes.first(std::min(bytes.size(), kBufferBytes - buffer_.size()));
+    buffer_.insert(buffer_.end(), fitting.begin(), fitting.end());
+    bytes = bytes.subspan(fitting.size());
     if (buffer_.size() == kBufferBytes) flush();
   }
 }
 
+void OutputFile::overwrite_start(std::string_view text) {
+  flush();
+  assert(text.size() <= end_);
+  put(0, std::as_bytes(std::span(text)));
+}
+
 void OutputFile::flush() {
-  std::size_t done = 0;
-  while (done < buffer_.size()) {
-    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+  put(end_, buffer_);
+  end_ += buffer_.size();
+  buffer_.clear();
+}
+
+void OutputFile::put(std::uint64_t at, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("cannot be written");
-    done += static_cast<std::size_t>(written);
+    at += static_cast<std::uint64_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  buffer_.clear();
 }
 
 void OutputFile::close() {

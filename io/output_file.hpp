@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,20 +25,24 @@ class OutputFile {
   const std::filesystem::path& path() const { return file_; }
 
   // Buffered. Throws `Error`: a full disk is noticed here or in close, never later.
-  void write(const void* bytes, std::size_t count);
-  void write(std::string_view text) { write(text.data(), text.size()); }
+  void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+  // Puts `text` over the first bytes of the file, which are written already: a count known at the end.
+  void overwrite_start(std::string_view text);
 
   void close();   // nothing can be written after it
   void commit();  // closes, and gives the file its final name
 
  private:
   void flush();
+  void put(std::uint64_t at, std::span<const std::byte> bytes);
   [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path file_;
   std::filesystem::path partial_;
   int descriptor_ = -1;
   bool committed_ = false;
+  std::uint64_t end_ = 0;  // of what is in the file; the buffer follows
   std::vector<std::byte> buffer_;
 };
 

@@ -26,7 +26,7 @@ void PlyWriter::put_as(Scalar type, double value) {
 void PlyWriter::put_bytes(std::span<const std::byte> bytes) {
   assert(bytes.size() <= missing_bytes_);
   missing_bytes_ -= bytes.size();
-  out_.write(bytes.data(), bytes.size());
+  out_.write(bytes);
 }
 
 void PlyWriter::finish() {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <thread>
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -80,12 +79,15 @@ std::size_t Crew::threads() const {
   return static_cast<std::size_t>(arena_->arena.max_concurrency());
 }
 
+// Isolated, for what a body asks of its crew: while it waits, its thread could be handed the loop that the
+// body is part of, and start another body, or wait for memory that its own body holds: for ever. Isolation of
+// the body alone is not enough, since entering the arena ends it.
 void Crew::in_arena(const std::function<void()>& work) const {
-  arena_->arena.execute(work);
+  arena_->arena.execute([&] { tbb::this_task_arena::isolate(work); });
 }
 
 void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
-  arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
+  in_arena([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
 }
 
 void Crew::for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,
@@ -94,25 +96,15 @@ void Crew::for_each_within(std::span<const std::uint64_t> needs, std::uint64_t b
   const auto work = [&](std::size_t) {
     while (const std::optional<std::size_t> index = admission.enter()) {
       try {
-        // Without isolation a body that waits inside TBB could be handed another worker's loop.
-        tbb::this_task_arena::isolate([&] { body(*index); });
+        body(*index);
       } catch (...) {
         admission.fail(std::current_exception());
       }
       admission.leave(*index);
     }
   };
-  arena_->arena.execute(
-      [&] { tbb::parallel_for(std::size_t{0}, threads(), work, tbb::simple_partitioner()); });
+  in_arena([&] { tbb::parallel_for(std::size_t{0}, threads(), work, tbb::simple_partitioner()); });
   admission.rethrow();
-}
-
-void Crew::for_blocks(std::size_t count, std::size_t grain,
-                      const std::function<void(std::size_t, std::size_t)>& body) const {
-  arena_->arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const auto& block) { body(block.begin(), block.end()); });
-  });
 }
 
 void Crew::pipeline(const std::function<bool(std::size_t)>& produce,
@@ -129,7 +121,7 @@ void Crew::pipeline(const std::function<bool(std::size_t)>& produce,
     return slot;
   };
   // A slot is used again only after `consume`: the tokens in flight are fewer than the slots.
-  arena_->arena.execute([&] {
+  in_arena([&] {
     tbb::parallel_pipeline(
         slots, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, fetch) &
                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, change) &

@@ -12,7 +12,7 @@
 
 namespace lacuna {
 
-// Threads to work with. Bodies of `run` and `for_each` may call each other's results, never each other.
+// Threads to work with. A body may use the same crew again.
 class Crew {
  public:
   explicit Crew(std::size_t threads);  // 0: one per core
@@ -28,18 +28,14 @@ class Crew {
   void for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,
                        const std::function<void(std::size_t)>& body) const;
 
-  // body(begin, end) over blocks of [0, count) of at least `grain` indices.
-  void for_blocks(std::size_t count, std::size_t grain,
-                  const std::function<void(std::size_t, std::size_t)>& body) const;
-
   // std::sort by all threads that have nothing else to do. `less` must be a total order of what occurs.
   template <class T, class Less>
   void sort(std::span<T> values, Less less) const {
     in_arena([&] { tbb::parallel_sort(values.begin(), values.end(), less); });
   }
 
-  // Both at once: `consume(value)` for each value that `produce` delivers, in their order, while `produce`
-  // already fetches the next ones. produce: false at the end.
+  // What `produce` puts into a slot is changed by `transform`, several slots at a time, and taken by
+  // `consume` in the order produced; a slot is filled again only after that. produce: false at the end.
   void pipeline(const std::function<bool(std::size_t slot)>& produce,
                 const std::function<void(std::size_t slot)>& transform,
                 const std::function<void(std::size_t slot)>& consume, std::size_t slots) const;

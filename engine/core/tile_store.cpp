@@ -1,5 +1,7 @@
 #include "engine/core/tile_store.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -61,6 +63,8 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
                     std::span<const Duplicate> duplicates) {
   Tile& tile = tiling_.tiles[index];
   assert(cell_points.size() == tile.last_cell - tile.first_cell);
+  if (points.size() > tile.raw)  // its rows would run into the next tile's
+    throw Error("the input changed while it was read: more points in a tile than were counted");
   tile.points = points.size();
   std::uint64_t row = value(tile.first_row);
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
@@ -71,6 +75,11 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
   points_.write(value(tile.first_row), points);
   if (has_normals_) normals_.write(value(tile.first_row), normals);
   duplicates_.append(index, duplicates);
+}
+
+void TileStore::seal() {
+  tiling_.recount();
+  assert(tiling_.check());
 }
 
 }  // namespace lacuna

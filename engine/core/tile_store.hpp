@@ -55,7 +55,7 @@ class TileStore {
   void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
            std::span<const std::uint64_t> cell_points, std::span<const Duplicate> duplicates);
   // All tiles are put: counts are final.
-  void seal() { tiling_.recount(); }
+  void seal();
 
  private:
   Tiling tiling_;

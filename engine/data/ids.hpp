@@ -15,7 +15,6 @@ enum class Row : std::uint64_t {};
 // Place of a point in the arrays of one tile, or of a vertex in the arrays of one component.
 using LocalIndex = std::uint32_t;
 
-inline constexpr Row kNoRow{std::numeric_limits<std::uint64_t>::max()};
 inline constexpr LocalIndex kNoIndex = std::numeric_limits<LocalIndex>::max();
 
 constexpr std::uint64_t value(PointId id) {

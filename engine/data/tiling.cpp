@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 
 namespace lacuna {
@@ -76,15 +75,33 @@ void Tiling::recount() {
   }
 }
 
-void Tiling::check() const {
-  [[maybe_unused]] std::uint32_t cell = 0;
+bool Tiling::check() const {
+  if (!cell_rows.empty() && cell_rows.size() != cells.size()) return false;
+  std::uint32_t cell = 0;
+  std::uint64_t row = 0;  // the first that is free
   for (const Tile& tile : tiles) {
-    assert(tile.first_cell == cell && tile.last_cell > cell);
-    assert(tile.points <= tile.raw);
+    if (tile.first_cell != cell || tile.last_cell <= cell || tile.last_cell > cells.size()) return false;
+    if (value(tile.first_row) < row || value(tile.first_row) % kRowAlignment != 0) return false;
+    if (tile.points > tile.raw) return false;
+    if (!cell_rows.empty()) {
+      std::uint64_t next = value(tile.first_row);
+      for (std::uint32_t c = cell; c < tile.last_cell; next += cells[c++].points) {
+        if (value(cell_rows[c]) != next) return false;
+      }
+      if (next != value(tile.first_row) + tile.points) return false;
+    }
     cell = tile.last_cell;
+    row = value(tile.first_row) + tile.raw;
   }
-  assert(cell == cells.size());
-  assert(cell_rows.empty() || cell_rows.size() == cells.size());
+  if (cell != cells.size()) return false;
+  if (nodes.empty()) return cells.empty();
+  if (nodes[0].first != 0 || nodes[0].last != cells.size()) return false;
+  return std::all_of(nodes.begin(), nodes.end(), [&](const CellNode& node) {
+    if (node.left == 0) return node.first < node.last;
+    const CellNode &left = nodes[node.left], &right = nodes[node.right];
+    return left.first == node.first && left.last == right.first && right.last == node.last &&
+           node.points == left.points + right.points;
+  });
 }
 
 // Rounded in the same order as the distances of points, so that rounding, being monotone, keeps the bounds.

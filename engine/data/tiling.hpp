@@ -74,7 +74,10 @@ struct Tiling {
   std::uint64_t row_count() const;  // rows up to the last used one
   std::uint64_t points() const;     // distinct ones
   void recount();                   // nodes' points from the cells'
-  void check() const;
+
+  // Whether tiles hold every cell once and in order, their rows apart from each other, rows of cells in
+  // their tiles, and the nodes halve all cells. For asserts and tests.
+  bool check() const;
 };
 
 // Lower and upper bound of the squared distance between a point of `a` and a point of `b`.

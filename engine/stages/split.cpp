@@ -1,6 +1,7 @@
 #include "engine/stages/split.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace lacuna {
@@ -76,6 +77,7 @@ Tiling split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::ui
     tile.first_row = Row{row};
     row += (tile.raw + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
   }
+  assert(tiling.check());
   return tiling;
 }
 

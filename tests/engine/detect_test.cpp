@@ -15,12 +15,6 @@
 namespace lacuna {
 namespace {
 
-Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2) {
-  config.run.tile_points = tile_points;
-  config.run.threads = threads;
-  return config;
-}
-
 bool near(float value, double expected) {
   return std::abs(value - expected) <= 1e-6;
 }

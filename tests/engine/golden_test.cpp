@@ -6,60 +6,38 @@
 #include "tests/support/detected.hpp"
 #include "tests/support/tile.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
 
-GoldenLoops loops_of(const Detected& detected) {
-  GoldenLoops loops;
-  for (const ReportedLoop& loop : detected.loops) {
-    loops.emplace_back();
-    for (const LoopPoint& p : loop.points) loops.back().push_back(static_cast<std::int64_t>(value(p.id)));
-  }
-  std::sort(loops.begin(), loops.end());
-  return loops;
-}
-
 TEST_CASE("the engine gives the golden probabilities, coherence and loops, in tiles of 3,000 points") {
   const auto shared = shared_folder();
-  if (!shared) {
-    WARN("no shared folder: skipped");
-    return;
-  }
+  if (!shared) return;
   for (GoldenSetting& setting : golden_settings()) {
     INFO(setting.name);
     const std::vector<GoldenPoint> golden = read_golden_points(*shared, setting);
     setting.config.run.tile_points = 3000;
     const Detected detected = run_engine(read_cloud(*shared / setting.cloud), setting.config);
     REQUIRE(detected.points.size() == golden.size());
-    double largest_error = 0;
-    std::size_t wrong_coherence = 0;
-    for (std::size_t i = 0; i < golden.size(); ++i) {
+    std::vector<GoldenPoint> found = golden;
+    for (std::size_t i = 0; i < found.size(); ++i) {
       const PointResult& p = detected.points[i];
-      const GoldenPoint& g = golden[i];
-      for (const double error :
-           {p.angle - g.angle, p.halfdisc - g.halfdisc, p.shape - g.shape, p.probability - g.probability}) {
-        largest_error = std::max(largest_error, std::abs(error));
-      }
-      wrong_coherence += (p.coherent != 0) != (g.coherent != 0);
+      found[i].angle = p.angle;
+      found[i].halfdisc = p.halfdisc;
+      found[i].shape = p.shape;
+      found[i].probability = p.probability;
+      found[i].coherent = p.coherent;
     }
-    CHECK(largest_error < 1e-6);
-    CHECK(wrong_coherence == 0);
+    check_golden(found, golden);
     CHECK(detected.summary.tiles > 1);
-    CHECK(loops_of(detected) == read_golden_loops(*shared, setting));
+    CHECK(in_golden_form(detected.loop_ids()) == read_golden_loops(*shared, setting));
   }
 }
 
 TEST_CASE("the stages give the golden neighbour counts, mean distances and gap neighbours") {
   const auto shared = shared_folder();
-  if (!shared) {
-    WARN("no shared folder: skipped");
-    return;
-  }
+  if (!shared) return;
   for (const GoldenSetting& setting : golden_settings()) {
     INFO(setting.name);
     const std::vector<GoldenPoint> golden = read_golden_points(*shared, setting);
@@ -73,25 +51,22 @@ TEST_CASE("the stages give the golden neighbour counts, mean distances and gap n
     const auto id_of = [&](LocalIndex i) {
       return i == kNoIndex ? std::int64_t{-1} : static_cast<std::int64_t>(value(points.ids[i]));
     };
-    std::size_t wrong_count = 0, wrong_distance = 0, wrong_gap = 0;
+    std::vector<GoldenPoint> found = golden;
     for (LocalIndex i = 0; i < points.owned; ++i) {
-      const GoldenPoint& g = golden[value(points.ids[i])];
-      wrong_count += static_cast<std::int64_t>(rows[i].size()) != g.neighbours;
-      wrong_distance += std::abs(evaluations[i].mean_distance - g.mean_distance) > 1e-12 * g.mean_distance;
-      wrong_gap += id_of(evaluations[i].gap_near) != g.gap_near || id_of(evaluations[i].gap_far) != g.gap_far;
+      const Evaluation& e = evaluations[i];
+      GoldenPoint& p = found[value(points.ids[i])];
+      p.neighbours = static_cast<std::int64_t>(rows[i].size());
+      p.mean_distance = e.mean_distance;
+      p.gap_near = id_of(e.gap_near);
+      p.gap_far = id_of(e.gap_far);
     }
-    CHECK(wrong_count == 0);
-    CHECK(wrong_distance == 0);
-    CHECK(wrong_gap == 0);
+    check_golden(found, golden);
   }
 }
 
 TEST_CASE("the engine finds the paper's figures: the bunny's five holes, the range map's rim of 844 points") {
   const auto shared = shared_folder();
-  if (!shared) {
-    WARN("no shared folder: skipped");
-    return;
-  }
+  if (!shared) return;
   const Detected bunny = run_engine(read_cloud(*shared / "data/bun_zipper.ply"), {});
   CHECK(bunny.summary.e == 14);
   REQUIRE(bunny.loops.size() == 5);

@@ -31,7 +31,8 @@ std::string bytes_of(const std::filesystem::path& file, const Setting& setting, 
 
 void check_tiling(const std::string& name, const std::vector<Setting>& settings, bool orient = true) {
   const auto shared = shared_folder();
-  if (!shared || !std::filesystem::exists(*shared / "data" / name)) {
+  if (!shared) return;
+  if (!std::filesystem::exists(*shared / "data" / name)) {
     WARN("no " << name << ": skipped");
     return;
   }

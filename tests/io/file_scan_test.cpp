@@ -40,9 +40,9 @@ Points read_all(PointSource& source) {
 }  // namespace
 
 TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", kIntegers), folder.put("b.ply", kEmpty), folder.put("c.ply", kNormals)},
-                {});
+  const ScratchFolder folder;
+  FileScan scan(
+      {folder.write("a.ply", kIntegers), folder.write("b.ply", kEmpty), folder.write("c.ply", kNormals)}, {});
   CHECK(scan.expected_points() == 3u);
   CHECK(scan.has_normals());
   CHECK_FALSE(scan.single_precision());
@@ -61,8 +61,8 @@ TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]
 }
 
 TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", kNormals), folder.put("c.ply", kNormals)}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", kNormals), folder.write("c.ply", kNormals)}, {});
   PointBatch batch;
   REQUIRE(scan.next(batch));
   scan.rewind();
@@ -71,8 +71,8 @@ TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
 }
 
 TEST_CASE("a scan without normals has none, and a text file does not tell its size", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", kEmpty), folder.put("b.xyz", "1 2 3\n")}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
   CHECK_FALSE(scan.has_normals());
   CHECK_FALSE(scan.expected_points());
   const Points all = read_all(scan);
@@ -81,10 +81,10 @@ TEST_CASE("a scan without normals has none, and a text file does not tell its si
 }
 
 TEST_CASE("a scan is read in batches of bounded size", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::string text;
   for (int i = 0; i < 70'000; ++i) text += "1 2 3\n";
-  FileScan scan({folder.put("a.xyz", text)}, {});
+  FileScan scan({folder.write("a.xyz", text)}, {});
   PointBatch batch;
   REQUIRE(scan.next(batch));
   CHECK(batch.size() == 65'536);
@@ -95,12 +95,10 @@ TEST_CASE("a scan is read in batches of bounded size", "[io]") {
 }
 
 TEST_CASE("a missing or broken file is an error before any point is read", "[io]") {
-  const TempFolder folder;
-  const auto good = folder.put("a.ply", kNormals);
-  CHECK(error_of([&] {
-          FileScan({good, folder.path() / "none.ply"}, {});
-        }).find("none.ply") != std::string::npos);
-  const auto cut = folder.put("cut.ply", kNormals.substr(0, kNormals.size() - 8));
+  const ScratchFolder folder;
+  const auto good = folder.write("a.ply", kNormals);
+  CHECK(error_of([&] { FileScan({good, folder / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
+  const auto cut = folder.write("cut.ply", kNormals.substr(0, kNormals.size() - 8));
   CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
 }
 

@@ -8,10 +8,10 @@
 namespace lacuna::test {
 
 TEST_CASE("a file has its final name only once it is committed", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::string expected;
   {
-    OutputFile out(folder.path() / "a.bin");
+    OutputFile out(folder / "a.bin");
     for (int i = 0; i < 300'000; ++i) {
       const std::string word = std::to_string(i) + ' ';
       out.write(word);
@@ -23,64 +23,76 @@ TEST_CASE("a file has its final name only once it is committed", "[io]") {
     out.commit();
   }
   CHECK(folder.names() == std::vector<std::string>{"a.bin"});
-  CHECK(content_of(folder.path() / "a.bin") == expected);
+  CHECK(read_file(folder / "a.bin") == expected);
 }
 
 TEST_CASE("without commit nothing is left, and an older result stays", "[io]") {
-  const TempFolder folder;
-  folder.put("a.bin", "old");
+  const ScratchFolder folder;
+  folder.write("a.bin", "old");
   {
-    OutputFile out(folder.path() / "a.bin");
+    OutputFile out(folder / "a.bin");
     out.write("new");
     out.close();
   }
   CHECK(folder.names() == std::vector<std::string>{"a.bin"});
-  CHECK(content_of(folder.path() / "a.bin") == "old");
+  CHECK(read_file(folder / "a.bin") == "old");
+}
+
+TEST_CASE("the start of a file is overwritten, and what follows goes on behind it", "[io]") {
+  const ScratchFolder folder;
+  OutputFile out(folder / "a.bin");
+  const std::string long_text(3u << 20, 'x');
+  out.write("????" + long_text);
+  out.overwrite_start("1234");
+  out.write(std::as_bytes(std::span("end", 3)));
+  out.overwrite_start("12");
+  out.commit();
+  CHECK(read_file(folder / "a.bin") == "1234" + long_text + "end");
 }
 
 TEST_CASE("a full disk is an error that names the file, and leaves nothing", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{3} << 20}) {
-    std::filesystem::create_symlink("/dev/full", folder.path() / "a.bin.partial");
+    std::filesystem::create_symlink("/dev/full", folder / "a.bin.partial");
     const std::string error = error_of([&] {
-      OutputFile out(folder.path() / "a.bin");
+      OutputFile out(folder / "a.bin");
       out.write(std::string(bytes, 'x'));
       out.commit();
     });
-    CHECK(error == (folder.path() / "a.bin").string() + ": cannot be written: No space left on device");
+    CHECK(error == (folder / "a.bin").string() + ": cannot be written: No space left on device");
     CHECK(folder.names().empty());
   }
 }
 
 TEST_CASE("a place that cannot be written is an error", "[io]") {
-  const TempFolder folder;
-  CHECK(error_of([&] { OutputFile(folder.path() / "none" / "a.bin"); }).find("a.bin: cannot be created") !=
+  const ScratchFolder folder;
+  CHECK(error_of([&] { OutputFile(folder / "none" / "a.bin"); }).find("a.bin: cannot be created") !=
         std::string::npos);
-  std::filesystem::create_directory(folder.path() / "a.bin");
-  CHECK(error_of([&] { OutputFile(folder.path() / "a.bin"); }).find("is a folder") != std::string::npos);
+  std::filesystem::create_directory(folder / "a.bin");
+  CHECK(error_of([&] { OutputFile(folder / "a.bin"); }).find("is a folder") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"a.bin"});
 }
 
 TEST_CASE("a set of results appears together and takes the place of older ones", "[io]") {
-  const TempFolder folder;
-  folder.put("a", "old");
-  folder.put("stale", "old");
-  folder.put("other", "kept");
+  const ScratchFolder folder;
+  folder.write("a", "old");
+  folder.write("stale", "old");
+  folder.write("other", "kept");
   {
     OutputSet set(folder.path());
     set.add("a").write("new a");
     set.add("b").write("new b");
-    CHECK(content_of(folder.path() / "a") == "old");
+    CHECK(read_file(folder / "a") == "old");
     set.commit({"stale", "not there"});
   }
   CHECK(folder.names() == std::vector<std::string>{"a", "b", "other"});
-  CHECK(content_of(folder.path() / "a") == "new a");
+  CHECK(read_file(folder / "a") == "new a");
 }
 
 TEST_CASE("a set with one unfinished file leaves the folder as it was", "[io]") {
-  const TempFolder folder;
-  folder.put("a", "old");
-  std::filesystem::create_symlink("/dev/full", folder.path() / "b.partial");
+  const ScratchFolder folder;
+  folder.write("a", "old");
+  std::filesystem::create_symlink("/dev/full", folder / "b.partial");
   CHECK(error_of([&] {
           OutputSet set(folder.path());
           set.add("a").write("new a");
@@ -88,12 +100,12 @@ TEST_CASE("a set with one unfinished file leaves the folder as it was", "[io]") 
           set.commit({"a"});
         }).find("No space left") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"a"});
-  CHECK(content_of(folder.path() / "a") == "old");
+  CHECK(read_file(folder / "a") == "old");
 }
 
 TEST_CASE("what the PLY writer writes, the PLY reader reads", "[io]") {
-  const TempFolder folder;
-  OutputFile out(folder.path() / "a.ply");
+  const ScratchFolder folder;
+  OutputFile out(folder / "a.ply");
   const PlyElement vertex{.name = "vertex",
                           .count = 2,
                           .properties = {{"x", Scalar::kFloat32, {}},
@@ -111,7 +123,7 @@ TEST_CASE("what the PLY writer writes, the PLY reader reads", "[io]") {
   writer.put(std::int32_t{1});
   writer.finish();
   out.commit();
-  const Table table = read_table(folder.path() / "a.ply");
+  const Table table = read_table(folder / "a.ply");
   CHECK(table.names == std::vector<std::string>{"x", "y", "z", "id"});
   CHECK(table.rows ==
         std::vector<std::vector<double>>{{0.5, 1e300, -7, 4294967295.0}, {-0.5, -1e300, 7, 4294967295.0}});

@@ -50,21 +50,21 @@ const Rows kCrowdedRows = {{-300, 0.5, 1e300}, {301, -0.25, 2}};
 }  // namespace
 
 TEST_CASE("lists and other elements are passed over in every encoding", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string& content :
        {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
-    const Table table = read_table(folder.put("a.ply", content));
+    const Table table = read_table(folder.write("a.ply", content));
     CHECK(table.names == std::vector<std::string>{"x", "y", "z"});
     CHECK(table.rows == kCrowdedRows);
   }
 }
 
 TEST_CASE("a file cut at any byte is an error, and never a crash", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string& whole : {crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
     for (std::size_t length = 0; length < whole.size(); ++length) {
       INFO("cut at byte " << length);
-      const std::string error = read_error(folder.put("cut.ply", whole.substr(0, length)));
+      const std::string error = read_error(folder.write("cut.ply", whole.substr(0, length)));
       CHECK(error.find("cut.ply: ") != std::string::npos);
       CHECK(error.find('\n') == std::string::npos);
     }
@@ -72,7 +72,7 @@ TEST_CASE("a file cut at any byte is an error, and never a crash", "[io]") {
   // Only the last line's end can be missed without notice, the last number being one digit.
   for (std::size_t length = 0; length < kCrowdedAscii.size(); ++length) {
     INFO("cut at byte " << length);
-    const auto file = folder.put("cut.ply", kCrowdedAscii.substr(0, length));
+    const auto file = folder.write("cut.ply", kCrowdedAscii.substr(0, length));
     if (length + 1 < kCrowdedAscii.size()) {
       CHECK(read_error(file) != "");
     } else {
@@ -82,14 +82,14 @@ TEST_CASE("a file cut at any byte is an error, and never a crash", "[io]") {
 }
 
 TEST_CASE("a file with any byte changed gives rows or an error, and never a crash", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string& whole :
        {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
     for (std::size_t place = 0; place < whole.size(); ++place) {
       for (const char c : {'\0', '\n', ' ', '9', '-', '\xff'}) {
         std::string changed = whole;
         changed[place] = c;
-        const auto file = folder.put("a.ply", changed);
+        const auto file = folder.write("a.ply", changed);
         const std::string error = read_error(file);
         INFO("byte " << place << ": " << error);
         CHECK(error.find('\n') == std::string::npos);
@@ -100,7 +100,7 @@ TEST_CASE("a file with any byte changed gives rows or an error, and never a cras
 }
 
 TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string names[] = {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
   const std::string others[] = {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
   for (std::size_t t = 0; t < 8; ++t) {
@@ -114,23 +114,23 @@ TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]"
         for (const std::endian order : {std::endian::little, std::endian::big}) {
           Bytes bytes(order);
           bytes << 1.f << 2.f << 3.f << low << 4.f << 5.f << 6.f << high;
-          CHECK(read_table(folder.put("a.ply", header(format_of(order), body) + bytes.str())).rows ==
+          CHECK(read_table(folder.write("a.ply", header(format_of(order), body) + bytes.str())).rows ==
                 expected);
         }
         std::ostringstream text;
         text.precision(17);
         text << "1 2 3 " << +low << "\n4 5 6 " << +high << "\n";
-        CHECK(read_table(folder.put("a.ply", header("ascii", body) + text.str())).rows == expected);
+        CHECK(read_table(folder.write("a.ply", header("ascii", body) + text.str())).rows == expected);
       }
     });
   }
 }
 
 TEST_CASE("a number as text is rounded once, to the type of its property", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   // Just above halfway between two floats: rounded by way of double, it would come down to 1.
   const std::string tricky = "1.00000005960464477540";
-  const auto file = folder.put("a.ply", header("ascii", "element vertex 1\n" + kXyz) + tricky + " +2 -0\n");
+  const auto file = folder.write("a.ply", header("ascii", "element vertex 1\n" + kXyz) + tricky + " +2 -0\n");
   const auto row = read_table(file).rows.at(0);
   CHECK(row[0] == static_cast<double>(std::nextafter(1.0f, 2.0f)));
   CHECK(row[1] == 2);
@@ -138,9 +138,9 @@ TEST_CASE("a number as text is rounded once, to the type of its property", "[io]
 }
 
 TEST_CASE("what a float cannot hold becomes infinite or zero, and nan and inf are read", "[io]") {
-  const TempFolder folder;
-  const auto file =
-      folder.put("a.ply", header("ascii", "element vertex 2\n" + kXyz) + "1e39 -1e400 1e-60\nnan inf -inf\n");
+  const ScratchFolder folder;
+  const auto file = folder.write(
+      "a.ply", header("ascii", "element vertex 2\n" + kXyz) + "1e39 -1e400 1e-60\nnan inf -inf\n");
   const Rows rows = read_table(file).rows;
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(rows.at(0) == std::vector<double>{infinity, -infinity, 0});
@@ -150,38 +150,38 @@ TEST_CASE("what a float cannot hold becomes infinite or zero, and nan and inf ar
 }
 
 TEST_CASE("CR LF, blank lines, tabs and a missing last line end are accepted", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::string text = header("ascii", "comment\nelement vertex 2\n" + kXyz) + "1 2 3\n\n  4\t5 6 ";
-  CHECK(read_table(folder.put("a.ply", text)).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.ply", text)).rows == Rows{{1, 2, 3}, {4, 5, 6}});
   std::string dos;
   for (const char c : text) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  CHECK(read_table(folder.put("b.ply", dos)).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("b.ply", dos)).rows == Rows{{1, 2, 3}, {4, 5, 6}});
   Bytes bytes;
   bytes << 1.f << 2.f << 3.f;
   std::string binary =
       "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty float x\r\n"
       "property float y\r\nproperty float z\r\nend_header\r\n" +
       bytes.str();
-  CHECK(read_table(folder.put("c.ply", binary)).rows == Rows{{1, 2, 3}});
+  CHECK(read_table(folder.write("c.ply", binary)).rows == Rows{{1, 2, 3}});
 }
 
 TEST_CASE("a header without rows is an empty scan", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    CHECK(read_table(folder.put("a.ply", header(format, "element vertex 0\n" + kXyz))).rows.empty());
+    CHECK(read_table(folder.write("a.ply", header(format, "element vertex 0\n" + kXyz))).rows.empty());
   }
   const std::string no_line_end = header("ascii", "element vertex 0\n" + kXyz);
-  CHECK(read_table(folder.put("a.ply", no_line_end.substr(0, no_line_end.size() - 1))).rows.empty());
+  CHECK(read_table(folder.write("a.ply", no_line_end.substr(0, no_line_end.size() - 1))).rows.empty());
 }
 
 TEST_CASE("a count that no file can hold is an error where the data ends", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const std::string count : {"1000000000000000000", "18446744073709551615", "2"}) {
       for (const std::string list : {"", "property list uchar int near\n"}) {
         const std::string content =
             header(format, "element vertex " + count + "\n" + kXyz + list) + "1 2 3 0\n";
-        const std::string error = read_error(folder.put("a.ply", content));
+        const std::string error = read_error(folder.write("a.ply", content));
         CHECK(error.find("a.ply: byte " + std::to_string(content.size()) + ": ") != std::string::npos);
         CHECK(error.find(count + " rows") != std::string::npos);
       }
@@ -191,25 +191,25 @@ TEST_CASE("a count that no file can hold is an error where the data ends", "[io]
       header("ascii", "element vertex 1\n" + kXyz + "element face 1000000000000000000\n" +
                           "property list uchar int vertex_indices\n") +
       "1 2 3\n";
-  CHECK(read_error(folder.put("a.ply", behind)).find("'face'") != std::string::npos);
+  CHECK(read_error(folder.write("a.ply", behind)).find("'face'") != std::string::npos);
   const std::string nothing =
       header("ascii", "element void 1000000000000000000\nelement vertex 1\n" + kXyz) + "1 2 3\n";
-  CHECK(read_table(folder.put("a.ply", nothing)).rows == Rows{{1, 2, 3}});
+  CHECK(read_table(folder.write("a.ply", nothing)).rows == Rows{{1, 2, 3}});
 }
 
 TEST_CASE("rows beyond the declared count are an error, since their points would be lost", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string ascii = header("ascii", "element vertex 1\n" + kXyz) + "1 2 3\n";
-  CHECK(read_table(folder.put("a.ply", ascii + "\n \n")).rows.size() == 1);
-  CHECK(read_error(folder.put("a.ply", ascii + "4 5 6\n")).find("more data") != std::string::npos);
+  CHECK(read_table(folder.write("a.ply", ascii + "\n \n")).rows.size() == 1);
+  CHECK(read_error(folder.write("a.ply", ascii + "4 5 6\n")).find("more data") != std::string::npos);
   Bytes bytes;
   bytes << 1.f << 2.f << 3.f;
   const std::string binary = header("binary_little_endian", "element vertex 1\n" + kXyz) + bytes.str();
-  CHECK(read_error(folder.put("a.ply", binary + bytes.str())).find("more data") != std::string::npos);
+  CHECK(read_error(folder.write("a.ply", binary + bytes.str())).find("more data") != std::string::npos);
 }
 
 TEST_CASE("a wrong value in a row is an error that names its line", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string head =
       header("ascii", "element vertex 2\n" + kXyz + "property uchar red\nproperty list char int near\n");
   const std::pair<std::string, std::string> cases[] = {
@@ -223,12 +223,12 @@ TEST_CASE("a wrong value in a row is an error that names its line", "[io]") {
       {"1 2 3 255 0\n\n# 2 2 3 2 0", "line 12: '#'"},
   };
   for (const auto& [rows, expected] : cases) {
-    CHECK(read_error(folder.put("a.ply", head + rows)).find("a.ply: " + expected) != std::string::npos);
+    CHECK(read_error(folder.write("a.ply", head + rows)).find("a.ply: " + expected) != std::string::npos);
   }
 }
 
 TEST_CASE("a header that says something impossible is an error that names its line", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string vertex = "element vertex 0\n" + kXyz;
   const std::pair<std::string, std::string> cases[] = {
       {"ply\nend_header\n", "line 2: no 'format'"},
@@ -255,35 +255,35 @@ TEST_CASE("a header that says something impossible is an error that names its li
   };
   for (const auto& [content, expected] : cases) {
     INFO(content);
-    CHECK(read_error(folder.put("a.ply", content)).find(expected) != std::string::npos);
+    CHECK(read_error(folder.write("a.ply", content)).find(expected) != std::string::npos);
   }
 }
 
 TEST_CASE("a header without an end is given up", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::string lines = "ply\nformat ascii 1.0\n";
   while (lines.size() < (2u << 20)) lines += "comment and so on and on and on\n";
-  CHECK(read_error(folder.put("a.ply", lines)).find("no 'end_header'") != std::string::npos);
-  CHECK(read_error(folder.put("a.ply", "ply\n" + std::string(3u << 20, 'x'))).find("line 2: longer") !=
+  CHECK(read_error(folder.write("a.ply", lines)).find("no 'end_header'") != std::string::npos);
+  CHECK(read_error(folder.write("a.ply", "ply\n" + std::string(3u << 20, 'x'))).find("line 2: longer") !=
         std::string::npos);
 }
 
 TEST_CASE("a list with a negative count, or one that leaves the file, is an error", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string head =
       header("binary_big_endian", "element vertex 1\n" + kXyz + "property list int double near\n");
   for (const std::int32_t count : {-1, 1, std::numeric_limits<std::int32_t>::max()}) {
     Bytes bytes(std::endian::big);
     bytes << 1.f << 2.f << 3.f << count;
     const std::string expected = count < 0 ? "list 'near' has a negative count" : "the file ends here";
-    const std::string error = read_error(folder.put("a.ply", head + bytes.str()));
+    const std::string error = read_error(folder.write("a.ply", head + bytes.str()));
     CHECK(error.find("a.ply: byte ") != std::string::npos);
     CHECK(error.find(expected) != std::string::npos);
   }
 }
 
 TEST_CASE("rows stay whole across buffers and batches", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   constexpr std::uint32_t kRows = 150'000;  // several buffers
   const std::string body = "element vertex " + std::to_string(kRows) +
                            "\nproperty uint x\nproperty float y\n"
@@ -301,7 +301,7 @@ TEST_CASE("rows stay whole across buffers and batches", "[io]") {
                                   header("binary_little_endian", body + list) + listed.str(),
                                   header("ascii", body + list) + ascii};
   for (const std::string& content : contents) {
-    const auto file = folder.put("a.ply", content);
+    const auto file = folder.write("a.ply", content);
     for (const std::size_t max_rows : {1u, 1000u, 65536u, 1'000'000u}) {
       const Rows rows = read_table(file, max_rows).rows;
       REQUIRE(rows.size() == kRows);
@@ -314,23 +314,24 @@ TEST_CASE("rows stay whole across buffers and batches", "[io]") {
 }
 
 TEST_CASE("a list longer than any buffer is passed over", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string body =
       "element strips 1\nproperty list int int vertex_indices\nelement vertex 1\n" + kXyz;
   constexpr int kLength = 1'000'000;
   std::string ascii = std::to_string(kLength);
   for (int i = 0; i < kLength; ++i) ascii += " 12";
-  CHECK(read_table(folder.put("a.ply", header("ascii", body) + ascii + "\n1 2 3\n")).rows == Rows{{1, 2, 3}});
-  CHECK(read_error(folder.put("a.ply", header("ascii", body) + ascii + " 1\n1 2 3\n"))
+  CHECK(read_table(folder.write("a.ply", header("ascii", body) + ascii + "\n1 2 3\n")).rows ==
+        Rows{{1, 2, 3}});
+  CHECK(read_error(folder.write("a.ply", header("ascii", body) + ascii + " 1\n1 2 3\n"))
             .find("line 10: more values") != std::string::npos);
 }
 
 TEST_CASE("a batch is bounded in bytes, however many properties a row has", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::string body = "element vertex 4000\n" + kXyz;
   for (int i = 0; i < 4000; ++i) body += "property double p" + std::to_string(i) + "\n";
   const auto file =
-      folder.put("a.ply", header("binary_little_endian", body) + std::string(4000u * 32012u, '\0'));
+      folder.write("a.ply", header("binary_little_endian", body) + std::string(4000u * 32012u, '\0'));
   const auto reader = open_scan(file, {});
   RowBatch batch;
   REQUIRE(reader->next(batch, 65536));

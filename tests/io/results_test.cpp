@@ -76,15 +76,15 @@ const std::string kXyz = "property float x\nproperty float y\nproperty float z\n
 const std::string kWide = "property double x\nproperty double y\nproperty double z\n";
 
 nlohmann::json report(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(content_of(folder / "holes.json"));
+  return nlohmann::json::parse(read_file(folder / "holes.json"));
 }
 
 }  // namespace
 
 TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  const auto out = folder.path() / "new" / "out";
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const auto out = folder / "new" / "out";
   write_results(FakeDetection().with_results(1), scan, Config{}, out);
   CHECK(read_table(out / "loops.ply").rows.empty());
   CHECK(read_table(out / "boundary.ply").rows.empty());
@@ -99,8 +99,8 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
 }
 
 TEST_CASE("the report has every parameter, every count and one line per loop", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.xyz", "1 2 3\n")}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
   detection.numbers.counts.points = 10;
@@ -132,31 +132,31 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[1].at("kind") == "rim");
   CHECK(json.at("loops")[1].at("area").is_null());
   CHECK(
-      content_of(folder.path() / "holes.json")
+      read_file(folder / "holes.json")
           .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
                 "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
                 "\"mean_probability\":0.0,\"tiles\":0},\n") != std::string::npos);
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
   write_results(detection, scan, Config{}, folder.path());
-  const Table table = read_table(folder.path() / "loops.ply");
+  const Table table = read_table(folder / "loops.ply");
   CHECK(table.names == Names{"x", "y", "z", "id", "loop"});
   REQUIRE(table.rows.size() == 7);
   CHECK(table.rows[1] == std::vector<double>{0.5f, 2, 3, 5, 0});
   CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 6, 1});
   Bytes edges;
   for (const std::int32_t end : {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 6, 6, 3}) edges << end;
-  CHECK(content_of(folder.path() / "loops.ply").ends_with(edges.str()));
+  CHECK(read_file(folder / "loops.ply").ends_with(edges.str()));
 }
 
 TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kWide, 1, "1 2 3\n"))}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kWide, 1, "1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
   detection.numbers.counts.points = 5'000'000'002;
@@ -164,21 +164,21 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.boundary = {
       {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
   write_results(detection, scan, Config{}, folder.path());
-  CHECK(read_table(folder.path() / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
-  const Table boundary = read_table(folder.path() / "boundary.ply");
+  CHECK(read_table(folder / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
+  const Table boundary = read_table(folder / "boundary.ply");
   CHECK(boundary.names == Names{"x", "y", "z", "id", "scalar_probability", "scalar_loop"});
   CHECK(boundary.rows == Rows{{0.1, 2, 3, 5'000'000'001.0, 0.75, 0}});
 }
 
 TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
-  const TempFolder folder;
-  const auto file = folder.put("a.ply", ply("property uchar red\n" + kXyz + "property int scalar_loop\n", 3,
-                                            "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
+  const ScratchFolder folder;
+  const auto file = folder.write("a.ply", ply("property uchar red\n" + kXyz + "property int scalar_loop\n", 3,
+                                              "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
   FileScan scan({file}, {});
   Config config;
   config.output = {.points = true, .normals = true};
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
-  const Table table = read_table(folder.path() / "points.ply");
+  const Table table = read_table(folder / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
                              "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny",
                              "nz"});
@@ -186,27 +186,27 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   CHECK(table.rows[0][1] == 0.1f);
   CHECK(std::isnan(table.rows[0][2]));
   CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 0, 0, 1});
-  const auto reader = open_scan(folder.path() / "points.ply", {});
+  const auto reader = open_scan(folder / "points.ply", {});
   CHECK(reader->layout().find("red")->type == Scalar::kUint8);
   CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
   CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
 }
 
 TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
-  const TempFolder folder;
-  const auto a = folder.put("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
-                                         "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
-  const auto b = folder.put("b.ply", ply(kXyz, 0, ""));
-  const auto c = folder.put("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2,
-                                         "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+  const ScratchFolder folder;
+  const auto a = folder.write("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
+                                           "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
+  const auto b = folder.write("b.ply", ply(kXyz, 0, ""));
+  const auto c = folder.write("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2,
+                                           "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
   for (const std::size_t block : {1u, 2u, 4u, 100u}) {
     FileScan scan({a, b, c}, {});
     FakeDetection detection;
     detection.with_results(5).block = block;
     Config config;
     config.output.points = true;
-    write_results(detection, scan, config, folder.path() / "out");
-    const Table table = read_table(folder.path() / "out" / "points.ply");
+    write_results(detection, scan, config, folder / "out");
+    const Table table = read_table(folder / "out" / "points.ply");
     REQUIRE(table.rows.size() == 5);
     CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
           Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
@@ -221,30 +221,30 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
 }
 
 TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
-  const TempFolder folder;
-  const auto file = folder.put(
+  const ScratchFolder folder;
+  const auto file = folder.write(
       "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
   FileScan scan({file}, {});
   Config config;
   config.output = {.points = true, .normals = true};
   write_results(FakeDetection().with_results(1), scan, config, folder.path());
-  const Table table = read_table(folder.path() / "points.ply");
+  const Table table = read_table(folder / "points.ply");
   CHECK(table.names.size() == 6 + 7);
   CHECK(table.rows.at(0)[3] == 1);
 }
 
 TEST_CASE("results of an earlier run do not outlive a new one", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  folder.put("points.ply", "old");
-  folder.put("loops.ply", "old");
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  folder.write("points.ply", "old");
+  folder.write("loops.ply", "old");
   write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
   CHECK(folder.names() == Names{"a.ply", "boundary.ply", "holes.json", "loops.ply"});
 }
 
 TEST_CASE("an input in the place of a result is refused, and stays", "[io]") {
-  const TempFolder folder;
-  const auto file = folder.put("points.ply", ply(kXyz, 1, "1 2 3\n"));
+  const ScratchFolder folder;
+  const auto file = folder.write("points.ply", ply(kXyz, 1, "1 2 3\n"));
   FileScan scan({file}, {});
   CHECK(error_of([&] {
           write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
@@ -253,8 +253,8 @@ TEST_CASE("an input in the place of a result is refused, and stays", "[io]") {
 }
 
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
   Config config;
   config.output.points = true;
   for (const std::size_t results : {1u, 3u}) {
@@ -266,8 +266,8 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
 }
 
 TEST_CASE("a full disk while writing any result leaves none", "[io]") {
-  const TempFolder folder;
-  FileScan scan({folder.put("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   Config config;
   config.output.points = true;
   for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {

@@ -8,40 +8,40 @@
 namespace lacuna::test {
 
 TEST_CASE("what cannot be opened is an error that names it", "[io]") {
-  const TempFolder folder;
-  CHECK(read_error(folder.path() / "none.ply").find("none.ply: cannot be opened: No such file") !=
+  const ScratchFolder folder;
+  CHECK(read_error(folder / "none.ply").find("none.ply: cannot be opened: No such file") !=
         std::string::npos);
   CHECK(read_error(folder.path()).find(": is a folder") != std::string::npos);
   CHECK(read_error("/dev/zero").find("not a regular file") != std::string::npos);
-  CHECK(read_error(folder.put("empty.ply", "")).find("empty.ply: byte 0: the file is empty") !=
+  CHECK(read_error(folder.write("empty.ply", "")).find("empty.ply: byte 0: the file is empty") !=
         std::string::npos);
-  const auto locked = folder.put("locked.ply", "1 2 3\n");
+  const auto locked = folder.write("locked.ply", "1 2 3\n");
   std::filesystem::permissions(locked, std::filesystem::perms::none);
   if (::geteuid() != 0) CHECK(read_error(locked).find("Permission denied") != std::string::npos);
 }
 
 TEST_CASE("garbage is an error, and never a crash", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
     std::string garbage(1 + random() % 3000, ' ');
     for (char& c : garbage) c = static_cast<char>(random());
-    CHECK(read_error(folder.put("a.ply", garbage)) != "");
-    CHECK(read_error(folder.put("a.ply", "ply\n" + garbage)) != "");
+    CHECK(read_error(folder.write("a.ply", garbage)) != "");
+    CHECK(read_error(folder.write("a.ply", "ply\n" + garbage)) != "");
     const std::string error =
-        read_error(folder.put("a.ply", "ply\nformat binary_little_endian 1.0\n" + garbage));
+        read_error(folder.write("a.ply", "ply\nformat binary_little_endian 1.0\n" + garbage));
     CHECK(error != "");
     CHECK(error.find('\n') == std::string::npos);
   }
 }
 
 TEST_CASE("a format is known by its first bytes, not by its name", "[io]") {
-  const TempFolder folder;
-  CHECK(read_table(folder.put("a.ply", "1 2 3\n")).rows.size() == 1);
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.ply", "1 2 3\n")).rows.size() == 1);
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
-  CHECK(read_table(folder.put("a.xyz", ply)).rows.empty());
-  CHECK(read_error(folder.put("a.las", std::string("LASF\0\0\1\2", 8)))
+  CHECK(read_table(folder.write("a.xyz", ply)).rows.empty());
+  CHECK(read_error(folder.write("a.las", std::string("LASF\0\0\1\2", 8)))
             .find("unknown format; allowed are PLY") != std::string::npos);
 }
 

@@ -13,58 +13,59 @@ using Names = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("blanks, commas and semicolons divide the values of a row", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   for (const std::string content :
        {"1 2 3\n4 5 6\n", "  1\t2  3 \r\n4 5 6", "1,2,3\n4,5,6\n", "1, 2 ,3,\n 4,5,6\n", "1;2;3\r\n4; 5;6\n",
         "\xef\xbb\xbf"
         "1 2 3\n\n4 5 6\n\n"}) {
     INFO(content);
-    const Table table = read_table(folder.put("a.xyz", content));
+    const Table table = read_table(folder.write("a.xyz", content));
     CHECK(table.names == Names{"x", "y", "z"});
     CHECK(table.rows == Rows{{1, 2, 3}, {4, 5, 6}});
   }
 }
 
 TEST_CASE("columns are named by the options, else by a header line, else by place", "[io]") {
-  const TempFolder folder;
-  CHECK(read_table(folder.put("a.txt", "1 2 3 4 5\n")).names == Names{"x", "y", "z", "column_4", "column_5"});
-  const auto file = folder.put("a.csv", "Intensity,X,Y,Z,NX,Scan Angle\n9,1,2,3,4,5\n");
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.txt", "1 2 3 4 5\n")).names ==
+        Names{"x", "y", "z", "column_4", "column_5"});
+  const auto file = folder.write("a.csv", "Intensity,X,Y,Z,NX,Scan Angle\n9,1,2,3,4,5\n");
   CHECK(read_table(file).names == Names{"Intensity", "x", "y", "z", "nx", "Scan_Angle"});
   CHECK(read_table(file).rows == Rows{{9, 1, 2, 3, 4, 5}});
   CHECK(read_table(file, 10, {.columns = "z y x a b c"}).names == Names{"z", "y", "x", "a", "b", "c"});
   CHECK(read_table(file, 10, {.columns = "z y x a b c"}).rows.size() == 1);
-  CHECK(read_table(folder.put("a.csv", "\"x\",\"y\",\"z\"\n1,2,3\n")).names == Names{"x", "y", "z"});
+  CHECK(read_table(folder.write("a.csv", "\"x\",\"y\",\"z\"\n1,2,3\n")).names == Names{"x", "y", "z"});
 }
 
 TEST_CASE("comments are passed over, but may name the columns of the first row", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const Table plain =
-      read_table(folder.put("a.txt", "# by hand\n// and more\n1 2 3 4\n#5 6 7 8\n  // 9\n5 6 7 8\n"));
+      read_table(folder.write("a.txt", "# by hand\n// and more\n1 2 3 4\n#5 6 7 8\n  // 9\n5 6 7 8\n"));
   CHECK(plain.names == Names{"x", "y", "z", "column_4"});
   CHECK(plain.rows == Rows{{1, 2, 3, 4}, {5, 6, 7, 8}});
-  CHECK(read_table(folder.put("a.txt", "//X Y Z Nx Ny Nz\n1 2 3 4 5 6\n")).names ==
+  CHECK(read_table(folder.write("a.txt", "//X Y Z Nx Ny Nz\n1 2 3 4 5 6\n")).names ==
         Names{"x", "y", "z", "nx", "ny", "nz"});
-  CHECK(read_table(folder.put("a.txt", "# four words of prose\n1 2 3 4\n")).names ==
+  CHECK(read_table(folder.write("a.txt", "# four words of prose\n1 2 3 4\n")).names ==
         Names{"x", "y", "z", "column_4"});
 }
 
 TEST_CASE("a bare count on the first line is passed over", "[io]") {
-  const TempFolder folder;
-  CHECK(read_table(folder.put("a.pts", "2\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
-  CHECK(read_table(folder.put("a.pts", "0\n")).rows.empty());
-  CHECK(read_error(folder.put("a.pts", "2\n")).find("line 1: ") != std::string::npos);
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.pts", "2\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.pts", "0\n")).rows.empty());
+  CHECK(read_error(folder.write("a.pts", "2\n")).find("line 1: ") != std::string::npos);
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
-  const TempFolder folder;
-  CHECK(read_table(folder.put("a.csv", "x,y,z\n")).rows.empty());
-  CHECK(read_error(folder.put("a.csv", "# nothing\n\n")) != "");
-  CHECK(read_error(folder.put("a.csv", "\n")) != "");
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.csv", "x,y,z\n")).rows.empty());
+  CHECK(read_error(folder.write("a.csv", "# nothing\n\n")) != "");
+  CHECK(read_error(folder.write("a.csv", "\n")) != "");
 }
 
 TEST_CASE("values that are not finite or out of range are read as doubles", "[io]") {
-  const TempFolder folder;
-  const Rows rows = read_table(folder.put("a.txt", "nan inf -inf\nNaN 1e999 1e-999\n0.1 +3 -0\n")).rows;
+  const ScratchFolder folder;
+  const Rows rows = read_table(folder.write("a.txt", "nan inf -inf\nNaN 1e999 1e-999\n0.1 +3 -0\n")).rows;
   CHECK(std::isnan(rows.at(0)[0]));
   CHECK(std::isinf(rows[0][1]));
   CHECK(rows[0][2] < 0);
@@ -75,7 +76,7 @@ TEST_CASE("values that are not finite or out of range are read as doubles", "[io
 }
 
 TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::pair<std::string, std::string> cases[] = {
       {"1 2 3\n\n4 5\n", "line 3: fewer values than the 3 columns"},
       {"1 2 3\n4 5 6 7\n", "line 2: more values than the 3 columns"},
@@ -95,21 +96,21 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
   };
   for (const auto& [content, expected] : cases) {
     INFO(content);
-    const std::string error = read_error(folder.put("a.txt", content));
+    const std::string error = read_error(folder.write("a.txt", content));
     INFO(error);
     CHECK(error.find("a.txt: " + expected) != std::string::npos);
   }
-  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y z w"}).find("line 1: fewer") !=
+  CHECK(read_error(folder.write("a.txt", "1 2 3\n"), {.columns = "x y z w"}).find("line 1: fewer") !=
         std::string::npos);
-  CHECK(read_error(folder.put("a.txt", "1 2 3\n"), {.columns = "x y"}).find("no columns") !=
+  CHECK(read_error(folder.write("a.txt", "1 2 3\n"), {.columns = "x y"}).find("no columns") !=
         std::string::npos);
 }
 
 TEST_CASE("text cut at any byte gives rows or an error", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   const std::string whole = "# c\nx;y;z;w\n1;2;3;4\n// d\n-5e1;nan;7.25;8\n";
   for (std::size_t length = 0; length < whole.size(); ++length) {
-    const auto file = folder.put("a.txt", whole.substr(0, length));
+    const auto file = folder.write("a.txt", whole.substr(0, length));
     const std::string error = read_error(file);
     if (error.empty()) CHECK(read_table(file).rows.size() <= 2);
     CHECK(error.find('\n') == std::string::npos);
@@ -117,11 +118,11 @@ TEST_CASE("text cut at any byte gives rows or an error", "[io]") {
 }
 
 TEST_CASE("lines of text stay whole across buffers and batches", "[io]") {
-  const TempFolder folder;
+  const ScratchFolder folder;
   constexpr int kRows = 120'000;
   std::string text;
   for (int i = 0; i < kRows; ++i) text += std::to_string(i) + ", 0.5, -" + std::to_string(i) + "\r\n";
-  const auto file = folder.put("a.csv", text);
+  const auto file = folder.write("a.csv", text);
   for (const std::size_t max_rows : {1u, 65536u, 1'000'000u}) {
     const Rows rows = read_table(file, max_rows).rows;
     REQUIRE(rows.size() == kRows);

@@ -383,6 +383,12 @@ Config random_config(std::uint64_t seed, double spacing) {
   return config;
 }
 
+Config tiled(Config config, std::int64_t tile_points, std::int64_t threads) {
+  config.run.tile_points = tile_points;
+  config.run.threads = threads;
+  return config;
+}
+
 double typical_spacing(const Cloud& cloud) {
   std::vector<double> nearest;
   for (std::size_t i = 0; i < cloud.size(); i += 1 + cloud.size() / 100) {

@@ -90,6 +90,8 @@ Cloud random_cloud(std::uint64_t seed);
 // between neighbours, eps being a length.
 Config random_config(std::uint64_t seed, double spacing);
 
+Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2);
+
 // Median over the points of the distance to the nearest other; 1 where there is none.
 double typical_spacing(const Cloud& cloud);
 

@@ -1,28 +1,12 @@
 #include "tests/support/detected.hpp"
 
 #include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 
-#include <cstring>
-#include <filesystem>
 #include <utility>
-
-#include <unistd.h>
 
 namespace lacuna {
 namespace {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "lacuna-test-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -93,7 +77,7 @@ Detected run_engine(const Cloud& cloud, Config config) {
 
 Detected run_engine(PointSource& scan, Config config) {
   config.output.points = true;
-  const TemporaryFolder workspace;
+  const test::ScratchFolder workspace;
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
   Detected detected{.summary = detection->summary()};

@@ -2,12 +2,16 @@
 
 #include "io/file_scan.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna {
 
@@ -16,7 +20,10 @@ std::optional<std::filesystem::path> shared_folder() {
   const std::filesystem::path folder =
       named ? std::filesystem::path(named)
             : std::filesystem::path(LACUNA_SOURCE_DIR).parent_path() / "shared";
-  if (!std::filesystem::is_directory(folder)) return std::nullopt;
+  if (!std::filesystem::is_directory(folder)) {
+    WARN("no shared folder: skipped");
+    return std::nullopt;
+  }
   return folder;
 }
 
@@ -68,6 +75,38 @@ GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenS
     for (std::int64_t id; ids >> id;) loops.back().push_back(id);
   }
   return loops;
+}
+
+void check_golden(const std::vector<GoldenPoint>& found, const std::vector<GoldenPoint>& golden) {
+  REQUIRE(found.size() == golden.size());
+  std::size_t wrong_neighbours = 0, wrong_gaps = 0, wrong_coherence = 0, wrong_distances = 0;
+  double largest_error = 0;
+  for (std::size_t i = 0; i < golden.size(); ++i) {
+    const GoldenPoint &p = found[i], &g = golden[i];
+    wrong_neighbours += p.neighbours != g.neighbours;
+    wrong_gaps += p.gap_near != g.gap_near || p.gap_far != g.gap_far;
+    wrong_coherence += p.coherent != g.coherent;
+    wrong_distances += !(std::abs(p.mean_distance - g.mean_distance) <= 1e-12 * g.mean_distance);
+    for (const double error :
+         {p.angle - g.angle, p.halfdisc - g.halfdisc, p.shape - g.shape, p.probability - g.probability}) {
+      largest_error = std::max(largest_error, std::abs(error));
+    }
+  }
+  CHECK(wrong_neighbours == 0);
+  CHECK(wrong_gaps == 0);
+  CHECK(wrong_coherence == 0);
+  CHECK(wrong_distances == 0);
+  CHECK(largest_error < 1e-6);
+}
+
+GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops) {
+  GoldenLoops golden;
+  for (const std::vector<PointId>& loop : loops) {
+    golden.emplace_back();
+    for (const PointId p : loop) golden.back().push_back(static_cast<std::int64_t>(value(p)));
+  }
+  std::sort(golden.begin(), golden.end());
+  return golden;
 }
 
 Cloud read_cloud(const std::filesystem::path& file) {

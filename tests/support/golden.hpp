@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/data/ids.hpp"
 #include "tests/support/clouds.hpp"
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace lacuna {
 
-// $LACUNA_SHARED, else `shared` beside the source folder; none where that is no folder.
+// $LACUNA_SHARED, else `shared` beside the source folder; none, and a warning, where that is no folder.
 std::optional<std::filesystem::path> shared_folder();
 
 // A point in the golden results: ids and counts as written, -1 for no gap neighbour.
@@ -36,6 +37,11 @@ std::vector<GoldenSetting> golden_settings();
 std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
                                             const GoldenSetting& setting);
 GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
+
+// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances
+// within 1e-12 of themselves. What the tested program does not tell, `found` takes from `golden`.
+void check_golden(const std::vector<GoldenPoint>& found, const std::vector<GoldenPoint>& golden);
+GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 
 // A scan in any format of io/, with its normals if it has them.
 Cloud read_cloud(const std::filesystem::path& file);

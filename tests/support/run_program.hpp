@@ -1,8 +1,9 @@
 // Runs the program `lacuna` as a user would, and catches what it says.
 #pragma once
 
+#include "tests/support/scratch_folder.hpp"
+
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,22 +26,6 @@ ProgramResult run_command(const std::vector<std::string>& words);
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
                                 const std::function<bool()>& moment);
 
-// A folder of its own for a test, gone at the end.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  std::string write(const std::string& name, const std::string& content) const;  // its path
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string read_file(const std::filesystem::path& file);
 std::size_t count_lines(const std::string& text);
 
 }  // namespace lacuna::test

@@ -16,15 +16,19 @@ void run(const std::string& arguments) {
   app.parse(arguments);
 }
 
+std::string quoted(const std::string& path) {
+  return '"' + path + '"';
+}
+
 }  // namespace
 
 TEST_CASE("the synth command makes what the options say") {
-  Folder folder;
+  const ScratchFolder folder;
   const std::string out = (folder / "made.ply").string();
-  run("synth surface " + out +
+  run("synth surface " + quoted(out) +
       " --kind sphere-cap --points 10000 --holes 2 --hole-radius 3 5 --jitter 0.1 --noise 0.1" +
-      " --spacing 1 --density-factor 2 --order random --seed 9 --translate -5 0 7 --double --truth " + out +
-      ".txt");
+      " --spacing 1 --density-factor 2 --order random --seed 9 --translate -5 0 7 --double --truth " +
+      quoted(out + ".txt"));
   SurfaceOptions options;
   options.out = folder / "again.ply";
   options.kind = SurfaceKind::kSphereCap;
@@ -40,21 +44,21 @@ TEST_CASE("the synth command makes what the options say") {
   options.translate = {-5, 0, 7};
   options.coordinates = Coordinates::kDouble;
   write_surface(options);
-  CHECK(bytes_of(out) == bytes_of(options.out));
+  CHECK(read_file(out) == read_file(options.out));
   CHECK(loops_of(out + ".txt") == loops_of(folder / "again.loops.txt"));
-  CHECK(folder.files() == 4);
+  CHECK(folder.names().size() == 4);
 
-  run("synth scan " + out +
+  run("synth scan " + quoted(out) +
       " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20");
   CHECK(rows_of(out, 17).size() == Approx(5000).epsilon(0.1));
 }
 
 TEST_CASE("the synth command refuses an unknown kind with the kinds that there are") {
-  Folder folder;
+  const ScratchFolder folder;
   const std::string out = (folder / "made.ply").string();
-  CHECK_THROWS_WITH(run("synth surface " + out + " --kind cube"),
+  CHECK_THROWS_WITH(run("synth surface " + quoted(out) + " --kind cube"),
                     Catch::Contains("torus") && Catch::Contains("cube"));
-  CHECK_THROWS_WITH(run("synth scan " + out + " --scene moon"), Catch::Contains("court"));
-  CHECK_THROWS_AS(run("synth scan " + out + " --points many"), CLI::ParseError);
-  CHECK(folder.files() == 0);
+  CHECK_THROWS_WITH(run("synth scan " + quoted(out) + " --scene moon"), Catch::Contains("court"));
+  CHECK_THROWS_AS(run("synth scan " + quoted(out) + " --points many"), CLI::ParseError);
+  CHECK(folder.names().empty());
 }

@@ -1,13 +1,14 @@
 // Made scans, read back: the vocabulary of the tests of `lacuna synth`.
 #pragma once
 
+#include "engine/core/error.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -16,32 +17,14 @@
 #include <string>
 #include <vector>
 
+#include <catch2/catch.hpp>
+
 namespace lacuna::synth {
 
 using Position = std::array<float, 3>;
 
-// A folder that goes away with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lacuna-synth-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::read_file;
+using test::ScratchFolder;
 
 inline std::uint64_t fnv1a(const std::string& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -49,9 +32,37 @@ inline std::uint64_t fnv1a(const std::string& bytes) {
   return hash;
 }
 
+// A scan of `options`, written twice, has the same bytes; with another seed it has others.
+template <typename Options, typename Summary>
+void check_seed(Options options, Summary (*write)(const Options&)) {
+  write(options);
+  const std::string first = read_file(options.out);
+  write(options);
+  CHECK(read_file(options.out) == first);
+  ++options.seed;
+  write(options);
+  CHECK(read_file(options.out) != first);
+}
+
+// `options` make a scan, and after `change` are refused in one line that leaves no file.
+template <typename Options, typename Summary, typename Change>
+void check_refused(const ScratchFolder& folder, Options options, Summary (*write)(const Options&),
+                   const Change& change) {
+  change(options);
+  std::string reason;
+  try {
+    write(options);
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  CHECK(!reason.empty());
+  CHECK(reason.find('\n') == std::string::npos);
+  CHECK(folder.names().empty());
+}
+
 // The rows of a PLY as bytes, all of `stride`; fails the test when header and size disagree.
 inline std::vector<std::string> rows_of(const std::filesystem::path& file, std::size_t stride) {
-  const std::string bytes = bytes_of(file);
+  const std::string bytes = read_file(file);
   const std::size_t body = bytes.find("end_header\n") + 11;
   const std::size_t count = std::stoull(bytes.substr(bytes.find("element vertex ") + 15));
   if (bytes.size() != body + count * stride) throw std::runtime_error("the header's count is not the rows'");
@@ -89,7 +100,7 @@ inline double distance(const Position& a, const Position& b) {
   return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
 }
 
-inline SurfaceOptions small_surface(const Folder& folder, SurfaceKind kind = SurfaceKind::kPlane) {
+inline SurfaceOptions small_surface(const ScratchFolder& folder, SurfaceKind kind = SurfaceKind::kPlane) {
   SurfaceOptions options;
   options.out = folder / "made.ply";
   options.truth = folder / "made.loops.txt";

@@ -1,4 +1,3 @@
-#include "engine/core/error.hpp"
 #include "tests/synth/made.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace {
 constexpr std::size_t kStride = 12 + 1 + 4;
 const auto kAllScenes = {SceneKind::kRoom, SceneKind::kCourt, SceneKind::kHall};
 
-ScanOptions small(const Folder& folder, SceneKind scene = SceneKind::kRoom) {
+ScanOptions small(const ScratchFolder& folder, SceneKind scene = SceneKind::kRoom) {
   ScanOptions options;
   options.out = folder / "made.ply";
   options.scene = scene;
@@ -46,26 +45,19 @@ TEST_CASE("a ray meets the nearest of a wall, a box, a ball and a column, at the
 }
 
 TEST_CASE("a scan of the same seed has the same bytes, of another seed other bytes") {
-  Folder folder;
-  ScanOptions options = small(folder);
-  write_scan(options);
-  const std::string first = bytes_of(options.out);
-  write_scan(options);
-  CHECK(bytes_of(options.out) == first);
-  options.seed = 2;
-  write_scan(options);
-  CHECK(bytes_of(options.out) != first);
+  const ScratchFolder folder;
+  check_seed(small(folder), write_scan);
 }
 
 TEST_CASE("a scan has the bytes that it had on the machine where this test was written") {
-  Folder folder;
+  const ScratchFolder folder;
   const auto hash = [&](SceneKind scene, Order order) {
     ScanOptions options = small(folder, scene);
     options.order = order;
     options.stations = 3;
     options.outliers = 0.01;
     write_scan(options);
-    return fnv1a(bytes_of(options.out));
+    return fnv1a(read_file(options.out));
   };
   CHECK(hash(SceneKind::kRoom, Order::kScanline) == 0x25d59ce3a4bffc8du);
   CHECK(hash(SceneKind::kCourt, Order::kRandom) == 0x3aa0958aba795917u);
@@ -74,7 +66,7 @@ TEST_CASE("a scan has the bytes that it had on the machine where this test was w
 
 TEST_CASE("a scan has about the points asked for, of every station, with intensities in range") {
   for (const SceneKind scene : kAllScenes) {
-    Folder folder;
+    const ScratchFolder folder;
     ScanOptions options = small(folder, scene);
     options.stations = 4;
     const ScanSummary made = write_scan(options);
@@ -93,7 +85,7 @@ TEST_CASE("a scan has about the points asked for, of every station, with intensi
 }
 
 TEST_CASE("random order has the rows of scanline order, in another order") {
-  Folder folder;
+  const ScratchFolder folder;
   ScanOptions options = small(folder, SceneKind::kCourt);
   write_scan(options);
   auto in_scanlines = rows_of(options.out, kStride);
@@ -107,7 +99,7 @@ TEST_CASE("random order has the rows of scanline order, in another order") {
 }
 
 TEST_CASE("without noise and outliers the room's points lie on it, and its windows are empty") {
-  Folder folder;
+  const ScratchFolder folder;
   ScanOptions options = small(folder);
   options.noise = 0;
   write_scan(options);
@@ -123,7 +115,7 @@ TEST_CASE("without noise and outliers the room's points lie on it, and its windo
 }
 
 TEST_CASE("doubles keep georeferenced coordinates") {
-  Folder folder;
+  const ScratchFolder folder;
   ScanOptions options = small(folder);
   write_scan(options);
   const auto here = positions_of(options.out, kStride);
@@ -136,14 +128,9 @@ TEST_CASE("doubles keep georeferenced coordinates") {
     CHECK(std::fabs(scalar<double>(there[i], 0) - 4'000'000 - here[i][0]) < 1e-6);
 }
 
-TEST_CASE("scans that cannot be made are refused and leave no file") {
-  Folder folder;
-  const auto refused = [&](auto change) {
-    ScanOptions options = small(folder);
-    change(options);
-    CHECK_THROWS_AS(write_scan(options), Error);
-    CHECK(folder.files() == 0);
-  };
+TEST_CASE("scans that cannot be made are refused in one line and leave no file") {
+  const ScratchFolder folder;
+  const auto refused = [&](auto change) { check_refused(folder, small(folder), write_scan, change); };
   refused([](ScanOptions& o) { o.points = 0; });
   refused([](ScanOptions& o) { o.stations = 0; });
   refused([](ScanOptions& o) { o.stations = 256; });

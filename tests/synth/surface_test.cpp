@@ -1,4 +1,3 @@
-#include "engine/core/error.hpp"
 #include "tests/synth/made.hpp"
 
 #include <algorithm>
@@ -22,26 +21,19 @@ long status_kilobytes(const std::string& field) {
 }  // namespace
 
 TEST_CASE("a surface of the same seed has the same bytes, of another seed other bytes") {
-  Folder folder;
-  SurfaceOptions options = small_surface(folder);
-  write_surface(options);
-  const std::string first = bytes_of(options.out);
-  write_surface(options);
-  CHECK(bytes_of(options.out) == first);
-  options.seed = 2;
-  write_surface(options);
-  CHECK(bytes_of(options.out) != first);
+  const ScratchFolder folder;
+  check_seed(small_surface(folder), write_surface);
 }
 
 TEST_CASE("a surface has the bytes that it had on the machine where this test was written") {
-  Folder folder;
+  const ScratchFolder folder;
   const auto hash = [&](SurfaceKind kind, Order order) {
     SurfaceOptions options = small_surface(folder, kind);
     options.order = order;
     options.noise = 0.2;
     options.density_factor = 3;
     write_surface(options);
-    return fnv1a(bytes_of(options.out) + bytes_of(options.truth));
+    return fnv1a(read_file(options.out) + read_file(options.truth));
   };
   CHECK(hash(SurfaceKind::kPlane, Order::kScanline) == 0x04c4665fbb35768eu);
   CHECK(hash(SurfaceKind::kWaves, Order::kRandom) == 0x7af4096c3f95e1f9u);
@@ -52,7 +44,7 @@ TEST_CASE("a surface has the bytes that it had on the machine where this test wa
 
 TEST_CASE("past the density step there is the promised part of the points, and the holes are before it") {
   for (const std::uint32_t step : {4u, 9u}) {
-    Folder folder;
+    const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder);
     options.density_step = step;
     options.points = 40'000;
@@ -78,7 +70,7 @@ TEST_CASE("past the density step there is the promised part of the points, and t
 }
 
 TEST_CASE("the density factor is the ratio of the densities at two corners") {
-  Folder folder;
+  const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder);
   options.points = 200'000;
   options.holes = 0;
@@ -98,7 +90,7 @@ TEST_CASE("the density factor is the ratio of the densities at two corners") {
 }
 
 TEST_CASE("noise is along the normal and has the deviation asked for") {
-  Folder folder;
+  const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder);
   options.noise = 0.5;
   options.translate = {0, 0, 2};
@@ -114,7 +106,7 @@ TEST_CASE("noise is along the normal and has the deviation asked for") {
 }
 
 TEST_CASE("two million points take less than 32 MB of memory") {
-  Folder folder;
+  const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder, SurfaceKind::kTorus);
   options.points = 2'000'000;
   options.holes = 100;
@@ -126,19 +118,9 @@ TEST_CASE("two million points take less than 32 MB of memory") {
 }
 
 TEST_CASE("surfaces that cannot be made are refused in one line and leave no file") {
-  Folder folder;
+  const ScratchFolder folder;
   const auto refused = [&](auto change) {
-    SurfaceOptions options = small_surface(folder);
-    change(options);
-    std::string reason;
-    try {
-      write_surface(options);
-    } catch (const Error& error) {
-      reason = error.what();
-    }
-    CHECK(!reason.empty());
-    CHECK(reason.find('\n') == std::string::npos);
-    CHECK(folder.files() == 0);
+    check_refused(folder, small_surface(folder), write_surface, change);
   };
   refused([](SurfaceOptions& o) { o.points = 10; });
   refused([](SurfaceOptions& o) { o.holes = 1000; });
@@ -156,12 +138,12 @@ TEST_CASE("surfaces that cannot be made are refused in one line and leave no fil
 }
 
 TEST_CASE("a full disk is an error that names file and reason, and nothing appears") {
-  Folder folder;
+  const ScratchFolder folder;
   const SurfaceOptions options = small_surface(folder);
   for (const auto& full : {options.out, options.truth}) {
     std::filesystem::create_symlink("/dev/full", full.string() + ".partial");
     CHECK_THROWS_WITH(write_surface(options),
                       Catch::Contains(full.filename().string()) && Catch::Contains("No space left"));
-    CHECK(folder.files() == 0);
+    CHECK(folder.names().empty());
   }
 }

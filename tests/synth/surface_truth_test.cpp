@@ -12,7 +12,7 @@ using namespace lacuna::synth;
 TEST_CASE("every planted hole and every rim is one closed true loop in canonical form") {
   for (const SurfaceKind kind : kAllKinds)
     for (const Order order : {Order::kScanline, Order::kRandom}) {
-      Folder folder;
+      const ScratchFolder folder;
       SurfaceOptions options = small_surface(folder, kind);
       options.order = order;
       const SurfaceSummary made = write_surface(options);
@@ -40,7 +40,7 @@ TEST_CASE("every planted hole and every rim is one closed true loop in canonical
 
 TEST_CASE("the true loops are the edges with exactly one whole quad, all of them") {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    Folder folder;
+    const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder);
     options.points = 60'000;
     options.holes = 60;
@@ -75,7 +75,7 @@ TEST_CASE("the true loops are the edges with exactly one whole quad, all of them
 }
 
 TEST_CASE("inside a true loop on a plane there is no point, and just outside there are") {
-  Folder folder;
+  const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder);
   options.jitter = 0;
   write_surface(options);
@@ -108,7 +108,7 @@ TEST_CASE("inside a true loop on a plane there is no point, and just outside the
 
 TEST_CASE("many small holes give as many loops, none of which touch") {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    Folder folder;
+    const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder, SurfaceKind::kTorus);
     options.points = 600'000;
     options.holes = 1000;
@@ -128,7 +128,7 @@ TEST_CASE("many small holes give as many loops, none of which touch") {
 }
 
 TEST_CASE("random order has the points of scanline order, in another order") {
-  Folder folder;
+  const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder, SurfaceKind::kWaves);
   write_surface(options);
   auto in_scanlines = positions_of(options.out);
@@ -155,7 +155,7 @@ TEST_CASE("random order has the points of scanline order, in another order") {
 
 TEST_CASE("a density step on closed surfaces leaves no further loops") {
   for (const SurfaceKind kind : kAllKinds) {
-    Folder folder;
+    const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder, kind);
     options.density_step = 4;
     write_surface(options);

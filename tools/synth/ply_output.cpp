@@ -2,7 +2,8 @@
 
 #include <array>
 #include <bit>
-#include <string>
+#include <cstring>
+#include <span>
 
 namespace lacuna::synth {
 

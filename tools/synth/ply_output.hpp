@@ -1,11 +1,12 @@
 // A binary PLY of points, streamed: the count is filled in at the end.
 #pragma once
 
-#include "tools/synth/output_file.hpp"
+#include "io/output_file.hpp"
 #include "tools/synth/vec3.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace lacuna::synth {
 

@@ -118,7 +118,7 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   truth_file.write("# one boundary loop per line, 0-based point ids of " + options.out.filename().string() +
                    "\n");
   for (const auto& loop : in_ids) truth_file.write(in_text(loop));
-  truth_file.finish();
+  truth_file.close();  // a full disk is noticed before either file is in place
   ply.commit();
   truth_file.commit();
   return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};

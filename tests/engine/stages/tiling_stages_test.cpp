@@ -130,6 +130,7 @@ TEST_CASE("tiles hold every cell once, in order, and no more points than allowed
     for (const std::uint64_t limit : {1, 20, 300, 1'000'000}) {
       const Tiling tiling = tiling_of(cloud, limit);
       INFO("seed " << seed << ", " << limit << " points a tile");
+      CHECK(tiling.check());
       CHECK(counts_of(tiling.cells) == before);
       CHECK(tiling.cells.size() == before.size());
       std::uint32_t next_cell = 0;
@@ -175,6 +176,31 @@ TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
       CHECK((left.first == node.first && left.last == right.first && right.last == node.last));
     }
   }
+}
+
+TEST_CASE("a tiling is found wrong where cells are missing, rows overlap or nodes do not halve") {
+  const Tiling right = tiling_of(hard_cloud(1), 400);
+  REQUIRE(right.check());
+  REQUIRE(right.tiles.size() > 2);
+  const auto is_right_with = [&](auto change) {
+    Tiling tiling = right;
+    change(tiling);
+    return tiling.check();
+  };
+  CHECK(is_right_with([](Tiling&) {}));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles.pop_back(); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cells.pop_back(); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { std::swap(t.tiles[0], t.tiles[1]); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.tiles[1].first_cell; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[1].first_row = t.tiles[0].first_row; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].points = t.tiles[0].raw + 1; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].first_row = Row{1}; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cell_rows.resize(1); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cell_rows.resize(t.cells.size()); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[0].first; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].left].last; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].right].points; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.nodes.clear(); }));
 }
 
 TEST_CASE("a single heavy cell is a tile of its own, and no cells make no tiles") {

@@ -1,0 +1,57 @@
+#include "tests/support/tiled_scan.hpp"
+
+#include "engine/stages/split.hpp"
+#include "tests/support/memory_scan.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
+  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
+  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, tile_points), job);
+}
+
+}  // namespace
+
+TiledScan::TiledScan(const Cloud& cloud, const Config& config)
+    : TiledScan(*std::make_unique<MemoryScan>(cloud), config) {}
+
+TiledScan::TiledScan(PointSource& scan, const Config& given)
+    : config(given),
+      job(config, folder.path(), quiet),
+      survey(survey_scan(scan, job)),
+      store(make_store(scan, survey, job)) {}
+
+EvaluatedScan TiledScan::evaluate() {
+  const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
+  return evaluate_tiles(store, link_tiles(store, job), survey.points, config.neighbourhood.eps, extent, job);
+}
+
+TracedLoops TiledScan::trace(EvaluatedScan& evaluated, std::uint64_t global_memory) {
+  if (global_memory > 0) job.memory.global = global_memory;
+  const std::int64_t e = config.spanning.e > 0
+                             ? config.spanning.e
+                             : std::llround(2 * std::sqrt(std::numbers::pi * evaluated.mean_neighbours()));
+  return trace_loops(evaluated, store, e, job);
+}
+
+std::map<PointId, Row> TiledScan::rows() const {
+  std::map<PointId, Row> rows;
+  const std::vector<Tile>& tiles = store.tiling().tiles;
+  for (TileIndex t = 0; t < tiles.size(); ++t) {
+    std::uint64_t row = value(tiles[t].first_row);
+    for (const StoredPoint& p : store.points(t)) rows.emplace(p.id, Row{row++});
+  }
+  return rows;
+}
+
+LocalIndex TiledScan::local(Row row) const {
+  return static_cast<LocalIndex>(value(row) - value(store.tiling().tiles[tile_of(row)].first_row));
+}
+
+}  // namespace lacuna
