@@ -67,15 +67,13 @@ TilePoints sample_tile(const PointBatch& batch) {
   survey.add(batch);
   SurveyedScan surveyed = survey.finish();
   const Tiling tiling = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size());
-  const CellIndex index(tiling);
-  CellIndex::Reader reader(index);
+  std::vector<std::uint32_t> cells(batch.size());
+  CellIndex(tiling).find(batch.positions, cells);
 
   std::vector<StoredPoint> stored;
-  std::vector<std::uint32_t> cells;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const Eigen::Vector3d& p = batch.positions[i];
     stored.push_back({p.x(), p.y(), p.z(), PointId{i}});
-    cells.push_back(reader.cell_of(p));
   }
   const OrderedTile ordered = order_tile(stored, cells, tiling.cells.size(), tiling.grid);
 

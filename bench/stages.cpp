@@ -212,8 +212,7 @@ BENCHMARK_CAPTURE(survey, random, SampleOrder::kRandom);
 
 // Points on their way to the tile store, and the cells that they are counted in.
 struct UnorderedTile {
-  explicit UnorderedTile(SampleOrder order) {
-    const PointBatch& points = batch(order);
+  explicit UnorderedTile(SampleOrder order) : points(batch(order)) {
     Survey survey(kMemory, kPoints);
     survey.add(points);
     SurveyedScan scan = survey.finish();
@@ -224,13 +223,12 @@ struct UnorderedTile {
   }
 
   std::vector<std::uint32_t> cells(const CellIndex& index) const {
-    CellIndex::Reader reader(index);
-    std::vector<std::uint32_t> cells;
-    cells.reserve(stored.size());
-    for (const StoredPoint& p : stored) cells.push_back(reader.cell_of(p.position()));
+    std::vector<std::uint32_t> cells(stored.size());
+    index.find(points.positions, cells);
     return cells;
   }
 
+  const PointBatch& points;
   Tiling tiling;
   std::vector<StoredPoint> stored;
 };

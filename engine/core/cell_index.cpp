@@ -1,6 +1,11 @@
 #include "engine/core/cell_index.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/core/leaf_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
 
 #include <openvdb/openvdb.h>
 
@@ -9,34 +14,38 @@ namespace lacuna {
 struct CellIndex::Grid {
   CellGrid cells;
   openvdb::Int32Grid::Ptr numbers;
-};
-
-struct CellIndex::Reader::Access {
-  CellGrid cells;
-  openvdb::Int32Grid::ConstAccessor numbers;
+  LeafTable<openvdb::Int32Tree> leaves;
 };
 
 CellIndex::CellIndex(const Tiling& tiling)
-    : grid_(std::make_unique<Grid>(Grid{tiling.grid, openvdb::Int32Grid::create(-1)})) {
+    : grid_(std::make_unique<Grid>(Grid{tiling.grid, openvdb::Int32Grid::create(-1), {}})) {
   openvdb::Int32Grid::Accessor accessor = grid_->numbers->getAccessor();
   for (std::size_t i = 0; i < tiling.cells.size(); ++i) {
     const CellCoord& cell = tiling.cells[i].coord;
     accessor.setValue(openvdb::Coord(cell[0], cell[1], cell[2]), static_cast<std::int32_t>(i));
   }
+  for (auto leaf = grid_->numbers->tree().beginLeaf(); leaf; ++leaf) grid_->leaves.insert(*leaf);
 }
 
 CellIndex::~CellIndex() = default;
 
-CellIndex::Reader::Reader(const CellIndex& index)
-    : access_(new Access{index.grid_->cells, index.grid_->numbers->getConstAccessor()}) {}
-
-CellIndex::Reader::~Reader() = default;
-
-std::uint32_t CellIndex::Reader::cell_of(const Eigen::Vector3d& position) {
-  const CellCoord cell = access_->cells.cell_of(position);
-  const std::int32_t number = access_->numbers.getValue(openvdb::Coord(cell[0], cell[1], cell[2]));
-  if (number < 0) throw Error("the input changed while it was read: a point lies where none was counted");
-  return static_cast<std::uint32_t>(number);
+void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> cells) const {
+  assert(positions.size() == cells.size());
+  static constexpr std::int32_t kNone = -1;
+  const auto& leaves = grid_->leaves;
+  std::array<CellCoord, 256> coords;
+  std::array<const std::int32_t*, 256> numbers;
+  for (std::size_t first = 0; first < positions.size(); first += coords.size()) {
+    const std::size_t count = std::min(coords.size(), positions.size() - first);
+    grid_->cells.cells_of(positions.subspan(first, count), std::span(coords).first(count));
+    // Where all the numbers are, then the numbers: the cache misses of points in random order overlap.
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& entry = leaves.find(coords[i]);
+      numbers[i] = entry.leaf == nullptr ? &kNone : entry.values + leaves.offset(coords[i]);
+      __builtin_prefetch(numbers[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) cells[first + i] = static_cast<std::uint32_t>(*numbers[i]);
+  }
 }
 
 void CellIndex::save(const Tiling& tiling, const std::filesystem::path& file) {

@@ -5,26 +5,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <span>
 
 namespace lacuna {
 
 class CellIndex {
  public:
+  static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
+
   explicit CellIndex(const Tiling& tiling);
   ~CellIndex();
 
-  // Remembers where it was last: near look-ups are fast. One per thread.
-  class Reader {
-   public:
-    explicit Reader(const CellIndex& index);
-    ~Reader();
-    std::uint32_t cell_of(const Eigen::Vector3d& position);  // which must be in a counted cell
-
-   private:
-    struct Access;
-    std::unique_ptr<Access> access_;
-  };
+  // The cell of each position; `kNoCell` where none was counted. From any thread.
+  void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> cells) const;
 
   // Writes grids `points` and `tile` over the cells, for OpenVDB's own tools.
   static void save(const Tiling& tiling, const std::filesystem::path& file);

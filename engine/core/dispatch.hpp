@@ -1,6 +1,15 @@
 // Which of the namesakes compiled for several instruction sets (core/lanes) this machine runs.
 #pragma once
 
+// A plain loop that the compiler vectorises by itself, compiled for several instruction sets beside the code
+// around it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(LACUNA_PORTABLE)
+#define LACUNA_VECTORISED __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define LACUNA_VECTORISED
+#endif
+
 #if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
 
 // Declares a function that a *.lanes.cpp defines, and the best of them that the machine has, under its name

@@ -6,6 +6,20 @@
 #include <cassert>
 
 namespace lacuna {
+namespace {
+
+[[noreturn]] void fail_changed() {
+  throw Error("the input changed while it was read: not the points that were counted");
+}
+
+std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
+  std::vector<std::uint64_t> rows;
+  rows.reserve(tiling.tiles.size());
+  for (const Tile& tile : tiling.tiles) rows.push_back(value(tile.first_row));
+  return rows;
+}
+
+}  // namespace
 
 TileStore::TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals,
                      std::uint64_t duplicate_budget)
@@ -58,6 +72,17 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   }
 }
 
+std::vector<StoredPoint> TileStore::raw_points(TileIndex index) const {
+  const Tile& tile = tiling_.tiles[index];
+  return points_.read(value(tile.first_row), tile.raw);
+}
+
+std::vector<StoredNormal> TileStore::raw_normals(TileIndex index) const {
+  if (!has_normals_) return {};
+  const Tile& tile = tiling_.tiles[index];
+  return normals_.read(value(tile.first_row), tile.raw);
+}
+
 void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
                     std::span<const StoredNormal> normals, std::span<const std::uint64_t> cell_points,
                     std::span<const Duplicate> duplicates) {
@@ -80,6 +105,32 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
 void TileStore::seal() {
   tiling_.recount();
   assert(tiling_.check());
+}
+
+TileStore::Filler::Filler(TileStore& store, std::uint64_t memory)
+    : tiling_(store.tiling_),
+      filled_(tiling_.tiles.size()),
+      points_(store.points_, first_rows(tiling_), store.has_normals_ ? memory / 7 * 4 : memory) {
+  if (store.has_normals_) normals_.emplace(store.normals_, first_rows(tiling_), memory / 7 * 3);
+}
+
+void TileStore::Filler::append(TileIndex tile, std::span<const StoredPoint> points,
+                               std::span<const StoredNormal> normals) {
+  Filled& filled = filled_[tile];
+  // One lock for both: points and normals of a tile stay in the same order.
+  const std::lock_guard lock(filled.mutex);
+  filled.points += points.size();
+  if (filled.points > tiling_.tiles[tile].raw) fail_changed();
+  points_.append(tile, points);
+  if (normals_) normals_->append(tile, normals);
+}
+
+void TileStore::Filler::finish() {
+  for (std::size_t tile = 0; tile < filled_.size(); ++tile) {
+    if (filled_[tile].points != tiling_.tiles[tile].raw) fail_changed();
+  }
+  points_.finish();
+  if (normals_) normals_->finish();
 }
 
 }  // namespace lacuna

@@ -2,12 +2,15 @@
 // the cells around it are a few.
 #pragma once
 
+#include "engine/core/column_filler.hpp"
 #include "engine/core/file.hpp"
 #include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,7 +36,8 @@ struct Duplicate {
   LocalIndex of;
 };
 
-// Written tile by tile while bucketing, read only from then on. Reads may come from several threads.
+// Filled and then put in order tile by tile while bucketing, read only from then on. Reads may come from
+// several threads.
 class TileStore {
  public:
   TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals,
@@ -51,7 +55,11 @@ class TileStore {
   void read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
                   std::vector<Row>& rows) const;
 
-  // Bucketing: distinct points of a tile in cell order, and how many each of its cells holds.
+  // Bucketing, first: all points of every tile, in any order; then those of a tile as they came.
+  class Filler;
+  std::vector<StoredPoint> raw_points(TileIndex tile) const;
+  std::vector<StoredNormal> raw_normals(TileIndex tile) const;
+  // Then, in their place: distinct points of a tile in cell order, and how many each of its cells holds.
   void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
            std::span<const std::uint64_t> cell_points, std::span<const Duplicate> duplicates);
   // All tiles are put: counts are final.
@@ -63,6 +71,27 @@ class TileStore {
   Column<StoredPoint> points_;
   Column<StoredNormal> normals_;
   Spill<Duplicate> duplicates_;
+};
+
+// Points on their way to their tiles, from any thread.
+class TileStore::Filler {
+ public:
+  Filler(TileStore& store, std::uint64_t memory);
+
+  // Normals: one per point where the store has them, else none. Throws `Error` where the tile is full.
+  void append(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
+  // All points are there. Throws `Error` where a tile is not full.
+  void finish();
+
+ private:
+  struct Filled {
+    std::mutex mutex;
+    std::uint64_t points = 0;
+  };
+  const Tiling& tiling_;
+  std::vector<Filled> filled_;  // of each tile
+  ColumnFiller<StoredPoint> points_;
+  std::optional<ColumnFiller<StoredNormal>> normals_;
 };
 
 }  // namespace lacuna

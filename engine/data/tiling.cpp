@@ -1,5 +1,7 @@
 #include "engine/data/tiling.hpp"
 
+#include "engine/core/dispatch.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +15,16 @@ double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
+LACUNA_VECTORISED
+void round_down(const double* coordinates, std::size_t count, double scale, int shift, std::int32_t* cells) {
+  constexpr double kLast = CellGrid::kLast;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double index = std::max(-kLast, std::min(kLast, coordinates[i] * scale));  // NaN: kLast
+    const auto truncated = static_cast<std::int32_t>(index);
+    cells[i] = (truncated - (truncated > index)) >> shift;
+  }
+}
+
 }  // namespace
 
 double CellGrid::edge() const {
@@ -20,14 +32,17 @@ double CellGrid::edge() const {
 }
 
 CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
-  const double scale = power_of_two(-finest);
   CellCoord cell;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double index = std::clamp<double>(position[axis] * scale, -kLast, kLast);
-    const auto truncated = static_cast<std::int32_t>(index);
-    cell[axis] = (truncated - (truncated > index)) >> shift;  // rounded down
-  }
+  cells_of({&position, 1}, {&cell, 1});
   return cell;
+}
+
+void CellGrid::cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double) && sizeof(CellCoord) == 12);
+  assert(positions.size() == cells.size());
+  if (positions.empty()) return;
+  round_down(positions.front().data(), 3 * positions.size(), power_of_two(-finest), shift,
+             cells.front().data());
 }
 
 Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) const {

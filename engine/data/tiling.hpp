@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,11 @@
 namespace lacuna {
 
 using CellCoord = std::array<std::int32_t, 3>;
+
+// a == b, which calls memcmp: too dear for every point.
+inline bool same_cell(const CellCoord& a, const CellCoord& b) {
+  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
 
 // Cells are cubes of edge 2^(finest + shift) aligned to the origin: `shift` doublings of the size that a
 // survey began with. Points beyond the range of indices belong to the last cell on that side, which
@@ -27,6 +33,8 @@ struct CellGrid {
 
   double edge() const;
   CellCoord cell_of(const Eigen::Vector3d& position) const;
+  // The same for many, several at a time; some cell where a coordinate is not a number.
+  void cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const;
   // Smallest box that holds all points of the cells from `low` to `high`.
   Eigen::AlignedBox3d box(const CellCoord& low, const CellCoord& high) const;
 };

@@ -5,6 +5,7 @@
 #include "engine/stages/order_tile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
 
@@ -13,45 +14,70 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-// The points of one batch, sorted by tile.
+[[noreturn]] void fail_changed() {
+  throw Error("the input changed while it was read: a point lies where none was counted");
+}
+
+// The tile of every cell.
+std::vector<TileIndex> tiles_of_cells(const Tiling& tiling) {
+  std::vector<TileIndex> tiles(tiling.cells.size());
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    const Tile& tile = tiling.tiles[t];
+    std::fill(tiles.begin() + tile.first_cell, tiles.begin() + tile.last_cell, t);
+  }
+  return tiles;
+}
+
+// The finite points of one batch, sorted by tile.
 struct Scattered {
   PointBatch batch;
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;
-  std::vector<TileIndex> tiles;      // of each point
-  std::vector<std::uint32_t> order;  // by tile
+  std::vector<std::uint32_t> ends;  // of each tile's points
 
-  void scatter(CellIndex::Reader& cells, const Tiling& tiling);
-  template <class Visit>
-  void for_each_tile(Visit&& visit) const;
+  void scatter(const CellIndex& index, std::span<const TileIndex> tile_of, std::size_t tile_count);
+
+ private:
+  std::vector<std::uint32_t> tiles;  // of each point of the batch; its cell at first
 };
 
-void Scattered::scatter(CellIndex::Reader& cells, const Tiling& tiling) {
-  points.clear();
-  normals.clear();
-  tiles.clear();
+// A counting sort. What is not finite goes behind the last tile, and then away.
+void Scattered::scatter(const CellIndex& index, std::span<const TileIndex> tile_of, std::size_t tile_count) {
+  tiles.resize(batch.size());
+  index.find(batch.positions, tiles);
+  ends.assign(tile_count + 2, 0);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (!batch.positions[i].allFinite()) continue;
-    const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
-    points.push_back({p.x(), p.y(), p.z(), PointId{value(batch.first) + i}});
-    tiles.push_back(tiling.tile_of_cell(cells.cell_of(p)));
-    if (!batch.normals.empty()) {
-      const Eigen::Vector3d& n = batch.normals[i];
-      normals.push_back({n.x(), n.y(), n.z()});
-    }
+    const std::uint32_t cell = tiles[i];
+    const bool finite = batch.positions[i].allFinite();
+    if (finite && cell == CellIndex::kNoCell) fail_changed();
+    tiles[i] = finite ? tile_of[cell] : static_cast<TileIndex>(tile_count);
+    ++ends[tiles[i] + 1];
   }
-  order.resize(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return tiles[a] < tiles[b]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  const std::uint32_t finite = ends[tile_count];
+  points.resize(batch.size());
+  normals.resize(batch.normals.size());
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::uint32_t at = ends[tiles[i]]++;
+    const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
+    points[at] = {p.x(), p.y(), p.z(), PointId{value(batch.first) + i}};
+    if (!normals.empty()) normals[at] = {batch.normals[i].x(), batch.normals[i].y(), batch.normals[i].z()};
+  }
+  points.resize(finite);
+  normals.resize(batch.normals.empty() ? 0 : finite);
+  ends.resize(tile_count);
 }
 
-template <class Visit>
-void Scattered::for_each_tile(Visit&& visit) const {
-  for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
-    end = begin;
-    while (end < order.size() && tiles[order[end]] == tiles[order[begin]]) ++end;
-    visit(tiles[order[begin]], std::span(order).subspan(begin, end - begin));
+void append(const Scattered& batch, TileStore::Filler& filler) {
+  std::uint32_t begin = 0;
+  for (TileIndex tile = 0; tile < batch.ends.size(); ++tile) {
+    const std::uint32_t count = batch.ends[tile] - begin;
+    if (count > 0) {
+      filler.append(tile, std::span(batch.points).subspan(begin, count),
+                    batch.normals.empty() ? std::span<const StoredNormal>()
+                                          : std::span(batch.normals).subspan(begin, count));
+    }
+    begin += count;
   }
 }
 
@@ -66,11 +92,31 @@ std::vector<Record> pick(const std::vector<Record>& records, std::span<const std
 // Cells of a tile's points, counted from its first cell.
 std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index,
                                     const Tile& tile) {
-  CellIndex::Reader reader(index);
-  std::vector<std::uint32_t> cells;
-  cells.reserve(points.size());
-  for (const StoredPoint& p : points) cells.push_back(reader.cell_of(p.position()) - tile.first_cell);
+  std::vector<std::uint32_t> cells(points.size());
+  std::array<Eigen::Vector3d, 256> positions;
+  for (std::size_t first = 0; first < points.size(); first += positions.size()) {
+    const std::size_t count = std::min(positions.size(), points.size() - first);
+    for (std::size_t i = 0; i < count; ++i) positions[i] = points[first + i].position();
+    index.find(std::span(positions).first(count), std::span(cells).subspan(first, count));
+  }
+  for (std::uint32_t& cell : cells) cell -= tile.first_cell;
   return cells;
+}
+
+// Streams the scan into the store, every finite point into its tile.
+void fill(TileStore& store, PointSource& scan, const CellIndex& index, Job& job, Phase& phase) {
+  const std::vector<TileIndex> tile_of = tiles_of_cells(store.tiling());
+  const std::size_t tile_count = store.tiling().tiles.size();
+  TileStore::Filler filler(store, job.memory.tiles / 2);
+  std::vector<Scattered> batches(kBatches);
+  scan.rewind();
+  job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
+                    [&](std::size_t slot) {
+                      batches[slot].scatter(index, tile_of, tile_count);
+                      append(batches[slot], filler);
+                    },
+                    [&](std::size_t slot) { phase.advance(batches[slot].points.size()); }, kBatches);
+  filler.finish();
 }
 
 }  // namespace
@@ -101,49 +147,25 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
 }
 
 TileStore bucket_scan(PointSource& scan, Tiling tiling, Job& job) {
-  const std::size_t tile_count = tiling.tiles.size();
   std::uint64_t points = 0;
   for (const Tile& tile : tiling.tiles) points += tile.raw;
   Phase phase(job, "bucket", 2 * points);
   const CellIndex index(tiling);
-  const bool with_normals = scan.has_normals();
-  Spill<StoredPoint> raw(job.file("raw"), tile_count, job.memory.spills / 2);
-  Spill<StoredNormal> raw_normals(job.file("raw-normals"), tile_count, job.memory.spills / 4);
+  TileStore store(job.workspace, std::move(tiling), scan.has_normals(), job.memory.spills / 8);
+  fill(store, scan, index, job, phase);
 
-  std::vector<Scattered> batches(kBatches);
-  std::vector<std::unique_ptr<CellIndex::Reader>> readers;
-  for (std::size_t i = 0; i < kBatches; ++i) readers.push_back(std::make_unique<CellIndex::Reader>(index));
-  std::uint64_t stored = 0;
-  scan.rewind();
-  job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                    [&](std::size_t slot) { batches[slot].scatter(*readers[slot], tiling); },
-                    [&](std::size_t slot) {
-                      const Scattered& batch = batches[slot];
-                      // One consumer: points and normals of a tile arrive in the same order.
-                      batch.for_each_tile([&](TileIndex tile, std::span<const std::uint32_t> order) {
-                        raw.append(tile, pick(batch.points, order));
-                        if (with_normals) raw_normals.append(tile, pick(batch.normals, order));
-                      });
-                      stored += batch.points.size();
-                      phase.advance(batch.points.size());
-                    },
-                    kBatches);
-  if (stored != points) throw Error("the input changed while it was read: not the points that were counted");
-
-  TileStore store(job.workspace, std::move(tiling), with_normals, job.memory.spills / 8);
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : store.tiling().tiles) needs.push_back(tile.raw * 120);
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
+    const auto number = static_cast<TileIndex>(t);
     const Tile& tile = store.tiling().tiles[t];
-    const std::vector<StoredPoint> tile_points = raw.read(t);
-    const std::vector<StoredNormal> normals = raw_normals.read(t);
-    raw.drop(t);
-    raw_normals.drop(t);
-    const OrderedTile ordered = order_tile(tile_points, cells_of(tile_points, index, tile),
-                                           tile.last_cell - tile.first_cell, store.tiling().grid);
-    store.put(static_cast<TileIndex>(t), pick(tile_points, ordered.order),
-              with_normals ? pick(normals, ordered.order) : normals, ordered.cell_points, ordered.duplicates);
-    phase.advance(tile_points.size());
+    const std::vector<StoredPoint> raw = store.raw_points(number);
+    const std::vector<StoredNormal> normals = store.raw_normals(number);
+    const OrderedTile ordered =
+        order_tile(raw, cells_of(raw, index, tile), tile.last_cell - tile.first_cell, store.tiling().grid);
+    store.put(number, pick(raw, ordered.order), store.has_normals() ? pick(normals, ordered.order) : normals,
+              ordered.cell_points, ordered.duplicates);
+    phase.advance(raw.size());
   });
   store.seal();
   CellIndex::save(store.tiling(), job.file("index.vdb"));

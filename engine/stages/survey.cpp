@@ -1,8 +1,10 @@
 #include "engine/stages/survey.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/core/leaf_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -20,6 +22,10 @@ constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
+
+CellCoord ancestor(const CellCoord& cell, int doublings) {
+  return {cell[0] >> doublings, cell[1] >> doublings, cell[2] >> doublings};
+}
 
 bool finite(const Eigen::Vector3d& p) {
   return p.allFinite();
@@ -44,107 +50,83 @@ double robust_extent(const PointBatch& batch) {
   return extent;
 }
 
-// A cell's place among those of a batch, by the leaf of the grid that holds it.
-class LeafOrder {
- public:
-  explicit LeafOrder(std::span<const CellCoord> cells) {
-    CellCoord high{INT32_MIN, INT32_MIN, INT32_MIN};
-    for (const CellCoord& cell : cells) {
-      for (int axis = 0; axis < 3; ++axis) {
-        low_[axis] = std::min(low_[axis], cell[axis]);
-        high[axis] = std::max(high[axis], cell[axis]);
-      }
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      low_[axis] &= ~7;
-      fits_ &= std::int64_t{high[axis]} - low_[axis] < 1 << 21;
-    }
-  }
-
-  bool fits() const { return fits_; }
-
-  std::uint64_t place(const CellCoord& cell) const {
-    std::uint64_t leaf = 0, within = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto steps = static_cast<std::uint64_t>(cell[axis] - low_[axis]);
-      leaf = leaf << 18 | steps >> 3;
-      within = within << 3 | (steps & 7);
-    }
-    return leaf << 9 | within;
-  }
-
-  CellCoord cell(std::uint64_t place) const {
-    CellCoord cell;
-    for (int axis = 2; axis >= 0; --axis) {
-      const int up = 2 - axis;
-      const std::uint64_t steps = (place >> (9 + 18 * up) & 0x3ffff) << 3 | (place >> 3 * up & 7);
-      cell[axis] = low_[axis] + static_cast<std::int32_t>(steps);
-    }
-    return cell;
-  }
-
- private:
-  CellCoord low_{INT32_MAX, INT32_MAX, INT32_MAX};
-  bool fits_ = true;
-};
-
 }  // namespace
 
 struct Survey::Counts {
   using Leaf = openvdb::Int32Tree::LeafNodeType;
 
   openvdb::Int32Grid::Ptr grid = openvdb::Int32Grid::create(0);
-  openvdb::Int32Grid::Accessor accessor = grid->getAccessor();
+  LeafTable<openvdb::Int32Tree> leaves;
+  std::uint64_t leaf_count = 0;
   std::uint64_t cells = 0;
-  std::uint64_t leaves = 0;
 
-  void add(const CellCoord& cell, std::int32_t points) {
-    const openvdb::Coord coord(cell[0], cell[1], cell[2]);
-    bool is_new = false;
-    accessor.modifyValue(coord, [&](std::int32_t& count) {
-      is_new = count == 0;
-      count += points;
-    });
-    if (!is_new) return;
-    ++cells;
-    if (accessor.getNode<Leaf>()->onVoxelCount() == 1) ++leaves;
+  static constexpr std::size_t kMostRuns = 64;
+
+  // Where all the counts are, then the counts: the cache misses of points in random order overlap. `shift`:
+  // doublings from the runs' cells to those of the grid.
+  void add(std::span<const CellRun> runs, int shift) {
+    struct Place {
+      Leaf* leaf;
+      std::int32_t* count;
+      std::uint32_t offset;
+    };
+    std::array<Place, kMostRuns> places;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const CellCoord cell = ancestor(runs[i].cell, shift);
+      const auto& known = leaves.find(cell);
+      const auto& entry = known.leaf != nullptr ? known : add_leaf(cell);
+      const std::uint32_t offset = leaves.offset(cell);
+      places[i] = {entry.leaf, entry.values + offset, offset};
+      __builtin_prefetch(places[i].count, 1);
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto& [leaf, count, offset] = places[i];
+      if (*count == 0) {
+        leaf->setValueOn(offset, 0);
+        ++cells;
+      }
+      *count += runs[i].points;
+    }
   }
 
   std::uint64_t bytes() const {
-    return leaves * sizeof(Leaf) + leaves * sizeof(Leaf::Buffer::ValueType) * Leaf::SIZE;
+    return leaf_count * sizeof(Leaf) + leaf_count * sizeof(Leaf::Buffer::ValueType) * Leaf::SIZE;
+  }
+
+ private:
+  const LeafTable<openvdb::Int32Tree>::Entry& add_leaf(const CellCoord& cell) {
+    ++leaf_count;
+    return leaves.insert(*grid->tree().touchLeaf(openvdb::Coord(cell[0], cell[1], cell[2])));
   }
 };
 
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   CellCounts counts{.points = batch.size()};
-  std::vector<CellCoord> cells;
-  cells.reserve(batch.size());
-  for (const Eigen::Vector3d& p : batch.positions) {
-    if (!finite(p)) {
-      ++counts.dropped;
-      continue;
+  const std::span<const Eigen::Vector3d> positions = batch.positions;
+  counts.runs.reserve(positions.size());
+  std::array<CellCoord, 256> cells;
+  for (std::size_t first = 0; first < positions.size(); first += cells.size()) {
+    const std::size_t count = std::min(cells.size(), positions.size() - first);
+    grid.cells_of(positions.subspan(first, count), std::span(cells).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d& p = positions[first + i];
+      if (!finite(p)) {
+        ++counts.dropped;
+        continue;
+      }
+      counts.bounds.extend(p);
+      if (counts.runs.empty() || !same_cell(counts.runs.back().cell, cells[i]))
+        counts.runs.push_back({cells[i], 0});
+      ++counts.runs.back().points;
     }
-    counts.bounds.extend(p);
-    cells.push_back(grid.cell_of(p));
-  }
-  const LeafOrder order(cells);
-  if (!order.fits()) {
-    for (const CellCoord& cell : cells) counts.cells.push_back({cell, 1});
-    return counts;
-  }
-  std::vector<std::uint64_t> places;
-  places.reserve(cells.size());
-  for (const CellCoord& cell : cells) places.push_back(order.place(cell));
-  std::sort(places.begin(), places.end());
-  for (std::size_t begin = 0, end; begin < places.size(); begin = end) {
-    for (end = begin; end < places.size() && places[end] == places[begin];) ++end;
-    counts.cells.push_back({order.cell(places[begin]), end - begin});
   }
   return counts;
 }
 
 Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
-    : memory_(memory), expected_points_(expected_points > 0 ? expected_points : kUnknownPoints) {
+    : memory_(memory),
+      is_told_(expected_points > 0),
+      expected_points_(is_told_ ? expected_points : kUnknownPoints) {
   openvdb::initialize();
   counts_ = std::make_unique<Counts>();
 }
@@ -178,26 +160,33 @@ void Survey::add(const CellCounts& counts) {
   scan_.points += counts.points;
   scan_.dropped += counts.dropped;
   scan_.bounds.extend(counts.bounds);
-  for (const CountedCell& cell : counts.cells) {
-    const int shift = scan_.grid.shift;
-    counts_->add({cell.coord[0] >> shift, cell.coord[1] >> shift, cell.coord[2] >> shift},
-                 static_cast<std::int32_t>(cell.points));
-    if (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
+  for (std::span<const CellRun> runs = counts.runs; !runs.empty();) {
+    const std::size_t count = std::min(runs.size(), Counts::kMostRuns);
+    counts_->add(runs.first(count), scan_.grid.shift);
+    runs = runs.subspan(count);
+    while (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
   }
 }
 
 bool Survey::is_too_fine() const {
-  // Even with all points to come in the same cells, these would hold too few.
-  const bool sparse =
-      counts_->cells > 1024 && counts_->cells > expected_points_ / 4 && counts_->cells > scan_.points / 4;
+  // Even with all points to come in the same cells, these would hold too few in the end. A scan that does not
+  // tell may have more points than its cells were made for.
+  const std::uint64_t points = std::max(scan_.points, is_told_ ? expected_points_ : 4 * expected_points_);
+  const bool sparse = counts_->cells > std::max<std::uint64_t>(points / kPointsPerCell, 1024);
   return sparse || counts_->bytes() + counts_->cells * kBytesPerCell > memory_;
 }
 
 void Survey::coarsen() {
   auto coarse = std::make_unique<Counts>();
-  for (auto cell = counts_->grid->cbeginValueOn(); cell; ++cell) {
-    const openvdb::Coord coord = cell.getCoord();
-    coarse->add({coord[0] >> 1, coord[1] >> 1, coord[2] >> 1}, *cell);
+  for (auto leaf = counts_->grid->tree().cbeginLeaf(); leaf; ++leaf) {
+    std::array<CellRun, Counts::Leaf::SIZE> cells;
+    std::size_t count = 0;
+    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+      const openvdb::Coord coord = cell.getCoord();
+      cells[count++] = {{coord[0], coord[1], coord[2]}, *cell};
+    }
+    for (std::size_t first = 0; first < count; first += Counts::kMostRuns)
+      coarse->add(std::span(cells).subspan(first, std::min(Counts::kMostRuns, count - first)), 1);
   }
   counts_ = std::move(coarse);
   ++scan_.grid.shift;
@@ -205,8 +194,8 @@ void Survey::coarsen() {
 
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (static_cast<double>(finite_points) < kPointsPerCell * static_cast<double>(counts_->cells) &&
-         counts_->cells > 1 && scan_.grid.shift < CellGrid::kMaxShift) {
+  while (finite_points < kPointsPerCell * counts_->cells && counts_->cells > 1 &&
+         scan_.grid.shift < CellGrid::kMaxShift) {
     coarsen();
   }
   if (finite_points > 0 && !std::isfinite(scan_.bounds.diagonal().squaredNorm())) {

@@ -21,9 +21,15 @@ struct SurveyedScan {
   std::uint64_t dropped = 0;       // with a non-finite coordinate
 };
 
+// Consecutive points in the same cell.
+struct CellRun {
+  CellCoord cell{};
+  std::int32_t points = 0;
+};
+
 // One batch of points, counted per cell.
 struct CellCounts {
-  std::vector<CountedCell> cells;  // near cells next to each other, where the batch allows; repeats allowed
+  std::vector<CellRun> runs;  // in the order of the points
   Eigen::AlignedBox3d bounds;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;
@@ -32,8 +38,8 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
 // Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever the cells need more than
 // `memory` bytes, or hold too few points each, the size doubles and counts merge, and once more at the end
-// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per point or, sorted,
-// per cell of a batch.
+// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per run of points in
+// the same cell.
 class Survey {
  public:
   // `expected_points`: 0 where not known.
@@ -49,7 +55,7 @@ class Survey {
   // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 
-  static constexpr double kPointsPerCell = 16;
+  static constexpr std::uint64_t kPointsPerCell = 16;
 
  private:
   struct Counts;
@@ -58,6 +64,7 @@ class Survey {
   void coarsen();
 
   std::uint64_t memory_;
+  bool is_told_;  // how many points to expect
   std::uint64_t expected_points_;
   SurveyedScan scan_;
   std::atomic<bool> sized_ = false;

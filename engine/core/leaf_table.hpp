@@ -1,0 +1,72 @@
+// Finds the leaves of an OpenVDB tree whatever the order of look-ups. OpenVDB's accessor remembers the leaf
+// it was at last; elsewhere it walks down the tree, three places in memory that each tell the next. Here
+// every leaf stands in one flat hash table beside its values: one place, the same for points in any order.
+// Open addressing, at most half full, never smaller. Look-ups by several threads while nothing is added.
+#pragma once
+
+#include "engine/data/tiling.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+
+namespace lacuna {
+
+template <class Tree>
+class LeafTable {
+ public:
+  using Leaf = typename Tree::LeafNodeType;
+  using Value = typename Tree::ValueType;
+
+  struct Entry {
+    CellCoord block{};
+    Leaf* leaf = nullptr;
+    Value* values = nullptr;  // of the leaf's cells, by `offset`
+  };
+
+  // The leaf that holds the cell; `leaf` is null where the table has none.
+  const Entry& find(const CellCoord& cell) const { return entries_[place(block_of(cell))]; }
+
+  const Entry& insert(Leaf& leaf) {
+    if (2 * ++count_ > entries_.size()) grow();
+    const openvdb::Coord& origin = leaf.origin();
+    const CellCoord block = block_of({origin.x(), origin.y(), origin.z()});
+    return entries_[place(block)] = {block, &leaf, leaf.buffer().data()};
+  }
+
+  static std::uint32_t offset(const CellCoord& cell) {
+    return Leaf::coordToOffset(openvdb::Coord(cell[0], cell[1], cell[2]));
+  }
+
+ private:
+  static CellCoord block_of(const CellCoord& cell) {
+    constexpr auto kLog2 = static_cast<int>(Leaf::LOG2DIM);
+    return {cell[0] >> kLog2, cell[1] >> kLog2, cell[2] >> kLog2};
+  }
+
+  // Where the block's entry is, or would be.
+  std::size_t place(const CellCoord& block) const {
+    const auto part = [&](int axis) { return static_cast<std::uint64_t>(block[axis]); };
+    const std::uint64_t mixed =
+        part(0) * 0x9e3779b97f4a7c15 + part(1) * 0xc2b2ae3d27d4eb4f + part(2) * 0x165667b19e3779f9;
+    const std::size_t last = entries_.size() - 1;
+    std::size_t at = (mixed ^ mixed >> 32) & last;
+    while (entries_[at].leaf != nullptr && !same_cell(entries_[at].block, block)) at = (at + 1) & last;
+    return at;
+  }
+
+  void grow() {
+    const std::vector<Entry> before = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
+    for (const Entry& entry : before) {
+      if (entry.leaf != nullptr) entries_[place(entry.block)] = entry;
+    }
+  }
+
+  std::vector<Entry> entries_ = std::vector<Entry>(64);
+  std::size_t count_ = 0;
+};
+
+}  // namespace lacuna
