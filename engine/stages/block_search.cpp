@@ -151,7 +151,7 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, std::size_t place) {
       find_carefully(query, lists[i], found);
     } else {
       for (std::size_t rank = 0; rank < found.size(); ++rank)
-        found[rank] = lists[i].points[slot_of(keys_[rank + 1].at[i])];
+        found[rank] = lists[i].point(keys_[rank + 1].at[i]);
     }
     refuse_underflow(squared_distance(positions_[query], positions_[found[0]]), ids_[query], ids_[found[0]]);
   }
@@ -164,7 +164,7 @@ void BlockSearch::find_carefully(LocalIndex query, const CandidateList& list, st
     if (q != query) careful_.push_back({squared_distance(positions_[query], positions_[q]), ids_[q], q});
   };
   if (list.count > 0) {
-    for (std::size_t i = 0; i < list.count; ++i) add(list.points[i]);
+    for (std::size_t i = 0; i < list.count; ++i) add(list.point(list.keys[i]));
   } else if (look_around(query, query + 1, reach_of(query))) {
     for (std::size_t i = 0; i < sight_.count; ++i) {
       const std::size_t begin = sight_.blocks[i] * kBlock;

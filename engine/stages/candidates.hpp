@@ -34,25 +34,28 @@ struct alignas(64) Sight {
   const Block* all = nullptr;
 };
 
-// Candidates for a query's neighbours, by slot. A key is a squared distance whose lowest bits are replaced
-// by the slot, so that it can be sorted as one number; distances whose keys differ in the slot only are
+// Candidates for a query's neighbours. A key is a squared distance whose lowest bits are replaced by the
+// point's place, so that it can be sorted as one number; distances whose keys differ in the place only are
 // nearer to each other than keys can tell.
-inline constexpr std::size_t kSlotBits = 7;
+inline constexpr std::uint64_t kPlaces = kMostBlocks * kBlock;
+static_assert(std::has_single_bit(kPlaces));
 inline constexpr std::size_t kMostCandidates = kMostSortedRows;
-static_assert(kMostCandidates == std::size_t{1} << kSlotBits);
-
-inline std::size_t slot_of(double key) {
-  return std::bit_cast<std::uint64_t>(key) % kMostCandidates;
-}
 
 struct alignas(64) CandidateList {
   double keys[kMostCandidates + kBlock];
-  std::uint32_t points[kMostCandidates + kBlock];
+  std::uint32_t blocks[kMostBlocks + kFan];  // that may hold some
   std::size_t count;
+
+  // The index of the candidate that has a key.
+  std::uint32_t point(double key) const {
+    const std::uint64_t place = std::bit_cast<std::uint64_t>(key) % kPlaces;
+    return blocks[place / kBlock] * static_cast<std::uint32_t>(kBlock) +
+           static_cast<std::uint32_t>(place % kBlock);
+  }
 };
 
-// All points in sight within the radius of the query, itself among them; kMostCandidates + 1 if there are
-// more than that.
+// All points in sight within the radius of the query, itself among them; the count is kMostCandidates + 1 if
+// there are more than that.
 using FindWithin = void(const Sight&, const double* query, double squared_radius, CandidateList&);
 LACUNA_DISPATCH(FindWithin, find_within)
 
