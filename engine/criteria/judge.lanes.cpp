@@ -63,17 +63,17 @@ struct Covariance {
 };
 
 Covariance weigh(const Part& part, Lanes sigma, Surfaces& surface) {
-  const Lanes squared_sigma = sigma * sigma;
+  const Lanes falloff = -1.0 / (sigma * sigma);
   const Lanes counts = part.counts();
   Covariance c;
   constexpr double kTiny = -600;
   const Vectors nearest = part.offset(std::size_t{0});
-  c.counts_for_something = -dot(nearest, nearest) / squared_sigma > kTiny;
+  c.counts_for_something = dot(nearest, nearest) * falloff > kTiny;
   Lanes total{};
   Vectors mean{};
   for (std::size_t i = 0; i < part.bundle.rows; ++i) {
     const Vectors offset = part.offset(i);
-    const Lanes kernel = exponential(-dot(offset, offset) / squared_sigma);
+    const Lanes kernel = exponential(dot(offset, offset) * falloff);
     const Lanes weight = select(counts > static_cast<double>(i), kernel, Lanes{});
     part.set(part.bundle.weight, i, weight);
     total += weight;

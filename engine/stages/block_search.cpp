@@ -95,7 +95,10 @@ void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
   neighbours_ = std::min(k, positions_.size() - 1);
   found_.resize(kBlock * neighbours_);
   if (neighbours_ == 0) return;
-  if (guess_ == 0) guess_ = reach_of(first);
+  if (guess_ == 0) {  // the order may jump at any of them, hardly at all
+    guess_ = kInfinite;
+    for (LocalIndex query = first; query < last; ++query) guess_ = std::min(guess_, reach_of(query));
+  }
   look_around(first, last, kRunGuess * guess_);
   for (LocalIndex query = first; query < last; ++query) list_candidates(query, last, lists_[query - first]);
   for (LocalIndex begin = first; begin < last; begin += kQueries)

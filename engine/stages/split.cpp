@@ -43,23 +43,21 @@ class Splitter {
     return node;
   }
 
-  // Orders the node's cells along its longest side; returns the first cell of the second half.
+  // Parts the node's cells across its longest side; returns the first cell of the second half.
   std::uint32_t halve(const CellNode& node) {
     const auto side = [&](int axis) { return std::int64_t{node.high[axis]} - node.low[axis]; };
     int longest = 0;
     for (int axis = 1; axis < 3; ++axis) {
       if (side(axis) > side(longest)) longest = axis;
     }
-    const auto begin = tiling_.cells.begin() + node.first;
-    const auto end = tiling_.cells.begin() + node.last;
-    std::sort(begin, end, [&](const CountedCell& a, const CountedCell& b) {
-      if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
-      return a.coord < b.coord;
-    });
-    std::uint64_t before = 0;
-    std::uint32_t middle = node.first;
-    while (before + tiling_.cells[middle].points <= node.points / 2) before += tiling_.cells[middle++].points;
-    return std::clamp(middle, node.first + 1, node.last - 1);
+    const std::uint32_t middle = node.first + (node.last - node.first) / 2;
+    const auto cells = tiling_.cells.begin();
+    std::nth_element(cells + node.first, cells + middle, cells + node.last,
+                     [&](const CountedCell& a, const CountedCell& b) {
+                       if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
+                       return a.coord < b.coord;
+                     });
+    return middle;
   }
 
   Tiling& tiling_;
