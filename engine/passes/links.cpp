@@ -61,7 +61,9 @@ class BorderPlan {
       visit(node.right);
       return;
     }
-    for (std::uint32_t cell = node.first; cell < node.last; ++cell) plan_cell(cell);
+    const std::uint32_t last = std::min(node.last, tile_.last_cell);
+    for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell)
+      plan_cell(cell, node);
   }
 
   // More than k points within a box have their neighbours within its diagonal.
@@ -80,9 +82,17 @@ class BorderPlan {
     return leaves;
   }
 
-  void plan_cell(std::uint32_t cell) {
+  // No less than the squared distance from any point of the cell to its k-th neighbour.
+  double reach_of(std::uint32_t cell, const CellNode& node) const {
     const Eigen::AlignedBox3d box = tiling_.cell_box(cell);
-    const double reach = squared_reach(tiling_, cell, k_);
+    if (tiling_.cells[cell].points <= k_ && node.points > k_)
+      return max_squared_distance(box, tiling_.box(node));
+    return squared_reach(tiling_, cell, k_);
+  }
+
+  void plan_cell(std::uint32_t cell, const CellNode& node) {
+    const Eigen::AlignedBox3d box = tiling_.cell_box(cell);
+    const double reach = reach_of(cell, node);
     if (!leaves_tile(box, reach)) return;
     sight_.clear();
     std::uint64_t points = 0;

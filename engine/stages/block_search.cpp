@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace lacuna {
 namespace {
@@ -39,16 +40,26 @@ struct Box {
 
 // Boxes of one level, one array per side, padded to whole groups with empty boxes.
 struct BlockSearch::Boxes {
+  std::size_t count;
   std::array<std::vector<double>, 3> low, high;
 
-  explicit Boxes(std::size_t count) {
+  explicit Boxes(std::size_t count) : count(count) {
     const std::size_t padded = (count + kFan - 1) / kFan * kFan;
     for (int axis = 0; axis < 3; ++axis) {
       low[axis].assign(padded, kInfinite);
       high[axis].assign(padded, -kInfinite);
     }
   }
-  std::size_t size() const { return low[0].size(); }
+
+  // Squared distances from a box to those of a group.
+  void gaps(std::size_t group, const double* from_low, const double* from_high, double* squared) const {
+    const double *lows[3], *highs[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      lows[axis] = low[axis].data() + group * kFan;
+      highs[axis] = high[axis].data() + group * kFan;
+    }
+    fastest::box_gaps(from_low, from_high, lows, highs, squared);
+  }
 };
 
 BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
@@ -72,9 +83,9 @@ BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<c
       levels_[0].high[axis][b] = box.high[axis];
     }
   }
-  while (levels_.back().size() > kFan) {
+  while (levels_.back().count > kFan) {
     const Boxes& below = levels_.back();
-    const std::size_t count = below.size() / kFan;
+    const std::size_t count = (below.count + kFan - 1) / kFan;
     Boxes level(count);
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t i = 0; i < count; ++i) {
@@ -95,10 +106,7 @@ void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
   neighbours_ = std::min(k, positions_.size() - 1);
   found_.resize(kBlock * neighbours_);
   if (neighbours_ == 0) return;
-  if (guess_ == 0) {  // the order may jump at any of them, hardly at all
-    guess_ = kInfinite;
-    for (LocalIndex query = first; query < last; ++query) guess_ = std::min(guess_, reach_of(query));
-  }
+  if (guess_ == 0) guess_ = distance_to_last(first);
   look_around(first, last, kRunGuess * guess_);
   for (LocalIndex query = first; query < last; ++query) list_candidates(query, last, lists_[query - first]);
   for (LocalIndex begin = first; begin < last; begin += kQueries)
@@ -160,43 +168,57 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, std::size_t place) {
   }
 }
 
-// By the distances themselves, of listed candidates or of all points within a bound.
+// By the distances themselves, of listed candidates or of what a walk through the tree finds.
 void BlockSearch::find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
-  careful_.clear();
-  const auto add = [&](LocalIndex q) {
-    if (q != query) careful_.push_back({squared_distance(positions_[query], positions_[q]), ids_[q], q});
-  };
   if (list.count > 0) {
-    for (std::size_t i = 0; i < list.count; ++i) add(list.point(list.keys[i]));
-  } else if (look_around(query, query + 1, reach_of(query))) {
-    for (std::size_t i = 0; i < sight_.count; ++i) {
-      const std::size_t begin = sight_.blocks[i] * kBlock;
-      for (std::size_t q = begin; q < std::min(begin + kBlock, positions_.size()); ++q)
-        add(static_cast<LocalIndex>(q));
-    }
+    nearest_.clear();
+    for (std::size_t i = 0; i < list.count; ++i) meet(query, list.point(list.keys[i]));
   } else {
-    if (!tree_) tree_.emplace(positions_, ids_);
-    tree_->nearest(query, found.size(), careful_);
+    guess_ = kRunGuess * distance_to_last(query);
   }
-  const auto end = careful_.begin() + static_cast<std::ptrdiff_t>(found.size());
-  std::partial_sort(careful_.begin(), end, careful_.end());
-  for (std::size_t rank = 0; rank < found.size(); ++rank) found[rank] = careful_[rank].index;
-  if (list.count == 0) guess_ = std::sqrt(careful_[found.size() - 1].squared_distance) * kRunGuess;
+  std::sort_heap(nearest_.begin(), nearest_.end());
+  for (std::size_t rank = 0; rank < found.size(); ++rank) found[rank] = nearest_[rank].index;
 }
 
-// No less than the distance to the query's k-th neighbour.
-double BlockSearch::reach_of(LocalIndex query) {
-  const std::size_t k = neighbours_;
-  if (positions_.size() <= k + 1) return kInfinite;
-  // Any k points will do; those beside the query in the order are near. The query itself is at 0.
-  const std::size_t first = query > k ? query - k : 0;
-  const std::size_t last = std::min<std::size_t>(query + k + 1, positions_.size());
-  beside_.clear();
-  for (std::size_t i = first; i < last; ++i)
-    beside_.push_back(squared_distance(positions_[query], positions_[i]));
-  const auto kth = beside_.begin() + static_cast<std::ptrdiff_t>(k);
-  std::nth_element(beside_.begin(), kth, beside_.end());
-  return std::sqrt(*kth) * kSlack;
+// Finds the query's neighbours, nearest blocks first; returns how far the last one is.
+double BlockSearch::distance_to_last(LocalIndex query) {
+  nearest_.clear();
+  descend(query, levels_.size() - 1, 0);
+  return std::sqrt(nearest_.front().squared_distance);
+}
+
+void BlockSearch::descend(LocalIndex query, std::size_t level, std::size_t group) {
+  std::array<double, kFan> gaps;
+  const double* const position = positions_[query].data();
+  levels_[level].gaps(group, position, position, gaps.data());
+  std::array<std::size_t, kFan> order;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return gaps[a] < gaps[b]; });
+  for (const std::size_t i : order) {
+    if (group * kFan + i >= levels_[level].count) continue;
+    const bool is_full = nearest_.size() == neighbours_;
+    if (is_full && gaps[i] > nearest_.front().squared_distance) return;
+    const std::size_t index = group * kFan + i;
+    if (level > 0) {
+      descend(query, level - 1, index);
+    } else {
+      const std::size_t end = std::min((index + 1) * kBlock, positions_.size());
+      for (std::size_t q = index * kBlock; q < end; ++q) meet(query, static_cast<LocalIndex>(q));
+    }
+  }
+}
+
+// Keeps the nearest ones, the farthest of them on top of a heap.
+void BlockSearch::meet(LocalIndex query, LocalIndex other) {
+  if (other == query) return;
+  const Neighbour neighbour{squared_distance(positions_[query], positions_[other]), ids_[other], other};
+  if (nearest_.size() == neighbours_) {
+    if (!(neighbour < nearest_.front())) return;
+    std::pop_heap(nearest_.begin(), nearest_.end());
+    nearest_.pop_back();
+  }
+  nearest_.push_back(neighbour);
+  std::push_heap(nearest_.begin(), nearest_.end());
 }
 
 // Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many.
@@ -216,25 +238,21 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
   while (depth > 0) {
     const auto [level, group] = stack[--depth];
     const Boxes& boxes = levels_[level];
-    const double *low[3], *high[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = boxes.low[axis].data() + group * kFan;
-      high[axis] = boxes.high[axis].data() + group * kFan;
-    }
     double gaps[kFan];
-    fastest::box_gaps(run.low.data(), run.high.data(), low, high, gaps);
-    for (std::size_t i = kFan; i-- > 0;) {
-      if (!(gaps[i] <= squared_radius) || !(low[0][i] <= high[0][i])) continue;  // far, or empty
+    boxes.gaps(group, run.low.data(), run.high.data(), gaps);
+    const std::size_t first = group * kFan;
+    for (std::size_t i = std::min(kFan, boxes.count - first); i-- > 0;) {
+      if (!(gaps[i] <= squared_radius)) continue;
       if (level > 0) {
-        stack[depth++] = {level - 1, group * kFan + i};
+        stack[depth++] = {level - 1, first + i};
         continue;
       }
       if (sight_.count == kMostBlocks) return false;
       for (int axis = 0; axis < 3; ++axis) {
-        sight_.low[axis][sight_.count] = low[axis][i];
-        sight_.high[axis][sight_.count] = high[axis][i];
+        sight_.low[axis][sight_.count] = boxes.low[axis][first + i];
+        sight_.high[axis][sight_.count] = boxes.high[axis][first + i];
       }
-      sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(group * kFan + i);
+      sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(first + i);
     }
   }
   in_sight_ = radius;

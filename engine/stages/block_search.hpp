@@ -8,21 +8,18 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace lacuna {
 
-// Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a
-// tree that needs no building beyond its boxes. One walk finds the blocks around a block of queries; each
-// query takes the points within a radius, guessed from how many the query before found, and eight queries
-// are ranked side by side. Few queries need more care: where the guess holds too few points or too many,
-// where the order jumps, or where two distances are next to equal. These are looked up again within a bound,
-// or in a `PointTree`, built when it is first needed.
+// Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a tree
+// that needs no building beyond its boxes. One walk finds the blocks around a block of queries; each query
+// takes the points within a radius, guessed from how many the query before found, and eight queries are
+// ranked side by side. Few queries need more care: where the guess holds too few points or too many, or where
+// two distances are next to equal. These are decided by the distances themselves, one query at a time.
 //
-// Exact: bounds err on the far side only, and ranks that rounding could touch are decided by the distances
-// as the method says. Cost: 16 points a block; memory: 32 bytes a point.
+// Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {
  public:
   // Over distinct points, which must outlive it.
@@ -47,7 +44,9 @@ class BlockSearch {
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void rank(LocalIndex first, LocalIndex last, std::size_t place);
   void find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
-  double reach_of(LocalIndex query);
+  double distance_to_last(LocalIndex query);
+  void descend(LocalIndex query, std::size_t level, std::size_t group);
+  void meet(LocalIndex query, LocalIndex other);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
   std::span<const LocalIndex> found(std::size_t place) const {
     return std::span(found_).subspan(place * neighbours_, neighbours_);
@@ -65,9 +64,7 @@ class BlockSearch {
   std::vector<KeyRow> keys_;
   std::size_t neighbours_ = 0;      // of each query
   std::vector<LocalIndex> found_;   // by query of the block
-  std::vector<Neighbour> careful_;  // working space
-  std::vector<double> beside_;
-  std::optional<PointTree> tree_;
+  std::vector<Neighbour> nearest_;  // of one query, found with care
 };
 
 }  // namespace lacuna
