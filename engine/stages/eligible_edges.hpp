@@ -3,6 +3,7 @@
 
 #include "engine/config.hpp"
 #include "engine/data/evaluation.hpp"
+#include "engine/data/component.hpp"
 #include "engine/data/neighbourhoods.hpp"
 
 #include <vector>
@@ -20,10 +21,7 @@ struct Strength {
 // a negative number. Exact in double precision.
 double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
 
-struct TileEdge {
-  LocalIndex a, b;  // owned
-  double weight;
-};
+using TileEdge = WeightedEdge;  // between owned points
 
 // An edge from an owned point to a foreign one whose Pi is not known yet.
 struct Crossing {
