@@ -9,8 +9,6 @@
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/union_find.hpp"
 
-#include <chrono>
-#include <cstdio>
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -18,12 +16,6 @@
 
 namespace lacuna {
 namespace {
-double now_() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-double t0_ = 0;
-void lap(const char* what, double n = 0) { double t = now_(); std::fprintf(stderr, "%-20s %.3f  %.0f\n", what, t - t0_, n); t0_ = now_(); }
-struct Sum { const char* n; std::atomic<long> us{0}, c{0}; Sum(const char*n):n(n){} ~Sum(){ std::fprintf(stderr, "  sum %-20s %.3f  %ld\n", n, us/1e6, c.load());} };
-Sum s_read{"t.read"}, s_order{"t.order"}, s_span{"t.span"}, s_split{"t.split"}, s_loops{"t.loops"}, s_parts{"t.parts"}, s_pass{"t.pass"}, s_taken{"n.taken"}, s_und{"n.undecided"}, s_passn{"n.passed"};
-struct Tick { double t = now_(); void operator()(Sum& s, long n=0) { double x=now_(); s.us += (x-t)*1e6; s.c += n; t=now_(); } };
 
 // An eligible edge between tiles, told to both.
 struct SeamEdge {
@@ -123,15 +115,13 @@ void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const
     ids[b] = edge.b.id;
     sorted.push_back({a, b, edge.weight});
   }
-  if(edges.size()>100000) lap("prep", rows.size());
   order_edges(sorted, ids);
   Scratch scratch(job.workspace, job.memory.limit);
-  if(edges.size()>100000) lap("sort", edges.size());
   Spanning spanning(ids, e, scratch);
   for (const WeightedEdge& edge : sorted) spanning.add({edge.a, edge.b});
-  if(edges.size()>100000) lap("span");
   std::vector<WeightedEdge>().swap(sorted);
-  trace(spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
+  trace(
+      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
 // `edges`: of whole components, in any order.
@@ -171,7 +161,8 @@ void trace_on_disk(const std::function<void(const std::function<void(const Compo
   sorted.for_each([&](const ComponentEdge& edge) {
     spanning.add({rows.number(edge.a.row), rows.number(edge.b.row)});
   });
-  trace(spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
+  trace(
+      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
 // ---- components
@@ -201,6 +192,8 @@ class TileVertices {
     const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), seam.foreign.row);
     return owned_ + static_cast<LocalIndex>(at - foreign_.begin());
   }
+  // Two tiles know of an edge between them: that of the lower id tells of it.
+  bool tells(const WeightedEdge& edge) const { return edge.b < owned_ || ids_[edge.a] < ids_[edge.b]; }
   Vertex operator[](LocalIndex v) const {
     return {ids_[v], v < owned_ ? Row{first_row_ + v} : foreign_[v - owned_]};
   }
@@ -227,20 +220,16 @@ class Tracer {
         traced_{RawLoops(job.file("raw-loops"))} {}
 
   TracedLoops run() {
-    t0_=now_();
     job_.crew.for_each(tiles_, [&](std::size_t t) {
       judge_crossings(scan_, store_, static_cast<TileIndex>(t), job_.config.spanning, seams_);
     });
-    lap("judge");
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
       needs[t] = scan_.edges.count(t) * kBytesPerEdge + store_.tiling().tiles[t].points * kBytesPerPoint;
     }
     job_.crew.for_each_within(needs, job_.memory.global,
                               [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
-    lap("tiles");
     trace_open_components();
-    lap("rest");
     traced_.eligible_edges = eligible_edges_;
     traced_.components = components_;
     traced_.loops.sort();
@@ -252,24 +241,18 @@ class Tracer {
   // elsewhere goes on: of most edges it is known here that they are left out, or that no loop needs them.
   void trace_tile(TileIndex t) {
     const Tile& tile = store_.tiling().tiles[t];
-    Tick tick;
-    std::vector<TileEdge> edges = scan_.edges.read(t);
+    std::vector<WeightedEdge> edges = scan_.edges.read(t);
     scan_.edges.drop(t);
     const std::vector<SeamEdge> seams = seams_.read(t);
     if (edges.empty() && seams.empty()) return;
-    eligible_edges_ += edges.size() + static_cast<std::uint64_t>(std::count_if(
-                                          seams.begin(), seams.end(), [](const SeamEdge& seam) {
-                                            return seam.own.id < seam.foreign.id;
-                                          }));
-
     const TileVertices vertices(tile, store_.points(t), seams);
     std::vector<LocalIndex> foreign(vertices.size() - vertices.owned());
     std::iota(foreign.begin(), foreign.end(), vertices.owned());
     for (const SeamEdge& seam : seams) edges.push_back({seam.owned, vertices.foreign(seam), seam.weight});
-    tick(s_read);
+    eligible_edges_ += static_cast<std::uint64_t>(std::count_if(
+        edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.tells(edge); }));
     order_edges(edges, vertices.ids());
 
-    tick(s_order);
     Scratch scratch(job_.workspace, job_.memory.limit);
     Spanning spanning(vertices.ids(), e_, scratch, foreign);
     std::vector<WeightedEdge> undecided;
@@ -278,7 +261,6 @@ class Tracer {
       if (verdict == Verdict::undecided) undecided.push_back(edge);
       return verdict != Verdict::taken;
     });
-    tick(s_span); s_taken.c+=edges.size(); s_und.c+=undecided.size();
     std::vector<LocalIndex> parents(vertices.size());
     UnionFind parts(parents);
     for (const WeightedEdge& edge : edges) parts.unite(edge.a, edge.b);
@@ -290,21 +272,14 @@ class Tracer {
       if (spanning.is_open(v)) open.push_back(v);
     }
     const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
-    tick(s_split);
-    trace(cycles.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
+    trace(
+        cycles.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
 
-    tick(s_loops);
-    std::erase_if(edges, [&](const WeightedEdge& edge) {
-      return !(cycles.leads_out[edge.a] && cycles.leads_out[edge.b]);
-    });
     edges.insert(edges.end(), undecided.begin(), undecided.end());
-    // Of seam edges, the tile of the lower id tells.
     std::erase_if(edges, [&](const WeightedEdge& edge) {
-      return edge.b >= vertices.owned() && vertices.ids()[edge.b] < vertices.ids()[edge.a];
+      return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.tells(edge);
     });
-    tick(s_parts);s_passn.c+=edges.size();
     pass_on(t, vertices, parts, edges, seams);
-    tick(s_pass);
   }
 
   // Components with an edge that lead to no other tile.
@@ -356,13 +331,11 @@ class Tracer {
       scratch.breathe();
       return static_cast<LocalIndex>(std::lower_bound(ends.begin(), ends.end(), row) - ends.begin());
     };
-    lap("ends", ends.size());
     UnionFind components(scratch.array<LocalIndex>(ends.size()));
     for (std::size_t t = 0; t < tiles_; ++t) {
       for (const Join& join : joins_.read(t)) components.unite(end_of(join.a), end_of(join.b));
     }
 
-    lap("joins", joins);
     const std::span<std::uint64_t> edge_counts = scratch.array<std::uint64_t>(ends.size());
     const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(ends.size());  // by part
     std::vector<std::uint64_t> first_part;                                              // by tile
@@ -376,7 +349,6 @@ class Tracer {
       }
     }
 
-    lap("count");
     // Batches of whole components, as many as fit.
     const std::uint64_t most =
         std::max<std::uint64_t>(job_.memory.global / 2 / kBytesPerEdge / job_.crew.threads(), 1);
@@ -398,7 +370,6 @@ class Tracer {
       append_batches(edges, batch_of, batches);
     });
 
-    lap("batches");
     const std::uint64_t fits = job_.memory.global / 2 / kBytesPerEdge;
     std::vector<std::uint64_t> needs(batch_edges.size());
     for (std::size_t b = 0; b < needs.size(); ++b)
@@ -420,7 +391,8 @@ class Tracer {
   static void append_batches(std::vector<ComponentEdge>& edges, std::span<const std::uint32_t> batch_of,
                              Spill<ComponentEdge>& batches) {
     const auto batch = [&](const ComponentEdge& edge) { return batch_of[edge.component]; };
-    std::sort(edges.begin(), edges.end(), [&](const ComponentEdge& x, const ComponentEdge& y) { return batch(x) < batch(y); });
+    std::sort(edges.begin(), edges.end(),
+              [&](const ComponentEdge& x, const ComponentEdge& y) { return batch(x) < batch(y); });
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
       for (end = begin; end < edges.size() && batch(edges[end]) == batch(edges[begin]);) ++end;
       batches.append(batch(edges[begin]), std::span(edges).subspan(begin, end - begin));

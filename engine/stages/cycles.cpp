@@ -1,13 +1,13 @@
 #include "engine/stages/cycles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace lacuna {
 namespace {
 
-// Which edges are bridges. Differs from the paper, which has none of this: a search for loops cannot tell the
-// difference, what lies beyond a bridge stays in one branch and joins no two.
+// Which edges lie on a cycle.
 class Cycles {
  public:
   Cycles(const SpanningGraph& graph, Scratch& scratch)
@@ -64,26 +64,34 @@ class Cycles {
   LocalIndex clock_ = 0;
 };
 
-// The graph with one more vertex, last in number and in every row, that has an edge to each of `open`.
+// The graph with two more vertices, last in number and in every row, that have an edge to each of `open` and
+// one to each other. Two, since an open vertex may have many edges outside: no way out is a bridge.
 SpanningGraph add_outside(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch) {
-  const LocalIndex outside = graph.size();
-  const auto ids = scratch.array<PointId>(std::size_t{outside} + 1);
-  const auto offsets = scratch.array<std::uint64_t>(std::size_t{outside} + 2);
-  const auto indices = scratch.array<LocalIndex>(graph.indices.size() + 2 * open.size());
+  const std::size_t known = graph.size();
+  const std::array<LocalIndex, 2> outside{graph.size(), graph.size() + 1};
+  const auto ids = scratch.array<PointId>(known + 2);
+  const auto offsets = scratch.array<std::uint64_t>(known + 3);
+  const auto indices = scratch.array<LocalIndex>(graph.indices.size() + 4 * open.size() + 2);
   std::copy(graph.ids.begin(), graph.ids.end(), ids.begin());
-  ids[outside] = PointId{UINT64_MAX};
-  std::uint64_t end = 0;
+  std::fill(ids.begin() + static_cast<std::ptrdiff_t>(known), ids.end(), PointId{UINT64_MAX});
+  auto to = indices.begin();
+  const auto end_row = [&](std::size_t v) {
+    offsets[v + 1] = static_cast<std::uint64_t>(to - indices.begin());
+  };
   auto next_open = open.begin();
-  for (LocalIndex v = 0; v < outside; ++v) {
-    for (const LocalIndex w : graph[v]) indices[end++] = w;
+  for (LocalIndex v = 0; v < known; ++v) {
+    to = std::copy(graph[v].begin(), graph[v].end(), to);
     if (next_open != open.end() && *next_open == v) {
-      indices[end++] = outside;
+      to = std::copy(outside.begin(), outside.end(), to);
       ++next_open;
     }
-    offsets[v + 1] = end;
+    end_row(v);
   }
-  for (const LocalIndex v : open) indices[end++] = v;
-  offsets[outside + 1] = end;
+  for (const std::size_t i : {0, 1}) {
+    to = std::copy(open.begin(), open.end(), to);
+    *to++ = outside[1 - i];
+    end_row(known + i);
+  }
   return {ids, offsets, indices};
 }
 

@@ -10,19 +10,20 @@
 
 namespace lacuna {
 
-// The graph without bridges and the trees that hang off it: its edges that lie on some cycle, in the same
-// order. Cost: linear.
+// The graph without its bridges and the trees that hang off it: the edges that lie on some cycle, in the same
+// order. A search for loops cannot tell the difference: what lies beyond a bridge stays in one branch and
+// joins no two. Cost: linear.
 SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch);
 
-// What of a part of a graph edges elsewhere can have to do with. Seen from the part, everything else is one
-// more vertex, `outside`, that all open vertices have an edge to.
+// Of a graph that is known in part only, on whichever side of its bridges the unknown lies.
 struct PartCycles {
-  SpanningGraph settled;                      // on cycles, none of which can lead outside
-  std::span<const std::uint8_t> leads_out;  // by vertex: on a cycle through outside
+  SpanningGraph settled;                    // cycles that the rest of the graph has nothing to do with
+  std::span<const std::uint8_t> leads_out;  // by vertex: not cut off from the open ones by a bridge
 };
 
-// `open`: ascending, each once. Only cycles between vertices that lead out, and the paths along them, mean
-// anything to the rest of the graph. Cost: linear.
+// `open`: vertices that may have more edges than are known here; ascending, each once. Paths between vertices
+// that lead out keep to such, and so do all loops through one. Without open vertices all cycles are settled.
+// Cost: linear.
 PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch);
 
 }  // namespace lacuna

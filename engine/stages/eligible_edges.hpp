@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/data/evaluation.hpp"
 #include "engine/data/component.hpp"
+#include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace lacuna {
 
 // What an edge's weight needs to know of one of its ends.
 struct Strength {
-  double mean_distance;  // r_p
-  float probability;     // Pi
+  double mean_distance;       // r_p
+  float probability;          // Pi
   std::uint32_t padding = 0;  // written to disk: no byte is left to chance
 };
 
