@@ -79,11 +79,6 @@ void judge_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, c
 
 // ---- one component
 
-// A loop of more than e edges needs more than e vertices, and an edge more than a tree.
-bool can_hold_loop(std::uint64_t vertices, std::uint64_t edges, std::int64_t e) {
-  return vertices > static_cast<std::uint64_t>(e) && edges >= vertices;
-}
-
 // row_of(v): of a vertex of the graph.
 template <class RowOf>
 void trace(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoops& loops) {
@@ -97,7 +92,7 @@ void trace(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoop
 
 // Vertices are numbered by row: near in space, near in memory.
 void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const Job& job, RawLoops& loops) {
-  if (edges.size() <= static_cast<std::uint64_t>(e)) return;
+  if (edges.size() <= static_cast<std::uint64_t>(e)) return;  // a loop has more
   RowNumbers rows;
   rows.collect(edges.size(), [&](auto&& add) {
     for (const ComponentEdge& edge : edges) {
@@ -105,7 +100,7 @@ void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const
       add(edge.b.row);
     }
   });
-  if (!can_hold_loop(rows.size(), edges.size(), e)) return;
+  if (rows.size() <= static_cast<std::uint64_t>(e)) return;
   std::vector<PointId> ids(rows.size());
   std::vector<WeightedEdge> sorted;
   sorted.reserve(edges.size());
@@ -256,9 +251,12 @@ class Tracer {
     Scratch scratch(job_.workspace, job_.memory.limit);
     Spanning spanning(vertices.ids(), e_, scratch, foreign);
     std::vector<WeightedEdge> undecided;
+    std::vector<LocalIndex> open;
     std::erase_if(edges, [&](const WeightedEdge& edge) {
       const Verdict verdict = spanning.add({edge.a, edge.b});
       if (verdict == Verdict::undecided) undecided.push_back(edge);
+      // The other tile may tell of it, not knowing the path that speaks against it: that has to go on too.
+      if (verdict == Verdict::left_out && !vertices.tells(edge)) open.push_back(edge.a);
       return verdict != Verdict::taken;
     });
     std::vector<LocalIndex> parents(vertices.size());
@@ -267,10 +265,10 @@ class Tracer {
     for (const WeightedEdge& edge : undecided) parts.unite(edge.a, edge.b);
     components_ += closed_parts(parts, edges, foreign);
 
-    std::vector<LocalIndex> open;
     for (LocalIndex v = 0; v < vertices.size(); ++v) {
       if (spanning.is_open(v)) open.push_back(v);
     }
+    sort_once(open);
     const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
     trace(
         cycles.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
