@@ -3,9 +3,9 @@
 #include "engine/core/external_sort.hpp"
 #include "engine/core/row_numbers.hpp"
 #include "engine/core/scratch.hpp"
-#include "engine/stages/cycles.hpp"
 #include "engine/stages/loops.hpp"
 #include "engine/stages/order_edges.hpp"
+#include "engine/stages/settle_part.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/union_find.hpp"
 
@@ -180,15 +180,11 @@ class TileVertices {
     for (const SeamEdge& seam : seams) ids_[foreign(seam)] = seam.foreign.id;
   }
 
-  LocalIndex size() const { return static_cast<LocalIndex>(ids_.size()); }
-  LocalIndex owned() const { return owned_; }
-  std::span<const PointId> ids() const { return ids_; }
+  PartVertices part() const { return {ids_, owned_}; }
   LocalIndex foreign(const SeamEdge& seam) const {
     const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), seam.foreign.row);
     return owned_ + static_cast<LocalIndex>(at - foreign_.begin());
   }
-  // Two tiles know of an edge between them: that of the lower id tells of it.
-  bool tells(const WeightedEdge& edge) const { return edge.b < owned_ || ids_[edge.a] < ids_[edge.b]; }
   Vertex operator[](LocalIndex v) const {
     return {ids_[v], v < owned_ ? Row{first_row_ + v} : foreign_[v - owned_]};
   }
@@ -220,7 +216,8 @@ class Tracer {
     });
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
-      needs[t] = scan_.edges.count(t) * kBytesPerEdge + store_.tiling().tiles[t].points * kBytesPerPoint;
+      needs[t] = (scan_.edges.count(t) + seams_.count(t)) * kBytesPerEdge +
+                 store_.tiling().tiles[t].points * kBytesPerPoint;
     }
     job_.crew.for_each_within(needs, job_.memory.global,
                               [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
@@ -232,8 +229,7 @@ class Tracer {
   }
 
  private:
-  // Loops that nothing outside of the tile has to do with are found here; what else may matter to those
-  // elsewhere goes on: of most edges it is known here that they are left out, or that no loop needs them.
+  // Loops that nothing outside of the tile has to do with are found here; what may matter elsewhere goes on.
   void trace_tile(TileIndex t) {
     const Tile& tile = store_.tiling().tiles[t];
     std::vector<WeightedEdge> edges = scan_.edges.read(t);
@@ -241,66 +237,39 @@ class Tracer {
     const std::vector<SeamEdge> seams = seams_.read(t);
     if (edges.empty() && seams.empty()) return;
     const TileVertices vertices(tile, store_.points(t), seams);
-    std::vector<LocalIndex> foreign(vertices.size() - vertices.owned());
-    std::iota(foreign.begin(), foreign.end(), vertices.owned());
     for (const SeamEdge& seam : seams) edges.push_back({seam.owned, vertices.foreign(seam), seam.weight});
     eligible_edges_ += static_cast<std::uint64_t>(std::count_if(
-        edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.tells(edge); }));
-    order_edges(edges, vertices.ids());
+        edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
 
     Scratch scratch(job_.workspace, job_.memory.limit);
-    Spanning spanning(vertices.ids(), e_, scratch, foreign);
-    std::vector<WeightedEdge> undecided;
-    std::vector<LocalIndex> open;
-    std::erase_if(edges, [&](const WeightedEdge& edge) {
-      const Verdict verdict = spanning.add({edge.a, edge.b});
-      if (verdict == Verdict::undecided) undecided.push_back(edge);
-      // The other tile may tell of it, not knowing the path that speaks against it: that has to go on too.
-      if (verdict == Verdict::left_out && !vertices.tells(edge)) open.push_back(edge.a);
-      return verdict != Verdict::taken;
-    });
-    std::vector<LocalIndex> parents(vertices.size());
-    UnionFind parts(parents);
-    for (const WeightedEdge& edge : edges) parts.unite(edge.a, edge.b);
-    for (const WeightedEdge& edge : undecided) parts.unite(edge.a, edge.b);
-    components_ += closed_parts(parts, edges, foreign);
-
-    for (LocalIndex v = 0; v < vertices.size(); ++v) {
-      if (spanning.is_open(v)) open.push_back(v);
-    }
-    sort_once(open);
-    const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
+    const SettledPart part = settle_part(vertices.part(), std::move(edges), e_, scratch);
     trace(
-        cycles.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
-
-    edges.insert(edges.end(), undecided.begin(), undecided.end());
-    std::erase_if(edges, [&](const WeightedEdge& edge) {
-      return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.tells(edge);
-    });
-    pass_on(t, vertices, parts, edges, seams);
+        part.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
+    UnionFind connected(part.links);
+    components_ += closed_components(vertices.part(), connected);
+    pass_on(t, vertices, connected, part.passed_on, seams);
   }
 
-  // Components with an edge that lead to no other tile.
-  static std::uint64_t closed_parts(UnionFind& parts, std::span<const WeightedEdge> edges,
-                                    std::span<const LocalIndex> foreign) {
-    std::vector<LocalIndex> roots, open;
-    for (const WeightedEdge& edge : edges) roots.push_back(parts.find(edge.a));
-    for (const LocalIndex v : foreign) open.push_back(parts.find(v));
-    sort_once(roots);
-    sort_once(open);
-    return static_cast<std::uint64_t>(std::count_if(roots.begin(), roots.end(), [&](LocalIndex root) {
-      return !std::binary_search(open.begin(), open.end(), root);
-    }));
+  // Components with an edge, but none to another tile.
+  static std::uint64_t closed_components(const PartVertices& vertices, UnionFind& connected) {
+    enum : std::uint8_t { kHasEdge = 1, kIsOpen = 2 };
+    std::vector<std::uint8_t> roots(vertices.size());
+    for (LocalIndex v = 0; v < vertices.size(); ++v) {
+      const LocalIndex root = connected.find(v);
+      if (root != v) roots[root] |= kHasEdge;
+      if (v >= vertices.owned) roots[root] |= kIsOpen;
+    }
+    return static_cast<std::uint64_t>(std::count(roots.begin(), roots.end(), kHasEdge));
   }
 
   // `edges`: of parts that seam edges leave.
-  void pass_on(TileIndex t, const TileVertices& vertices, UnionFind& parts,
+  void pass_on(TileIndex t, const TileVertices& vertices, UnionFind& connected,
                std::span<const WeightedEdge> edges, std::span<const SeamEdge> seams) {
-    std::vector<LocalIndex> part_of(vertices.size(), kNoIndex);  // of a root
+    std::vector<LocalIndex> part_of(vertices.part().size(), kNoIndex);  // of a root
     std::vector<OpenPart> open_parts;
     std::vector<Join> joins;
     for (const SeamEdge& seam : seams) {
-      LocalIndex& part = part_of[parts.find(seam.owned)];
+      LocalIndex& part = part_of[connected.find(seam.owned)];
       if (part == kNoIndex) {
         part = static_cast<LocalIndex>(open_parts.size());
         open_parts.push_back({seam.own.row, 0});
@@ -310,7 +279,7 @@ class Tracer {
     }
     std::vector<ComponentEdge> open_edges;
     for (const WeightedEdge& edge : edges) {
-      const LocalIndex part = part_of[parts.find(edge.a)];
+      const LocalIndex part = part_of[connected.find(edge.a)];
       ++open_parts[part].edges;
       open_edges.push_back(component_edge(part, edge.weight, vertices[edge.a], vertices[edge.b]));
     }

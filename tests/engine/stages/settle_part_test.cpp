@@ -1,0 +1,153 @@
+#include "engine/stages/settle_part.hpp"
+
+#include "engine/stages/evaluate.hpp"
+#include "engine/stages/loops.hpp"
+#include "engine/stages/order_edges.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using Loops = std::vector<std::vector<LocalIndex>>;  // by id
+
+struct Whole {
+  std::vector<PointId> ids;
+  std::vector<WeightedEdge> edges;
+};
+
+void add_loops(const SpanningGraph& graph, Scratch& scratch, Loops& loops) {
+  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
+    auto& loop = loops.emplace_back();
+    for (const LocalIndex v : found) loop.push_back(static_cast<LocalIndex>(value(graph.ids[v])));
+  });
+}
+
+Loops loops_of(const std::vector<PointId>& ids, std::vector<WeightedEdge> edges, std::int64_t e) {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder / "", 1 << 20);
+  order_edges(edges, ids);
+  Spanning spanning(ids, e, scratch);
+  for (const WeightedEdge& edge : edges) spanning.add({edge.a, edge.b});
+  Loops loops;
+  add_loops(spanning.finish(), scratch, loops);
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+// Part by part, then what these pass on. part_of: of each vertex.
+Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int parts, std::int64_t e,
+                     std::size_t* passed_on = nullptr) {
+  Loops loops;
+  std::vector<WeightedEdge> rest;
+  for (int part = 0; part < parts; ++part) {
+    std::vector<LocalIndex> vertices;  // owned ones first
+    for (LocalIndex v = 0; v < whole.ids.size(); ++v) {
+      if (part_of[v] == part) vertices.push_back(v);
+    }
+    const auto owned = static_cast<LocalIndex>(vertices.size());
+    std::map<LocalIndex, LocalIndex> number;
+    for (LocalIndex i = 0; i < owned; ++i) number[vertices[i]] = i;
+    std::vector<WeightedEdge> edges;
+    for (auto [a, b, weight] : whole.edges) {
+      if (part_of[a] != part) std::swap(a, b);
+      if (part_of[a] != part) continue;
+      if (number.emplace(b, static_cast<LocalIndex>(vertices.size())).second) vertices.push_back(b);
+      edges.push_back({number[a], number[b], weight});
+    }
+    std::vector<PointId> ids;
+    for (const LocalIndex v : vertices) ids.push_back(whole.ids[v]);
+    const test::ScratchFolder folder;
+    Scratch scratch(folder / "", 1 << 20);
+    const SettledPart settled = settle_part({ids, owned}, edges, e, scratch);
+    add_loops(settled.settled, scratch, loops);
+    for (const WeightedEdge& edge : settled.passed_on)
+      rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight});
+  }
+  if (passed_on) *passed_on += rest.size();
+  for (const auto& loop : loops_of(whole.ids, rest, e)) loops.push_back(loop);
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+// A ring 0, 1, ... n - 1, edges ever heavier.
+Whole ring(LocalIndex n) {
+  Whole whole;
+  for (LocalIndex v = 0; v < n; ++v) {
+    whole.ids.push_back(PointId{v});
+    whole.edges.push_back({v, (v + 1) % n, v * kProbabilityStep});
+  }
+  return whole;
+}
+
+TEST_CASE("a ring inside one part is settled there, one over two parts is passed on whole") {
+  const Whole whole = ring(10);
+  std::size_t passed_on = 0;
+  const Loops once = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
+  CHECK(loops_by_parts(whole, std::vector<int>(10, 0), 1, 5, &passed_on) == once);
+  CHECK(passed_on == 0);
+  CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 5, &passed_on) == once);
+  CHECK(passed_on == 10);
+  CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 10).empty());
+}
+
+TEST_CASE("the loops found part by part are those of the whole, for random graphs in random parts") {
+  std::size_t passed_on = 0, all = 0, loops = 0;
+  for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+    Random random(seed);
+    const auto width = static_cast<LocalIndex>(random.whole(2, 9));
+    const auto vertices = static_cast<LocalIndex>(random.whole(2, 90));
+    Whole whole;
+    std::vector<std::uint64_t> ids(vertices);
+    for (LocalIndex v = 0; v < vertices; ++v) ids[v] = v;
+    for (LocalIndex v = vertices; v > 1; --v)
+      std::swap(ids[v - 1], ids[static_cast<std::size_t>(random.whole(0, v - 1))]);
+    for (const std::uint64_t id : ids) whole.ids.push_back(PointId{id});
+    // Near each other on a grid of this width; some weights are equal.
+    const double density = random.uniform(0.2, 0.9);
+    for (LocalIndex a = 0; a < vertices; ++a) {
+      for (const LocalIndex step : {LocalIndex{1}, width - 1, width, width + 1, 2 * width}) {
+        if (step == 0 || a + step >= vertices || !random.chance(density)) continue;
+        if (step == 1 && width <= 2) continue;
+        const double weight = static_cast<double>(random.whole(0, 200)) * kProbabilityStep;
+        whole.edges.push_back({a, a + step, weight});
+      }
+    }
+    std::set<std::pair<LocalIndex, LocalIndex>> drawn;
+    std::erase_if(whole.edges, [&](const WeightedEdge& edge) {
+      return !drawn.insert({edge.a, edge.b}).second;
+    });
+    const int parts = static_cast<int>(random.whole(1, 4));
+    const std::int64_t rows = random.whole(1, 30);
+    std::vector<int> part_of;
+    for (LocalIndex v = 0; v < vertices; ++v) {
+      part_of.push_back(random.chance(0.02) ? static_cast<int>(random.whole(0, parts - 1))
+                                            : static_cast<int>(v / rows % parts));
+    }
+    const std::int64_t e = random.whole(1, 12);
+    INFO("seed " << seed << ", e = " << e);
+    const Loops expected = loops_of(whole.ids, whole.edges, e);
+    CHECK(loops_by_parts(whole, part_of, parts, e, &passed_on) == expected);
+    all += whole.edges.size();
+    loops += expected.size();
+  }
+  CHECK(loops > 1000);
+  CHECK(passed_on < all);
+}
+
+TEST_CASE("a part without vertices passes nothing on") {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder / "", 1 << 20);
+  const SettledPart part = settle_part({{}, 0}, {}, 14, scratch);
+  CHECK(part.settled.size() == 0);
+  CHECK(part.passed_on.empty());
+}
+
+}  // namespace
+}  // namespace lacuna
