@@ -11,8 +11,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
-#include <tuple>
 
 namespace lacuna {
 namespace {

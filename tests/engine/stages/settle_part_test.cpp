@@ -97,14 +97,18 @@ TEST_CASE("a ring inside one part is settled there, one over two parts is passed
   CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 10).empty());
 }
 
-// 2 and 3 are of one part, 0 and 1 of the other, which tells of the edges between. To it 2 has no path but
-// those edges; only the first part knows that 2 is beside 3, and so that neither of them closes a long loop.
+// 0 and 1 are of one part, which tells of the edges between. The other is a path 2 3 4 5, with 6 beside 3.
+// Only it knows that neither (0, 6) nor (1, 6) closes a loop of more than 5 edges: by way of 3, where
+// otherwise nothing leads out.
 TEST_CASE("a path that speaks against an edge of which the other part tells is passed on") {
-  const double step = kProbabilityStep;
-  const Whole whole = {{PointId{0}, PointId{1}, PointId{2}, PointId{3}},
-                       {{2, 3, 0}, {0, 3, step}, {1, 3, 2 * step}, {0, 2, 3 * step}, {1, 2, 4 * step}}};
-  CHECK(loops_of(whole.ids, whole.edges, 3).empty());
-  CHECK(loops_by_parts(whole, {1, 1, 0, 0}, 2, 3).empty());
+  Whole whole;
+  for (LocalIndex v = 0; v < 7; ++v) whole.ids.push_back(PointId{v});
+  for (const auto& [a, b] : std::vector<std::pair<LocalIndex, LocalIndex>>{
+           {2, 3}, {3, 4}, {4, 5}, {3, 6}, {0, 2}, {1, 5}, {0, 6}, {1, 6}}) {
+    whole.edges.push_back({a, b, static_cast<double>(whole.edges.size()) * kProbabilityStep});
+  }
+  CHECK(loops_of(whole.ids, whole.edges, 5).empty());
+  CHECK(loops_by_parts(whole, {1, 1, 0, 0, 0, 0, 0}, 2, 5).empty());
 }
 
 TEST_CASE("the loops found part by part are those of the whole, for random graphs in random parts") {
