@@ -12,8 +12,6 @@ namespace {
 // may be as near to each other as one edge.
 constexpr std::int64_t kToUnknown = 1;
 
-constexpr std::int64_t kNear = 3;
-
 }  // namespace
 
 // Two distinct edges close no loop of 2: e = 1 is as good as e = 2, and leaves room for half steps.
@@ -33,7 +31,7 @@ Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratc
 Verdict Spanning::add(LocalEdge edge) {
   scratch_.breathe();
   const auto [a, b] = edge;
-  if (are_near(a, b)) return Verdict::left_out;
+
   if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
   if (may_connect_outside(a, b)) {
     approach(a, horizon_ - kToUnknown);
@@ -97,30 +95,6 @@ void Spanning::for_each_neighbour(const Node& node, Visit&& visit) const {
     for (std::size_t i = 0; i < here; ++i) visit(more_[block - 1].neighbours[i]);
     left -= here;
   }
-}
-
-// Is there a path of two or three edges, and is that fewer than e? Most edges are told by this, which needs
-// no marks and meets few vertices.
-bool Spanning::are_near(LocalIndex a, LocalIndex b) const {
-  if (e_ <= kNear) return false;
-  if (nodes_[a].degree > nodes_[b].degree) std::swap(a, b);
-  // Neighbours of b by the last bits of their numbers.
-  const auto bit = [](LocalIndex v) { return std::uint64_t{1} << v % 64; };
-  std::uint64_t around_b = 0;
-  for_each_neighbour(nodes_[b], [&](LocalIndex v) { around_b |= bit(v); });
-  const auto is_beside_b = [&](LocalIndex v) {
-    if (!(around_b & bit(v))) return false;
-    bool found = false;
-    for_each_neighbour(nodes_[b], [&](LocalIndex w) { found |= w == v; });
-    return found;
-  };
-  bool near = false;
-  for_each_neighbour(nodes_[a], [&](LocalIndex v) { near |= is_beside_b(v); });
-  if (near) return true;
-  for_each_neighbour(nodes_[a], [&](LocalIndex v) {
-    for_each_neighbour(nodes_[v], [&](LocalIndex w) { near |= is_beside_b(w); });
-  });
-  return near;
 }
 
 // Is there a path of at most `limit` edges? Two balls grow towards each other, the smaller front first.

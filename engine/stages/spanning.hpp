@@ -60,7 +60,6 @@ class Spanning {
     std::uint32_t next;  // 1 + place; 0: the last
   };
 
-  bool are_near(LocalIndex a, LocalIndex b) const;
   bool connects(LocalIndex a, LocalIndex b, std::int64_t limit);
   bool advance(std::uint32_t here, std::uint32_t there);
   void link(LocalIndex from, LocalIndex to);
