@@ -5,7 +5,6 @@
 #include <tuple>
 
 namespace lacuna {
-
 namespace {
 
 // Half steps from an open vertex, or the end of an undecided edge, to the middle of the unknown: two of them
@@ -31,7 +30,6 @@ Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratc
 Verdict Spanning::add(LocalEdge edge) {
   scratch_.breathe();
   const auto [a, b] = edge;
-
   if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
   if (may_connect_outside(a, b)) {
     approach(a, horizon_ - kToUnknown);
