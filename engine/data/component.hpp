@@ -25,9 +25,14 @@ struct ComponentEdge {
   }
 };
 
-// An edge between numbered vertices of one component.
+// An edge between numbered vertices.
 struct LocalEdge {
   LocalIndex a, b;
+};
+
+struct WeightedEdge {
+  LocalIndex a, b;
+  double weight;
 };
 
 }  // namespace lacuna

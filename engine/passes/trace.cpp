@@ -4,13 +4,13 @@
 #include "engine/core/row_numbers.hpp"
 #include "engine/core/scratch.hpp"
 #include "engine/stages/loops.hpp"
+#include "engine/stages/order_edges.hpp"
+#include "engine/stages/settle_part.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/union_find.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
-#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -27,8 +27,17 @@ struct Join {
   Row a, b;
 };
 
+// A part of a component, inside one tile. It goes by an end of a seam edge, a row that no other part has.
+struct OpenPart {
+  Row name;
+  std::uint64_t edges;  // told by this tile
+};
+
 // Measured: edges, vertices and graph of a component while it is traced.
 constexpr std::uint64_t kBytesPerEdge = 120;
+
+// Of a tile, whose vertices are numbered as its points are.
+constexpr std::uint64_t kBytesPerPoint = 200;
 
 ComponentEdge component_edge(std::uint64_t component, double weight, const Vertex& a, const Vertex& b) {
   return a.id < b.id ? ComponentEdge{component, weight, a, b} : ComponentEdge{component, weight, b, a};
@@ -68,29 +77,20 @@ void judge_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, c
 
 // ---- one component
 
-// An edge between numbered vertices; a has the lower id.
-struct WeightedEdge {
-  double weight;
-  LocalIndex a, b;
-};
-
-// A loop of more than e edges needs more than e vertices, and an edge more than a tree.
-bool can_hold_loop(std::uint64_t vertices, std::uint64_t edges, std::int64_t e) {
-  return vertices > static_cast<std::uint64_t>(e) && edges >= vertices;
-}
-
-void trace(const RowNumbers& rows, const SpanningGraph& graph, Scratch& scratch, RawLoops& loops) {
+// row_of(v): of a vertex of the graph.
+template <class RowOf>
+void trace(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoops& loops) {
   std::vector<Vertex> loop;
   find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
     loop.clear();
-    for (const LocalIndex v : found) loop.push_back({graph.ids[v], rows.row(v)});
+    for (const LocalIndex v : found) loop.push_back({graph.ids[v], row_of(v)});
     loops.add(loop);
   });
 }
 
 // Vertices are numbered by row: near in space, near in memory.
 void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const Job& job, RawLoops& loops) {
-  if (edges.size() <= static_cast<std::uint64_t>(e)) return;
+  if (edges.size() <= static_cast<std::uint64_t>(e)) return;  // a loop has more
   RowNumbers rows;
   rows.collect(edges.size(), [&](auto&& add) {
     for (const ComponentEdge& edge : edges) {
@@ -98,7 +98,7 @@ void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const
       add(edge.b.row);
     }
   });
-  if (!can_hold_loop(rows.size(), edges.size(), e)) return;
+  if (rows.size() <= static_cast<std::uint64_t>(e)) return;
   std::vector<PointId> ids(rows.size());
   std::vector<WeightedEdge> sorted;
   sorted.reserve(edges.size());
@@ -106,16 +106,15 @@ void trace_in_memory(std::span<const ComponentEdge> edges, std::int64_t e, const
     const LocalIndex a = rows.number(edge.a.row), b = rows.number(edge.b.row);
     ids[a] = edge.a.id;
     ids[b] = edge.b.id;
-    sorted.push_back({edge.weight, a, b});
+    sorted.push_back({a, b, edge.weight});
   }
-  job.crew.sort(std::span(sorted), [&](const WeightedEdge& x, const WeightedEdge& y) {
-    return std::tie(x.weight, ids[x.a], ids[x.b]) < std::tie(y.weight, ids[y.a], ids[y.b]);
-  });
+  order_edges(sorted, ids);
   Scratch scratch(job.workspace, job.memory.limit);
   Spanning spanning(ids, e, scratch);
   for (const WeightedEdge& edge : sorted) spanning.add({edge.a, edge.b});
   std::vector<WeightedEdge>().swap(sorted);
-  trace(rows, spanning.finish(), scratch, loops);
+  trace(
+      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
 // `edges`: of whole components, in any order.
@@ -155,10 +154,45 @@ void trace_on_disk(const std::function<void(const std::function<void(const Compo
   sorted.for_each([&](const ComponentEdge& edge) {
     spanning.add({rows.number(edge.a.row), rows.number(edge.b.row)});
   });
-  trace(rows, spanning.finish(), scratch, loops);
+  trace(
+      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
 // ---- components
+
+template <class T>
+void sort_once(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// The vertices that a tile knows of: its points, and those of other tiles at the ends of its seam edges.
+class TileVertices {
+ public:
+  TileVertices(const Tile& tile, std::span<const StoredPoint> points, std::span<const SeamEdge> seams)
+      : first_row_(value(tile.first_row)), owned_(tile.points) {
+    for (const SeamEdge& seam : seams) foreign_.push_back(seam.foreign.row);
+    sort_once(foreign_);
+    ids_.resize(owned_ + foreign_.size());
+    for (LocalIndex p = 0; p < owned_; ++p) ids_[p] = points[p].id;
+    for (const SeamEdge& seam : seams) ids_[foreign(seam)] = seam.foreign.id;
+  }
+
+  PartVertices part() const { return {ids_, owned_}; }
+  LocalIndex foreign(const SeamEdge& seam) const {
+    const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), seam.foreign.row);
+    return owned_ + static_cast<LocalIndex>(at - foreign_.begin());
+  }
+  Vertex operator[](LocalIndex v) const {
+    return {ids_[v], v < owned_ ? Row{first_row_ + v} : foreign_[v - owned_]};
+  }
+
+ private:
+  std::uint64_t first_row_;
+  LocalIndex owned_;
+  std::vector<Row> foreign_;
+  std::vector<PointId> ids_;
+};
 
 class Tracer {
  public:
@@ -171,6 +205,7 @@ class Tracer {
         seams_(job.file("seams"), tiles_, job.memory.spills / 8),
         open_edges_(job.file("open-edges"), tiles_, job.memory.spills / 8),
         joins_(job.file("joins"), tiles_, job.memory.spills / 8),
+        open_parts_(job.file("open-parts"), tiles_, job.memory.spills / 8),
         traced_{RawLoops(job.file("raw-loops"))} {}
 
   TracedLoops run() {
@@ -179,7 +214,8 @@ class Tracer {
     });
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
-      needs[t] = scan_.edges.count(t) * kBytesPerEdge + store_.tiling().tiles[t].points * sizeof(LocalIndex);
+      needs[t] = (scan_.edges.count(t) + seams_.count(t)) * kBytesPerEdge +
+                 store_.tiling().tiles[t].points * kBytesPerPoint;
     }
     job_.crew.for_each_within(needs, job_.memory.global,
                               [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
@@ -191,53 +227,63 @@ class Tracer {
   }
 
  private:
-  // Components inside the tile are traced; the edges of the others, and what holds them together, go on.
+  // Loops that nothing outside of the tile has to do with are found here; what may matter elsewhere goes on.
   void trace_tile(TileIndex t) {
     const Tile& tile = store_.tiling().tiles[t];
-    const std::vector<TileEdge> edges = scan_.edges.read(t);
+    std::vector<WeightedEdge> edges = scan_.edges.read(t);
     scan_.edges.drop(t);
     const std::vector<SeamEdge> seams = seams_.read(t);
     if (edges.empty() && seams.empty()) return;
+    const TileVertices vertices(tile, store_.points(t), seams);
+    for (const SeamEdge& seam : seams) edges.push_back({seam.owned, vertices.foreign(seam), seam.weight});
+    eligible_edges_ += static_cast<std::uint64_t>(std::count_if(
+        edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
 
-    std::vector<LocalIndex> parents(tile.points);
-    UnionFind parts(parents);
-    for (const TileEdge& edge : edges) parts.unite(edge.a, edge.b);
-    // An open part goes by its first end of a seam edge: a row that no other part has.
-    std::vector<LocalIndex> open(tile.points, kNoIndex);
+    Scratch scratch(job_.workspace, job_.memory.limit);
+    const SettledPart part = settle_part(vertices.part(), std::move(edges), e_, scratch);
+    trace(
+        part.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, traced_.loops);
+    UnionFind connected(part.links);
+    components_ += closed_components(vertices.part(), connected);
+    pass_on(t, vertices, connected, part.passed_on, seams);
+  }
+
+  // Components with an edge, but none to another tile.
+  static std::uint64_t closed_components(const PartVertices& vertices, UnionFind& connected) {
+    enum : std::uint8_t { kHasEdge = 1, kIsOpen = 2 };
+    std::vector<std::uint8_t> roots(vertices.size());
+    for (LocalIndex v = 0; v < vertices.size(); ++v) {
+      const LocalIndex root = connected.find(v);
+      if (root != v) roots[root] |= kHasEdge;
+      if (v >= vertices.owned) roots[root] |= kIsOpen;
+    }
+    return static_cast<std::uint64_t>(std::count(roots.begin(), roots.end(), kHasEdge));
+  }
+
+  // `edges`: of parts that seam edges leave.
+  void pass_on(TileIndex t, const TileVertices& vertices, UnionFind& connected,
+               std::span<const WeightedEdge> edges, std::span<const SeamEdge> seams) {
+    std::vector<LocalIndex> part_of(vertices.part().size(), kNoIndex);  // of a root
+    std::vector<OpenPart> open_parts;
     std::vector<Join> joins;
     for (const SeamEdge& seam : seams) {
-      LocalIndex& name = open[parts.find(seam.owned)];
-      if (name == kNoIndex) name = seam.owned;
-      joins.push_back({row(tile, name), seam.own.row});
+      LocalIndex& part = part_of[connected.find(seam.owned)];
+      if (part == kNoIndex) {
+        part = static_cast<LocalIndex>(open_parts.size());
+        open_parts.push_back({seam.own.row, 0});
+      }
+      joins.push_back({open_parts[part].name, seam.own.row});
       if (seam.own.id < seam.foreign.id) joins.push_back({seam.own.row, seam.foreign.row});
     }
-
-    const std::vector<StoredPoint> points = store_.points(t);
-    const auto vertex = [&](LocalIndex p) { return Vertex{points[p].id, row(tile, p)}; };
-    std::vector<ComponentEdge> closed_edges, open_edges;
-    std::uint64_t closed = 0;
-    std::vector<bool> counted(tile.points);
-    for (const TileEdge& edge : edges) {
-      const LocalIndex part = parts.find(edge.a);
-      if (open[part] != kNoIndex) {
-        open_edges.push_back(
-            component_edge(value(row(tile, open[part])), edge.weight, vertex(edge.a), vertex(edge.b)));
-      } else {
-        closed_edges.push_back(component_edge(part, edge.weight, vertex(edge.a), vertex(edge.b)));
-        closed += !counted[part];
-        counted[part] = true;
-      }
+    std::vector<ComponentEdge> open_edges;
+    for (const WeightedEdge& edge : edges) {
+      const LocalIndex part = part_of[connected.find(edge.a)];
+      ++open_parts[part].edges;
+      open_edges.push_back(component_edge(part, edge.weight, vertices[edge.a], vertices[edge.b]));
     }
-    for (const SeamEdge& seam : seams) {
-      if (!(seam.own.id < seam.foreign.id)) continue;
-      open_edges.push_back(component_edge(value(row(tile, open[parts.find(seam.owned)])), seam.weight,
-                                          seam.own, seam.foreign));
-    }
-    components_ += closed;
-    eligible_edges_ += closed_edges.size() + open_edges.size();
     open_edges_.append(t, open_edges);
+    open_parts_.append(t, open_parts);
     joins_.append(t, joins);
-    trace_components(closed_edges, e_, job_, traced_.loops);
   }
 
   void trace_open_components() {
@@ -256,11 +302,16 @@ class Tracer {
     }
 
     const std::span<std::uint64_t> edge_counts = scratch.array<std::uint64_t>(ends.size());
-    const auto component_of = [&](const ComponentEdge& edge) {
-      return components.find(end_of(Row{edge.component}));
-    };
+    const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(ends.size());  // by part
+    std::vector<std::uint64_t> first_part;                                              // by tile
+    std::uint64_t parts = 0;
     for (std::size_t t = 0; t < tiles_; ++t) {
-      for (const ComponentEdge& edge : open_edges_.read(t)) ++edge_counts[component_of(edge)];
+      first_part.push_back(parts);
+      for (const OpenPart& part : open_parts_.read(t)) {
+        const LocalIndex component = components.find(end_of(part.name));
+        edge_counts[component] += part.edges;
+        component_of[parts++] = component;
+      }
     }
 
     // Batches of whole components, as many as fit.
@@ -270,21 +321,19 @@ class Tracer {
     std::vector<std::uint64_t> batch_edges;
     for (std::size_t c = 0; c < ends.size(); ++c) {
       scratch.breathe();
+      components_ += components.find(static_cast<LocalIndex>(c)) == c;
       if (edge_counts[c] == 0) continue;
-      ++components_;
       if (batch_edges.empty() || batch_edges.back() + edge_counts[c] > most) batch_edges.push_back(0);
       batch_edges.back() += edge_counts[c];
       batch_of[c] = static_cast<std::uint32_t>(batch_edges.size() - 1);
     }
     Spill<ComponentEdge> batches(job_.file("batches"), batch_edges.size(), job_.memory.spills / 4);
-    for (std::size_t t = 0; t < tiles_; ++t) {
-      for (ComponentEdge edge : open_edges_.read(t)) {
-        const LocalIndex component = component_of(edge);
-        edge.component = component;
-        batches.append(batch_of[component], edge);
-      }
+    job_.crew.for_each(tiles_, [&](std::size_t t) {
+      std::vector<ComponentEdge> edges = open_edges_.read(t);
       open_edges_.drop(t);
-    }
+      for (ComponentEdge& edge : edges) edge.component = component_of[first_part[t] + edge.component];
+      append_batches(edges, batch_of, batches);
+    });
 
     const std::uint64_t fits = job_.memory.global / 2 / kBytesPerEdge;
     std::vector<std::uint64_t> needs(batch_edges.size());
@@ -304,6 +353,17 @@ class Tracer {
     }
   }
 
+  static void append_batches(std::vector<ComponentEdge>& edges, std::span<const std::uint32_t> batch_of,
+                             Spill<ComponentEdge>& batches) {
+    const auto batch = [&](const ComponentEdge& edge) { return batch_of[edge.component]; };
+    std::sort(edges.begin(), edges.end(),
+              [&](const ComponentEdge& x, const ComponentEdge& y) { return batch(x) < batch(y); });
+    for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+      for (end = begin; end < edges.size() && batch(edges[end]) == batch(edges[begin]);) ++end;
+      batches.append(batch(edges[begin]), std::span(edges).subspan(begin, end - begin));
+    }
+  }
+
   // Rows at the ends of seam edges, ascending, each once.
   std::span<Row> seam_ends(Scratch& scratch) {
     std::uint64_t most = 0;
@@ -315,8 +375,7 @@ class Tracer {
       rows.clear();
       for (const SeamEdge& seam : seams_.read(t)) rows.push_back(seam.own.row);
       seams_.drop(t);
-      std::sort(rows.begin(), rows.end());
-      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+      sort_once(rows);
       for (const Row row : rows) {
         ends[count++] = row;
         scratch.breathe();
@@ -335,6 +394,7 @@ class Tracer {
   Spill<SeamEdge> seams_;
   Spill<ComponentEdge> open_edges_;
   Spill<Join> joins_;
+  Spill<OpenPart> open_parts_;
   TracedLoops traced_;
   std::atomic<std::uint64_t> eligible_edges_ = 0, components_ = 0;
 };

@@ -41,9 +41,9 @@ struct TracedLoops {
   std::uint64_t components = 0;  // of the graph of eligible edges, with an edge
 };
 
-// Union-find first within each tile, then over the ends of edges between tiles. Components inside one tile
-// are spanned and searched there and then; the others are gathered in batches that fit in memory. A
-// component larger than that is sorted on disk and spanned in mapped arrays. Consumes edges and crossings.
+// Each tile settles what it can: most edges, and the loops that lead to no other tile. What the tiles pass on
+// is gathered by component, in batches that fit in memory, spanned again and searched. A component larger
+// than that is sorted on disk and spanned in mapped arrays. Consumes edges and crossings.
 TracedLoops trace_loops(EvaluatedScan& scan, const TileStore& store, std::int64_t e, Job& job);
 
 }  // namespace lacuna

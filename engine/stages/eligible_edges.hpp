@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/data/component.hpp"
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
 
@@ -11,8 +12,8 @@ namespace lacuna {
 
 // What an edge's weight needs to know of one of its ends.
 struct Strength {
-  double mean_distance;  // r_p
-  float probability;     // Pi
+  double mean_distance;       // r_p
+  float probability;          // Pi
   std::uint32_t padding = 0;  // written to disk: no byte is left to chance
 };
 
@@ -20,10 +21,7 @@ struct Strength {
 // a negative number. Exact in double precision.
 double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
 
-struct TileEdge {
-  LocalIndex a, b;  // owned
-  double weight;
-};
+using TileEdge = WeightedEdge;  // between owned points
 
 // An edge from an owned point to a foreign one whose Pi is not known yet.
 struct Crossing {

@@ -5,21 +5,65 @@
 #include <tuple>
 
 namespace lacuna {
+namespace {
 
-Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch)
+// Half steps from an open vertex, or the end of an undecided edge, to the middle of the unknown: two of them
+// may be as near to each other as one edge.
+constexpr std::int64_t kToUnknown = 1;
+
+}  // namespace
+
+// Two distinct edges close no loop of 2: e = 1 is as good as e = 2, and leaves room for half steps.
+Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,
+                   std::span<const LocalIndex> open)
     : ids_(ids),
-      e_(e),
+      e_(std::max<std::int64_t>(e, 2)),
       scratch_(scratch),
       trees_(scratch.array<LocalIndex>(ids.size())),
-      nodes_(scratch.array<Node>(ids.size())) {
+      nodes_(scratch.array<Node>(ids.size())),
+      nearness_(scratch.array<std::uint32_t>(open.empty() ? 0 : ids.size())),
+      horizon_(2 * (e_ - 1)) {
   static_assert(sizeof(Node) == 32 && sizeof(MoreNeighbours) == 32);
+  for (const LocalIndex v : open) approach(v, horizon_ - kToUnknown);
 }
 
-void Spanning::add(LocalEdge edge) {
+Verdict Spanning::add(LocalEdge edge) {
   scratch_.breathe();
-  if (!trees_.unite(edge.a, edge.b) && connects(edge.a, edge.b, e_ - 1)) return;
-  link(edge.a, edge.b);
-  link(edge.b, edge.a);
+  const auto [a, b] = edge;
+  if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
+  if (may_connect_outside(a, b)) {
+    approach(a, horizon_ - kToUnknown);
+    approach(b, horizon_ - kToUnknown);
+    return Verdict::undecided;
+  }
+  trees_.unite(a, b);
+  link(a, b);
+  link(b, a);
+  if (!nearness_.empty()) {
+    approach(a, std::int64_t{nearness_[b]} - 2);
+    approach(b, std::int64_t{nearness_[a]} - 2);
+  }
+  return Verdict::taken;
+}
+
+// Can there be a path of fewer than e edges by way of what is not known?
+bool Spanning::may_connect_outside(LocalIndex a, LocalIndex b) const {
+  return !nearness_.empty() && std::int64_t{nearness_[a]} + nearness_[b] >= horizon_;
+}
+
+// v is at least so near to what is not known, and with it those around it.
+void Spanning::approach(LocalIndex v, std::int64_t nearness) {
+  const auto raise = [&](LocalIndex w, std::int64_t to) {
+    if (to <= nearness_[w]) return;
+    nearness_[w] = static_cast<std::uint32_t>(to);
+    next_.push_back(w);
+  };
+  next_.clear();
+  raise(v, nearness);
+  for (std::size_t i = 0; i < next_.size(); ++i) {
+    for_each_neighbour(nodes_[next_[i]],
+                       [&](LocalIndex w) { raise(w, std::int64_t{nearness_[next_[i]]} - 2); });
+  }
 }
 
 void Spanning::link(LocalIndex from, LocalIndex to) {
@@ -90,6 +134,10 @@ bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
   }
   near_.swap(next_);
   return false;
+}
+
+bool Spanning::is_open(LocalIndex v) const {
+  return !nearness_.empty() && nearness_[v] + kToUnknown >= horizon_;
 }
 
 SpanningGraph Spanning::finish() {

@@ -25,15 +25,24 @@ struct SpanningGraph {
   }
 };
 
+enum class Verdict : std::uint8_t { taken, left_out, undecided };
+
 // Built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two trees joins
 // them; one within a tree is taken only if the loop that it closes has more than e edges: no path of fewer
 // than e edges between its ends so far. The graph lives in `scratch`. Cost: per edge within a tree, the
 // vertices within e / 2 steps.
+//
+// `open`: vertices at which edges may be missing, since others know them. Then a verdict is given only if it
+// holds whatever is missing: left out, since more edges only make paths shorter; taken, since no path by
+// way of open vertices or undecided edges can be short enough. An undecided edge is not in the graph.
 class Spanning {
  public:
-  Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch);
+  Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,
+           std::span<const LocalIndex> open = {});
 
-  void add(LocalEdge edge);
+  Verdict add(LocalEdge edge);
+  // An edge may be missing at v, or be undecided.
+  bool is_open(LocalIndex v) const;
   SpanningGraph finish();
 
  private:
@@ -54,6 +63,8 @@ class Spanning {
   bool connects(LocalIndex a, LocalIndex b, std::int64_t limit);
   bool advance(std::uint32_t here, std::uint32_t there);
   void link(LocalIndex from, LocalIndex to);
+  bool may_connect_outside(LocalIndex a, LocalIndex b) const;
+  void approach(LocalIndex v, std::int64_t nearness);
   template <class Visit>
   void for_each_neighbour(const Node& node, Visit&& visit) const;
 
@@ -66,6 +77,9 @@ class Spanning {
   std::uint64_t half_edges_ = 0;
   std::uint32_t stamp_ = 0;
   std::vector<LocalIndex> near_, far_, next_;  // fronts of a search
+  // By vertex, in half steps, how far below `horizon_` its way to what is not known is; empty: all is known.
+  std::span<std::uint32_t> nearness_;
+  std::int64_t horizon_;
 };
 
 }  // namespace lacuna

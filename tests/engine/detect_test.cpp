@@ -197,6 +197,21 @@ TEST_CASE("tiling and threads never show, on a cloud made to be hard") {
   check_equal(run_engine(cloud, tiled(config, 500)), reference::detect(cloud.positions, {}, config));
 }
 
+// Thick with noise, nearly every point is a candidate: most of the graph is loops that reach over many tiles.
+TEST_CASE("tiling never shows in a tangle of short loops across many tiles") {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    const Cloud cloud = scattered(1500, seed).scaled(40).noisy(0.5, seed).shuffled(seed);
+    Config config;
+    config.spanning.e = 3 + static_cast<std::int64_t>(seed % 8);
+    INFO("seed " << seed);
+    const std::string one_tile = run_engine(cloud, tiled(config, 1'000'000, 1)).bytes();
+    for (const std::int64_t tile_points : {1, 40, 300})
+      CHECK(run_engine(cloud, tiled(config, tile_points)).bytes() == one_tile);
+    if (seed <= 4)
+      check_equal(run_engine(cloud, tiled(config, 100)), reference::detect(cloud.positions, {}, config));
+  }
+}
+
 // ---- Degenerate and difficult clouds -------------------------------------------------------------------
 
 void check_against_plain(const Cloud& cloud, const Config& config = {}, std::int64_t tile_points = 300) {

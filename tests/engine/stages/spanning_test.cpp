@@ -133,6 +133,68 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
   }
 }
 
+// The verdicts on the edges that are known here, those of which one end is below `owned`.
+std::vector<Verdict> judge(LocalIndex vertices, LocalIndex owned, const Edges& edges, std::int64_t e) {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder / "", kInMemory);
+  std::vector<PointId> ids;
+  std::vector<LocalIndex> open;
+  for (LocalIndex v = 0; v < vertices; ++v) {
+    ids.push_back(PointId{v});
+    if (v >= owned) open.push_back(v);
+  }
+  Spanning spanning(ids, e, scratch, open);
+  std::vector<Verdict> verdicts;
+  for (const auto& [a, b] : edges) {
+    if (std::min(a, b) < owned) verdicts.push_back(spanning.add({a, b}));
+  }
+  return verdicts;
+}
+
+TEST_CASE("an edge is undecided where a short enough way may lead through the unknown") {
+  // 3 and 4 are elsewhere; the ends 0 and 2 are a step away from them: the way may be of 3 edges.
+  const Edges edges = {{0, 3}, {2, 4}, {0, 1}, {1, 2}, {0, 2}};
+  const auto t = Verdict::taken, l = Verdict::left_out, u = Verdict::undecided;
+  CHECK(judge(5, 3, edges, 2) == std::vector{t, t, t, t, t});
+  CHECK(judge(5, 3, edges, 3) == std::vector{t, t, t, t, l});
+  CHECK(judge(5, 3, {{0, 3}, {2, 4}, {0, 2}}, 3) == std::vector{t, t, t});
+  CHECK(judge(5, 3, {{0, 3}, {2, 4}, {0, 2}}, 4) == std::vector{t, t, u});
+}
+
+TEST_CASE("verdicts on a part of a random graph are those on the whole, whatever the rest is") {
+  std::size_t decided = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    const auto vertices = static_cast<LocalIndex>(random.whole(2, 120));
+    const auto owned = static_cast<LocalIndex>(random.whole(1, vertices));
+    const std::int64_t reach = random.whole(1, 6);
+    std::set<std::pair<LocalIndex, LocalIndex>> drawn;
+    for (int i = 0; i < 300; ++i) {
+      const std::int64_t a = random.whole(0, vertices - 1);
+      const std::int64_t b = std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
+      if (a != b) drawn.insert({static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)});
+    }
+    Edges edges(drawn.begin(), drawn.end());
+    for (std::size_t i = edges.size(); i > 1; --i) {
+      std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
+    }
+    const std::int64_t e = random.whole(1, 12);
+    INFO("seed " << seed << ", e = " << e);
+    const Edges taken = span_plainly(vertices, edges, e);
+    const std::vector<Verdict> verdicts = judge(vertices, owned, edges, e);
+    auto verdict = verdicts.begin();
+    for (const auto& edge : edges) {
+      if (edge.first >= owned) continue;
+      const bool is_taken = std::binary_search(taken.begin(), taken.end(), edge);
+      if (*verdict != Verdict::undecided) CHECK((*verdict == Verdict::taken) == is_taken);
+      decided += *verdict++ != Verdict::undecided;
+      ++all;
+    }
+  }
+  CHECK(decided > all / 2);
+  CHECK(decided < all);
+}
+
 TEST_CASE("the root of a set is its smallest element, whatever the order of unions") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);

@@ -1,0 +1,15 @@
+// order_edges: the order in which the spanning graph takes its edges (paper, 5.1).
+#pragma once
+
+#include "engine/data/component.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Ascending by (weight, lower id, higher id). Weights: multiples of kProbabilityStep, at least 0 and at most
+// 1e9. `ids`: of each vertex. Cost: linear but for edges of equal weight; as much memory again.
+void order_edges(std::vector<WeightedEdge>& edges, std::span<const PointId> ids);
+
+}  // namespace lacuna
