@@ -161,6 +161,7 @@ Mask use_given_normals(const Part& part, Surfaces& surface) {
 
 // A direction as one number: its angle from 8 to 8 + 2 pi, the neighbour's row in the lowest bits. That is
 // exact to 2e-13; without a direction: infinite.
+constexpr int kRowShift = std::countr_zero(kMostSortedDirections);
 constexpr std::int64_t kRowBits = kMostSortedDirections - 1;
 constexpr double kOffset = 8;
 
@@ -231,18 +232,26 @@ Gaps largest_gaps(const Part& part, Vectors normal, double cos_cone) {
   Gaps gap;
   gap.used = find_directions(part, normal, cos_cone);
   sort_directions(part);
-  Lanes smallest = all_lanes(kTurn);
-  for_each_turn(part, [&](Lanes turn, LaneBits, LaneBits) {
+  const auto pair_of = [](LaneBits from, LaneBits to) {
+    return from < to ? from << kRowShift | to : to << kRowShift | from;
+  };
+  Lanes smallest = all_lanes(kTurn), second{};
+  LaneBits pair{};
+  for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
+    pair = turn > gap.size ? pair_of(from, to) : pair;
+    second = larger(second, smaller(turn, gap.size));
     gap.size = larger(gap.size, turn);
     smallest = select(turn >= 0.0, smaller(smallest, turn), smallest);
   });
   // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
-  LaneBits pair = ~LaneBits{} & INT64_MAX;
-  for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
-    const LaneBits here = from < to ? from << 6 | to : to << 6 | from;
-    pair = (turn >= gap.size - kSame) & (here < pair) ? here : pair;
-  });
-  gap.near = __builtin_convertvector(pair >> 6, Lanes);
+  if (any(second >= gap.size - kSame)) {
+    pair = ~LaneBits{} & INT64_MAX;
+    for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
+      const LaneBits here = pair_of(from, to);
+      pair = (turn >= gap.size - kSame) & (here < pair) ? here : pair;
+    });
+  }
+  gap.near = __builtin_convertvector(pair >> kRowShift, Lanes);
   gap.far = __builtin_convertvector(pair & kRowBits, Lanes);
   constexpr double kInDoubt = 1.001 * kSame;
   const Mask too_many = part.counts() > static_cast<double>(kMostSortedDirections);

@@ -107,8 +107,11 @@ void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
   found_.resize(kBlock * neighbours_);
   if (neighbours_ == 0) return;
   if (guess_ == 0) guess_ = distance_to_last(first);
-  look_around(first, last, kRunGuess * guess_);
-  for (LocalIndex query = first; query < last; ++query) list_candidates(query, last, lists_[query - first]);
+  const bool together = look_around(first, last, kRunGuess * guess_);
+  for (LocalIndex query = first; query < last; ++query) {
+    if (!together) look_around(query, query + 1, kRunGuess * guess_);  // the order jumps within the run
+    list_candidates(query, together ? last : query + 1, lists_[query - first]);
+  }
   for (LocalIndex begin = first; begin < last; begin += kQueries)
     rank(begin, std::min<LocalIndex>(begin + kQueries, last), begin - first);
 }
