@@ -21,7 +21,7 @@ constexpr double kSlack = 1 + 1e-12;
 // more often.
 double wanted_candidates(std::size_t neighbours) {
   const double found = static_cast<double>(neighbours) + 1;  // with the query itself
-  return found + 2 * std::sqrt(found);
+  return found + 1.2 * std::sqrt(found);
 }
 
 struct Box {
