@@ -68,7 +68,9 @@ void CellIndex::save(const Tiling& tiling, const std::filesystem::path& file) {
   points->setTransform(transform);
   tiles->setTransform(transform);
   try {
-    openvdb::io::File(file.string()).write({points, tiles});
+    openvdb::io::File vdb(file.string());
+    vdb.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);  // more would take longer than it saves
+    vdb.write({points, tiles});
   } catch (const openvdb::Exception& error) {
     throw Error(file.string() + ": cannot write: " + error.what());
   }
