@@ -43,21 +43,35 @@ class Splitter {
     return node;
   }
 
-  // Parts the node's cells across its longest side; returns the first cell of the second half.
+  // Parts the node's cells across its longest side, half of the points before and half behind; returns the
+  // first cell of the second half.
   std::uint32_t halve(const CellNode& node) {
     const auto side = [&](int axis) { return std::int64_t{node.high[axis]} - node.low[axis]; };
     int longest = 0;
     for (int axis = 1; axis < 3; ++axis) {
       if (side(axis) > side(longest)) longest = axis;
     }
-    const std::uint32_t middle = node.first + (node.last - node.first) / 2;
-    const auto cells = tiling_.cells.begin();
-    std::nth_element(cells + node.first, cells + middle, cells + node.last,
-                     [&](const CountedCell& a, const CountedCell& b) {
-                       if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
-                       return a.coord < b.coord;
-                     });
-    return middle;
+    const auto across = [&](const CountedCell& a, const CountedCell& b) {
+      if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
+      return a.coord < b.coord;
+    };
+    // The half-way point lies in [first, last): halved until that is one cell.
+    std::uint32_t first = node.first, last = node.last;
+    std::uint64_t before = 0;
+    while (last - first > 1) {
+      const std::uint32_t middle = first + (last - first) / 2;
+      const auto cells = tiling_.cells.begin();
+      std::nth_element(cells + first, cells + middle, cells + last, across);
+      std::uint64_t points = before;
+      for (std::uint32_t i = first; i < middle; ++i) points += tiling_.cells[i].points;
+      if (points <= node.points / 2) {
+        before = points;
+        first = middle;
+      } else {
+        last = middle;
+      }
+    }
+    return std::clamp(first, node.first + 1, node.last - 1);
   }
 
   Tiling& tiling_;
