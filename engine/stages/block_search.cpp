@@ -140,32 +140,36 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
   list.count = 0;
 }
 
-// The neighbours of eight queries or fewer, whose candidates are listed from `place` on.
-void BlockSearch::rank(LocalIndex first, LocalIndex last, std::size_t place) {
-  const std::span lists = std::span(lists_).subspan(place, last - first);
-  // The query itself, its neighbours, and the one after them, which must not be as near as the last.
-  const std::size_t wanted = neighbours_ + 2;
+// Sorts the keys of eight lists or fewer, from `place` on, as far as the first `wanted` of each.
+void BlockSearch::sort_lists(std::size_t place, std::size_t count, std::size_t wanted) {
+  const std::span lists = std::span(lists_).subspan(place, count);
   std::size_t rows = wanted;
   for (const CandidateList& list : lists) rows = std::max(rows, list.count);
-  std::array<bool, kQueries> tied{};
-  tied.fill(rows > kMostSortedRows);
-  if (rows <= kMostSortedRows) {
-    if (keys_.size() < rows) keys_.resize(rows);
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-      std::size_t row = 0;
-      for (; row < lists[i].count; ++row) keys_[row].at[i] = lists[i].keys[row];
-      for (; row < rows; ++row) keys_[row].at[i] = kInfinite;
-    }
-    fastest::sort_keys(keys_.data(), sorting_network(rows, wanted), wanted, tied.data());
+  bool* const tied = &tied_[place];
+  std::fill_n(tied, count, true);
+  if (rows > kMostSortedRows) return;
+  std::vector<KeyRow>& keys = keys_[place / kQueries];
+  if (keys.size() < rows) keys.resize(rows);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t row = 0;
+    for (; row < lists[i].count; ++row) keys[row].at[i] = lists[i].keys[row];
+    for (; row < rows; ++row) keys[row].at[i] = kInfinite;
   }
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    const LocalIndex query = first + static_cast<LocalIndex>(i);
-    const std::span found = std::span(found_).subspan((place + i) * neighbours_, neighbours_);
-    if (lists[i].count == 0 || tied[i]) {
-      find_carefully(query, lists[i], found);
+  fastest::sort_keys(keys.data(), sorting_network(rows, wanted), wanted, tied);
+}
+
+// The neighbours of eight queries or fewer, whose candidates are listed from `place` on.
+void BlockSearch::rank(LocalIndex first, LocalIndex last, std::size_t place) {
+  // The query itself, its neighbours, and the one after them, which must not be as near as the last.
+  sort_lists(place, last - first, neighbours_ + 2);
+  for (LocalIndex query = first; query < last; ++query, ++place) {
+    const CandidateList& list = lists_[place];
+    const std::span found = std::span(found_).subspan(place * neighbours_, neighbours_);
+    if (list.count == 0 || tied_[place]) {
+      find_carefully(query, list, found);
     } else {
       for (std::size_t rank = 0; rank < found.size(); ++rank)
-        found[rank] = lists[i].point(keys_[rank + 1].at[i]);
+        found[rank] = list.point(keys_[place / kQueries][rank + 1].at[place % kQueries]);
     }
     refuse_underflow(squared_distance(positions_[query], positions_[found[0]]), ids_[query], ids_[found[0]]);
   }
@@ -222,6 +226,56 @@ void BlockSearch::meet(LocalIndex query, LocalIndex other) {
   }
   nearest_.push_back(neighbour);
   std::push_heap(nearest_.begin(), nearest_.end());
+}
+
+// Lists and sorts the points within the radius of queries of one block.
+void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
+  look_around(first, last, radius);
+  for (LocalIndex query = first; query < last; ++query) {
+    CandidateList& list = lists_[query - first];
+    list.count = kMostCandidates + 1;
+    if (in_sight_ > 0) fastest::find_within(sight_, positions_[query].data(), radius * radius, list);
+  }
+  for (LocalIndex begin = first; begin < last; begin += kQueries) {
+    std::size_t rows = 0;
+    const std::size_t count = std::min<std::size_t>(kQueries, last - begin);
+    for (std::size_t i = 0; i < count; ++i) rows = std::max(rows, lists_[begin - first + i].count);
+    sort_lists(begin - first, count, rows);
+  }
+}
+
+void BlockSearch::collect_ball(LocalIndex query, std::size_t place, double squared_radius) {
+  const CandidateList& list = lists_[place];
+  found_.clear();
+  if (!tied_[place]) {
+    for (std::size_t rank = 1; rank < list.count; ++rank)
+      found_.push_back(list.point(keys_[place / kQueries][rank].at[place % kQueries]));
+    return;
+  }
+  nearest_.clear();
+  collect(query, squared_radius, levels_.size() - 1, 0);
+  std::sort(nearest_.begin(), nearest_.end());
+  for (const Neighbour& neighbour : nearest_) found_.push_back(neighbour.index);
+}
+
+void BlockSearch::collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group) {
+  std::array<double, kFan> gaps;
+  const double* const position = positions_[query].data();
+  levels_[level].gaps(group, position, position, gaps.data());
+  const std::size_t first = group * kFan, last = std::min(first + kFan, levels_[level].count);
+  for (std::size_t index = first; index < last; ++index) {
+    if (gaps[index - first] > squared_radius) continue;
+    if (level > 0) {
+      collect(query, squared_radius, level - 1, index);
+      continue;
+    }
+    const std::size_t end = std::min((index + 1) * kBlock, positions_.size());
+    for (std::size_t q = index * kBlock; q < end; ++q) {
+      const double distance = squared_distance(positions_[query], positions_[q]);
+      if (q != query && distance <= squared_radius)
+        nearest_.push_back({distance, ids_[q], static_cast<LocalIndex>(q)});
+    }
+  }
 }
 
 // Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many.

@@ -38,6 +38,20 @@ class BlockSearch {
     }
   }
 
+  // For each query of [first, last), in order: visit(query, points) with all other points whose squared
+  // distance is at most radius * radius, in neighbour order.
+  template <class Visit>
+  void within(LocalIndex first, LocalIndex last, double radius, Visit&& visit) {
+    for (LocalIndex begin = first, end; begin < last; begin = end) {
+      end = std::min<LocalIndex>(last, (begin / kBlock + 1) * kBlock);
+      list_balls(begin, end, radius);
+      for (LocalIndex query = begin; query < end; ++query) {
+        collect_ball(query, query - begin, radius * radius);
+        visit(query, std::span<const LocalIndex>(found_));
+      }
+    }
+  }
+
  private:
   struct Boxes;
   void find(LocalIndex first, LocalIndex last, std::size_t k);
@@ -47,6 +61,10 @@ class BlockSearch {
   double distance_to_last(LocalIndex query);
   void descend(LocalIndex query, std::size_t level, std::size_t group);
   void meet(LocalIndex query, LocalIndex other);
+  void sort_lists(std::size_t place, std::size_t count, std::size_t wanted);
+  void list_balls(LocalIndex first, LocalIndex last, double radius);
+  void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
+  void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
   std::span<const LocalIndex> found(std::size_t place) const {
     return std::span(found_).subspan(place * neighbours_, neighbours_);
@@ -60,8 +78,9 @@ class BlockSearch {
   double guess_ = 0;     // radius for the next query; 0: none yet
   double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
   Sight sight_;
-  std::array<CandidateList, kBlock> lists_;  // of the queries of a block
-  std::vector<KeyRow> keys_;
+  std::array<CandidateList, kBlock> lists_;                  // of the queries of a block
+  std::array<std::vector<KeyRow>, kBlock / kQueries> keys_;  // of eight queries each, sorted
+  std::array<bool, kBlock> tied_;
   std::size_t neighbours_ = 0;      // of each query
   std::vector<LocalIndex> found_;   // by query of the block
   std::vector<Neighbour> nearest_;  // of one query, found with care

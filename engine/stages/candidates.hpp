@@ -66,7 +66,7 @@ struct alignas(64) KeyRow {
 };
 
 // Sorts each query's keys, the first `wanted` of them into the first rows. tied[i]: whether two of these of
-// query i cannot tell which is nearer.
+// query i, other than infinite ones, cannot tell which is nearer.
 using SortKeys = void(KeyRow* rows, const SortingNetwork&, std::size_t wanted, bool* tied);
 LACUNA_DISPATCH(SortKeys, sort_keys)
 

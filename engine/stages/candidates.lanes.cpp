@@ -92,7 +92,7 @@ void sort_keys(KeyRow* rows, const SortingNetwork& network, std::size_t wanted, 
     LaneBits ties{};
     for (std::size_t i = 0; i + 1 < wanted; ++i) {
       const LaneBits a = bits(load(rows[i].at + first)), b = bits(load(rows[i + 1].at + first));
-      ties |= (a | kPlaceBits) == (b | kPlaceBits);
+      ties |= ((a | kPlaceBits) == (b | kPlaceBits)) & (from_bits(a) < __builtin_inf());
     }
     for (std::size_t lane = 0; lane < kLanes; ++lane) tied[first + lane] = ties[lane] != 0;
   }

@@ -2,10 +2,8 @@
 
 #include "engine/stages/block_search.hpp"
 #include "engine/stages/nearest_lists.hpp"
-#include "engine/stages/search.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace lacuna {
 namespace {
@@ -13,8 +11,7 @@ namespace {
 // N_p^k of every owned point.
 class Nearest {
  public:
-  Nearest(const TilePoints& points, std::size_t k) {
-    BlockSearch search(points.positions, points.ids);
+  Nearest(BlockSearch& search, const TilePoints& points, std::size_t k) {
     search.nearest(0, points.owned, k, [&](LocalIndex p, std::span<const LocalIndex> found) {
       if (p == 0) {
         lists_.count = found.size();
@@ -61,38 +58,51 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
   return rows;
 }
 
+// The points within eps of every owned point, in neighbour order.
+Rows balls(BlockSearch& search, const TilePoints& points, double eps) {
+  Rows rows;
+  if (eps == 0) {
+    rows.offsets.resize(points.owned + 1);
+    return rows;
+  }
+  search.within(0, points.owned, eps, [&](LocalIndex, std::span<const LocalIndex> found) {
+    rows.indices.insert(rows.indices.end(), found.begin(), found.end());
+    rows.offsets.push_back(static_cast<std::uint32_t>(rows.indices.size()));
+  });
+  return rows;
+}
+
 }  // namespace
 
 Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
-  const Nearest nearest(points, k);
+  BlockSearch search(points.positions, points.ids);
+  const Nearest nearest(search, points, k);
   const Rows others = one_sided(points, nearest);
+  const Rows near = balls(search, points, eps);
   const double squared_eps = eps * eps;
-  std::optional<PointTree> tree;
-  if (eps > 0) tree.emplace(points.positions, points.ids);
 
   Rows neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
-  neighbourhoods.indices.reserve(points.owned * std::min(k, points.size()) + others.indices.size());
-  std::vector<Neighbour> added, ball;
+  neighbourhoods.indices.reserve(points.owned * std::min(k, points.size()) + others.indices.size() +
+                                 near.indices.size());
+  std::vector<Neighbour> added;
   for (LocalIndex p = 0; p < points.owned; ++p) {
     const auto row = nearest[p];
     neighbourhoods.indices.insert(neighbourhoods.indices.end(), row.begin(), row.end());
 
-    // Not among the k nearest, so after them.
+    // Of the k nearest and the points within eps, one holds the other: both begin alike.
+    const auto beyond = near[p].subspan(std::min(row.size(), near[p].size()));
+    neighbourhoods.indices.insert(neighbourhoods.indices.end(), beyond.begin(), beyond.end());
+
+    // What is in neither comes after both.
     added.clear();
     const auto add = [&](LocalIndex q) {
-      added.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[q], q});
+      const double distance = squared_distance(points.positions[p], points.positions[q]);
+      if (eps == 0 || distance > squared_eps) added.push_back({distance, points.ids[q], q});
     };
     for (const LocalIndex q : others[p]) add(q);
     for (const LocalIndex q : points.linked[p]) {
       if (!nearest.holds(p, q)) add(q);
-    }
-    if (eps > 0) {
-      tree->within(p, squared_eps, ball);
-      std::erase_if(added, [&](const Neighbour& q) { return q.squared_distance <= squared_eps; });
-      for (const Neighbour& q : ball) {
-        if (!nearest.holds(p, q.index)) added.push_back(q);
-      }
     }
     std::sort(added.begin(), added.end());
     for (const Neighbour& q : added) neighbourhoods.indices.push_back(q.index);
