@@ -13,11 +13,11 @@
 #include "engine/stages/measure_loop.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/order_tile.hpp"
-#include "engine/stages/search.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/split.hpp"
 #include "engine/stages/survey.hpp"
 #include "io/file_scan.hpp"
+#include "tests/support/point_tree.hpp"
 #include "tools/synth/ply_output.hpp"
 
 #include <algorithm>

@@ -1,10 +1,13 @@
 #include "engine/stages/block_search.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 namespace lacuna {
 namespace {
@@ -314,6 +317,12 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
   }
   in_sight_ = radius;
   return true;
+}
+
+void refuse_underflow(double squared_distance, PointId a, PointId b) {
+  if (squared_distance >= std::numeric_limits<double>::min()) return;
+  throw Error("points " + std::to_string(value(a)) + " and " + std::to_string(value(b)) +
+              " differ by less than 1.5e-154: their squared distance underflows; scale the scan up");
 }
 
 }  // namespace lacuna

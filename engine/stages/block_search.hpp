@@ -3,7 +3,6 @@
 
 #include "engine/data/neighbourhoods.hpp"
 #include "engine/stages/candidates.hpp"
-#include "engine/stages/search.hpp"
 
 #include <array>
 #include <cstdint>
@@ -85,5 +84,8 @@ class BlockSearch {
   std::vector<LocalIndex> found_;   // by query of the block
   std::vector<Neighbour> nearest_;  // of one query, found with care
 };
+
+// Throws `Error` where two distinct points are so near that their squared distance loses digits.
+void refuse_underflow(double squared_distance, PointId a, PointId b);
 
 }  // namespace lacuna

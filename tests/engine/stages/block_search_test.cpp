@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "tests/support/clouds.hpp"
+#include "tests/support/point_tree.hpp"
 
 #include <algorithm>
 #include <map>
@@ -100,6 +101,37 @@ TEST_CASE("two points too near to be told apart are refused") {
   const std::vector<PointId> ids = {PointId{0}, PointId{1}, PointId{2}};
   BlockSearch search(positions, ids);
   CHECK_THROWS_AS(search.nearest(0, 3, 2, [](LocalIndex, std::span<const LocalIndex>) {}), Error);
+}
+
+TEST_CASE("the search in blocks agrees with a kd-tree on many points, within a radius too") {
+  Random random(5);
+  Cloud cloud;
+  for (int i = 0; i < 60'000; ++i) {  // a density step, noise, and a few points far away
+    const double spread = i % 100 == 0 ? 50 : 1;
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    cloud.positions.push_back({spread * (x < 0 ? 4 * x : x), spread * y, random.uniform(-0.002, 0.002)});
+  }
+  const Points points = points_of(cloud, true);
+  const auto last = static_cast<LocalIndex>(points.positions.size());
+  const PointTree tree(points.positions, points.ids);
+  BlockSearch search(points.positions, points.ids);
+  std::vector<Neighbour> expected;
+  std::size_t wrong = 0;
+  const auto compare = [&](std::span<const LocalIndex> found) {
+    wrong += !std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                         [](LocalIndex a, const Neighbour& b) { return a == b.index; });
+  };
+  search.nearest(0, last, 15, [&](LocalIndex query, std::span<const LocalIndex> found) {
+    tree.nearest(query, 15, expected);
+    compare(found);
+  });
+  for (const double radius : {0.004, 0.03, 0.2}) {
+    search.within(1000, 3000, radius, [&](LocalIndex query, std::span<const LocalIndex> found) {
+      tree.within(query, radius * radius, expected);
+      compare(found);
+    });
+  }
+  CHECK(wrong == 0);
 }
 
 }  // namespace lacuna

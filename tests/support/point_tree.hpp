@@ -1,4 +1,5 @@
-// search: exact nearest neighbours in the order of the method (4.1), by a nanoflann kd-tree.
+// Exact nearest neighbours in the order of the method (4.1) by a nanoflann kd-tree: a second opinion on the
+// search in blocks, for more points than a look at each allows.
 #pragma once
 
 #include "engine/data/neighbourhoods.hpp"
@@ -16,7 +17,6 @@ class PointTree {
   ~PointTree();
 
   // The first k points in neighbour order around point `query`, itself excluded; all where fewer exist.
-  // Throws `Error` if the squared distance to another point underflows.
   void nearest(LocalIndex query, std::size_t k, std::vector<Neighbour>& found) const;
 
   // Every point with squared distance <= `squared_radius`, `query` excluded, in neighbour order.
@@ -28,8 +28,5 @@ class PointTree {
   std::span<const PointId> ids_;
   std::unique_ptr<Index> index_;
 };
-
-// Throws `Error` where two distinct points are so near that their squared distance loses digits.
-void refuse_underflow(double squared_distance, PointId a, PointId b);
 
 }  // namespace lacuna

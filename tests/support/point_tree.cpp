@@ -1,11 +1,8 @@
-#include "engine/stages/search.hpp"
-
-#include "engine/core/error.hpp"
+#include "tests/support/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <nanoflann.hpp>
 
@@ -113,19 +110,12 @@ PointTree::~PointTree() = default;
 void PointTree::nearest(LocalIndex query, std::size_t k, std::vector<Neighbour>& found) const {
   KNearest result(query, ids_, k, found);
   index_->tree.findNeighbors(result, positions_[query].data(), kExact);
-  if (!found.empty()) refuse_underflow(found.front().squared_distance, ids_[query], found.front().id);
 }
 
 void PointTree::within(LocalIndex query, double squared_radius, std::vector<Neighbour>& found) const {
   Ball result(query, ids_, squared_radius, found);
   index_->tree.findNeighbors(result, positions_[query].data(), kExact);
   std::sort(found.begin(), found.end());
-}
-
-void refuse_underflow(double squared_distance, PointId a, PointId b) {
-  if (squared_distance >= std::numeric_limits<double>::min()) return;
-  throw Error("points " + std::to_string(value(a)) + " and " + std::to_string(value(b)) +
-              " differ by less than 1.5e-154: their squared distance underflows; scale the scan up");
 }
 
 }  // namespace lacuna
