@@ -36,8 +36,8 @@ struct OpenPart {
 // Measured: edges, vertices and graph of a component while it is traced.
 constexpr std::uint64_t kBytesPerEdge = 120;
 
-// Of a tile, whose vertices are numbered as its points are.
-constexpr std::uint64_t kBytesPerPoint = 200;
+// Of a tile.
+constexpr std::uint64_t kBytesPerVertex = 280;
 
 ComponentEdge component_edge(std::uint64_t component, double weight, const Vertex& a, const Vertex& b) {
   return a.id < b.id ? ComponentEdge{component, weight, a, b} : ComponentEdge{component, weight, b, a};
@@ -166,31 +166,36 @@ void sort_once(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// The vertices that a tile knows of: its points, and those of other tiles at the ends of its seam edges.
+// The vertices that a tile knows of: its own ends of eligible edges, in ascending row, then those of other
+// tiles at the ends of its seam edges.
 class TileVertices {
  public:
-  TileVertices(const Tile& tile, std::span<const StoredPoint> points, std::span<const SeamEdge> seams)
-      : first_row_(value(tile.first_row)), owned_(tile.points) {
+  TileVertices(const Tile& tile, std::span<const StoredVertex> own, std::span<const SeamEdge> seams)
+      : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
+    for (LocalIndex v = 0; v < own_; ++v) {
+      numbers_[own[v].owned] = v;
+      rows_.push_back(Row{value(tile.first_row) + own[v].owned});
+      ids_.push_back(own[v].point.id);
+    }
     for (const SeamEdge& seam : seams) foreign_.push_back(seam.foreign.row);
     sort_once(foreign_);
-    ids_.resize(owned_ + foreign_.size());
-    for (LocalIndex p = 0; p < owned_; ++p) ids_[p] = points[p].id;
+    rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
+    ids_.resize(rows_.size());
     for (const SeamEdge& seam : seams) ids_[foreign(seam)] = seam.foreign.id;
   }
 
-  PartVertices part() const { return {ids_, owned_}; }
+  PartVertices part() const { return {ids_, own_}; }
+  LocalIndex own(LocalIndex point) const { return numbers_[point]; }
   LocalIndex foreign(const SeamEdge& seam) const {
     const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), seam.foreign.row);
-    return owned_ + static_cast<LocalIndex>(at - foreign_.begin());
+    return own_ + static_cast<LocalIndex>(at - foreign_.begin());
   }
-  Vertex operator[](LocalIndex v) const {
-    return {ids_[v], v < owned_ ? Row{first_row_ + v} : foreign_[v - owned_]};
-  }
+  Vertex operator[](LocalIndex v) const { return {ids_[v], rows_[v]}; }
 
  private:
-  std::uint64_t first_row_;
-  LocalIndex owned_;
-  std::vector<Row> foreign_;
+  LocalIndex own_;
+  std::vector<LocalIndex> numbers_;  // of the tile's points; of those that are no vertex: any
+  std::vector<Row> rows_, foreign_;
   std::vector<PointId> ids_;
 };
 
@@ -215,7 +220,8 @@ class Tracer {
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
       needs[t] = (scan_.edges.count(t) + seams_.count(t)) * kBytesPerEdge +
-                 store_.tiling().tiles[t].points * kBytesPerPoint;
+                 scan_.vertices.count(t) * kBytesPerVertex +
+                 store_.tiling().tiles[t].points * sizeof(LocalIndex);
     }
     job_.crew.for_each_within(needs, job_.memory.global,
                               [&](std::size_t t) { trace_tile(static_cast<TileIndex>(t)); });
@@ -234,8 +240,10 @@ class Tracer {
     scan_.edges.drop(t);
     const std::vector<SeamEdge> seams = seams_.read(t);
     if (edges.empty() && seams.empty()) return;
-    const TileVertices vertices(tile, store_.points(t), seams);
-    for (const SeamEdge& seam : seams) edges.push_back({seam.owned, vertices.foreign(seam), seam.weight});
+    const TileVertices vertices(tile, scan_.vertices.read(t), seams);
+    for (WeightedEdge& edge : edges) edge = {vertices.own(edge.a), vertices.own(edge.b), edge.weight};
+    for (const SeamEdge& seam : seams)
+      edges.push_back({vertices.own(seam.owned), vertices.foreign(seam), seam.weight});
     eligible_edges_ += static_cast<std::uint64_t>(std::count_if(
         edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
 
@@ -267,7 +275,7 @@ class Tracer {
     std::vector<OpenPart> open_parts;
     std::vector<Join> joins;
     for (const SeamEdge& seam : seams) {
-      LocalIndex& part = part_of[connected.find(seam.owned)];
+      LocalIndex& part = part_of[connected.find(vertices.own(seam.owned))];
       if (part == kNoIndex) {
         part = static_cast<LocalIndex>(open_parts.size());
         open_parts.push_back({seam.own.row, 0});
