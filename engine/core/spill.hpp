@@ -1,9 +1,10 @@
 // Many append-only lists of records that together may be larger than memory.
 //
 // Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to
-// the end of the one file, each as an extent of its list, until half of the budget is free. So the file is written in long runs, whatever the order of appends, and memory stays within the
-// budget. Reading a list gathers its extents and what is still in its buffer. The order of records within
-// a list depends on threads and budget: a reader sorts them by what they hold.
+// the end of the one file, each as an extent of its list, until half of the budget is free. So the file is
+// written in long runs, whatever the order of appends, and memory stays within the budget. Reading a list
+// gathers its extents and what is still in its buffer. The order of records within a list depends on threads
+// and budget: a reader sorts them by what they hold.
 #pragma once
 
 #include "engine/core/file.hpp"
