@@ -50,9 +50,6 @@ LACUNA_INLINE Lanes all_lanes(double value) {
   return value - Lanes{};
 }
 
-LACUNA_INLINE bool any(bool mask) {
-  return mask;
-}
 LACUNA_INLINE bool any(LaneBits mask) {
 #if defined(__AVX512F__)
   return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;

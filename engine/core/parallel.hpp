@@ -8,8 +8,6 @@
 #include <memory>
 #include <span>
 
-#include <tbb/parallel_sort.h>
-
 namespace lacuna {
 
 // Threads to work with. A body may use the same crew again.
@@ -27,12 +25,6 @@ class Crew {
   // ascending order and those running together never need more than `budget`, save one alone that does.
   void for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,
                        const std::function<void(std::size_t)>& body) const;
-
-  // std::sort by all threads that have nothing else to do. `less` must be a total order of what occurs.
-  template <class T, class Less>
-  void sort(std::span<T> values, Less less) const {
-    in_arena([&] { tbb::parallel_sort(values.begin(), values.end(), less); });
-  }
 
   // What `produce` puts into a slot is changed by `transform`, several slots at a time, and taken by
   // `consume` in the order produced; a slot is filled again only after that. produce: false at the end.

@@ -89,7 +89,7 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
   Tile& tile = tiling_.tiles[index];
   assert(cell_points.size() == tile.last_cell - tile.first_cell);
   if (points.size() > tile.raw)  // its rows would run into the next tile's
-    throw Error("the input changed while it was read: more points in a tile than were counted");
+    fail_changed();
   tile.points = points.size();
   std::uint64_t row = value(tile.first_row);
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {

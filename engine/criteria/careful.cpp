@@ -32,10 +32,6 @@ double squared_length(const Vector3d& v) {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-// Directions nearer than this are one direction (its nearest neighbour stands for it), gaps nearer than this
-// are equally large: exact symmetries of the points must not be decided by rounding.
-constexpr double kSame = 1e-9;
-
 struct Direction {
   double angle;
   std::uint32_t rank;  // of the neighbour
@@ -48,8 +44,6 @@ struct Direction {
 // Of the neighbours that have a stable one, sorted.
 std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, const Vector3d& normal,
                                          double cos_cone) {
-  // A neighbour whose projection is shorter than this share of its distance projects onto p.
-  constexpr double kNoDirection = 1e-12;
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
   std::vector<Direction> directions;
   for (std::uint32_t rank = 0; rank < offsets.size(); ++rank) {
@@ -63,7 +57,7 @@ std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, c
   return directions;
 }
 
-// Runs of directions each within kSame of the one before, across pi too, become one.
+// Runs of directions each within kSameDirection of the one before, across pi too, become one.
 std::vector<Direction> merge_runs(const std::vector<Direction>& sorted) {
   const std::size_t m = sorted.size();
   const auto before = [&](std::size_t i) {
@@ -71,12 +65,12 @@ std::vector<Direction> merge_runs(const std::vector<Direction>& sorted) {
   };
   // Start behind a wider gap, so that no run is cut, and go round once.
   std::size_t start = 0;
-  while (start < m && before(start) <= kSame) ++start;
+  while (start < m && before(start) <= kSameDirection) ++start;
   if (start == m) start = 0;  // all are one direction
   std::vector<Direction> merged;
   for (std::size_t step = 0; step < m; ++step) {
     const std::size_t i = (start + step) % m;
-    if (step == 0 || before(i) > kSame) {
+    if (step == 0 || before(i) > kSameDirection) {
       merged.push_back(sorted[i]);
     } else if (sorted[i].rank < merged.back().rank) {
       merged.back() = sorted[i];
@@ -140,7 +134,7 @@ GapFit largest_gap_carefully(const Bundle& bundle, std::size_t point, const doub
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::pair<std::uint32_t, std::uint32_t> first{kNone, kNone};
   for_each_turn(directions, [&](double turn, std::size_t i) {
-    if (turn < gap.size - kSame) return;
+    if (turn < gap.size - kSameDirection) return;
     const std::uint32_t a = directions[i].rank, b = directions[i + 1 < directions.size() ? i + 1 : 0].rank;
     first = std::min(first, {std::min(a, b), std::max(a, b)});
   });

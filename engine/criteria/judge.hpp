@@ -12,6 +12,13 @@ namespace lacuna {
 inline constexpr std::size_t kBundle = 8;                 // points judged together
 inline constexpr std::size_t kMostSortedDirections = 64;  // side by side
 
+// Directions nearer than this, in radians, are one direction (its nearest neighbour stands for it), gaps
+// nearer than this are equally large: exact symmetries of the points must not be decided by rounding.
+inline constexpr double kSameDirection = 1e-9;
+
+// A neighbour whose projection is shorter than this share of its distance projects onto p.
+inline constexpr double kNoDirection = 1e-12;
+
 // A number of each.
 struct alignas(64) Eight {
   double at[kBundle];

@@ -185,8 +185,6 @@ Lanes find_directions(const Part& part, Vectors normal, double cos_cone) {
     const Vectors offset = part.offset(i);
     const Lanes distance = part.get(part.bundle.distance, i);
     const Lanes x = dot(u, offset), y = dot(v, offset);
-    // A neighbour whose projection is shorter than this share of its distance projects onto p.
-    constexpr double kNoDirection = 1e-12;
     const Lanes shortest = kNoDirection * distance;
     const Mask stable =
         (x * x + y * y > shortest * shortest) & (magnitude(dot(normal, offset)) <= cos_cone * distance);
@@ -226,9 +224,6 @@ LACUNA_INLINE void for_each_turn(const Part& part, Visit&& visit) {
 }
 
 Gaps largest_gaps(const Part& part, Vectors normal, double cos_cone) {
-  // Directions nearer than this are one direction, gaps nearer than this are equally large: exact symmetries
-  // of the points must not be decided by rounding.
-  constexpr double kSame = 1e-9;
   Gaps gap;
   gap.used = find_directions(part, normal, cos_cone);
   sort_directions(part);
@@ -244,16 +239,16 @@ Gaps largest_gaps(const Part& part, Vectors normal, double cos_cone) {
     smallest = select(turn >= 0.0, smaller(smallest, turn), smallest);
   });
   // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
-  if (any(second >= gap.size - kSame)) {
+  if (any(second >= gap.size - kSameDirection)) {
     pair = ~LaneBits{} & INT64_MAX;
     for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
       const LaneBits here = pair_of(from, to);
-      pair = (turn >= gap.size - kSame) & (here < pair) ? here : pair;
+      pair = (turn >= gap.size - kSameDirection) & (here < pair) ? here : pair;
     });
   }
   gap.near = __builtin_convertvector(pair >> kRowShift, Lanes);
   gap.far = __builtin_convertvector(pair & kRowBits, Lanes);
-  constexpr double kInDoubt = 1.001 * kSame;
+  constexpr double kInDoubt = 1.001 * kSameDirection;
   const Mask too_many = part.counts() > static_cast<double>(kMostSortedDirections);
   const Mask careful = too_many | (gap.used < 2.0) | (smallest <= kInDoubt);
   if (!any(careful)) return gap;

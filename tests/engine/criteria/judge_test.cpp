@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -33,6 +32,12 @@ Neighbourhood drawn_neighbourhood(Random& random) {
   }
   std::sort(offsets.begin(), offsets.end(), [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
   return offsets;
+}
+
+std::vector<Neighbourhood> drawn_neighbourhoods(Random& random) {
+  std::vector<Neighbourhood> points;
+  for (std::size_t i = 0; i < kBundle; ++i) points.push_back(drawn_neighbourhood(random));
+  return points;
 }
 
 struct FilledBundle {
@@ -104,8 +109,7 @@ TEST_CASE("every instruction set judges with the same bits") {
   Random random(11);
   std::size_t different = 0;
   for (int round = 0; round < 2000; ++round) {
-    std::vector<Neighbourhood> points;
-    for (std::size_t i = 0; i < kBundle; ++i) points.push_back(drawn_neighbourhood(random));
+    const std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
     const Judgements expected = judged(plain::judge, points, round % 8 == 0);
     for (Judge* const judge : available_sets()) {
       const Judgements found = judged(judge, points, round % 8 == 0);
@@ -124,8 +128,7 @@ TEST_CASE("a point is judged alike wherever it stands in a bundle, and whatever 
     const std::vector<double> alone =
         of_point(judged(fastest::judge, std::vector<Neighbourhood>(kBundle, point)), 0);
     for (std::size_t place = 0; place < kBundle; ++place) {
-      std::vector<Neighbourhood> points(kBundle);
-      for (Neighbourhood& other : points) other = drawn_neighbourhood(random);
+      std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
       points[place] = point;
       different += !same_bits(of_point(judged(fastest::judge, points), place), alone);
     }
@@ -137,8 +140,7 @@ TEST_CASE("directions sorted side by side have the gap that is found with care")
   Random random(13);
   std::size_t compared = 0;
   for (int round = 0; round < 500; ++round) {
-    std::vector<Neighbourhood> points;
-    for (std::size_t i = 0; i < kBundle; ++i) points.push_back(drawn_neighbourhood(random));
+    const std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
     const FilledBundle filled = bundle_of(points, true);
     Judgements found;
     fastest::judge(filled.bundle, kParameters, found);

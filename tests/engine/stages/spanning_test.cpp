@@ -15,6 +15,13 @@ namespace {
 
 using Edges = std::vector<std::pair<LocalIndex, LocalIndex>>;
 
+Edges shuffled(Edges edges, Random& random) {
+  for (std::size_t i = edges.size(); i > 1; --i) {
+    std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
+  }
+  return edges;
+}
+
 constexpr std::uint64_t kInMemory = 1 << 20;
 constexpr std::uint64_t kMapped = 0;
 
@@ -121,10 +128,7 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
                                  : std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
       if (a != b) drawn.insert(std::minmax(static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)));
     }
-    Edges edges(drawn.begin(), drawn.end());
-    for (std::size_t i = edges.size(); i > 1; --i) {
-      std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
-    }
+    const Edges edges = shuffled({drawn.begin(), drawn.end()}, random);
     const std::int64_t e = random.whole(1, 25);
     INFO("seed " << seed << ", e = " << e);
     const Edges expected = span_plainly(vertices, edges, e);
@@ -174,10 +178,7 @@ TEST_CASE("verdicts on a part of a random graph are those on the whole, whatever
       const std::int64_t b = std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
       if (a != b) drawn.insert({static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)});
     }
-    Edges edges(drawn.begin(), drawn.end());
-    for (std::size_t i = edges.size(); i > 1; --i) {
-      std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
-    }
+    const Edges edges = shuffled({drawn.begin(), drawn.end()}, random);
     const std::int64_t e = random.whole(1, 12);
     INFO("seed " << seed << ", e = " << e);
     const Edges taken = span_plainly(vertices, edges, e);
