@@ -1,6 +1,7 @@
 #include "engine/stages/split.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <numeric>
 
@@ -51,19 +52,35 @@ class Splitter {
     for (int axis = 1; axis < 3; ++axis) {
       if (side(axis) > side(longest)) longest = axis;
     }
+    // A histogram across finds the slab of cells that holds the half-way point; only that is ordered.
+    const auto begin = tiling_.cells.begin() + node.first, end = tiling_.cells.begin() + node.last;
+    const auto most_slabs = std::max<std::uint64_t>(node.last - node.first, 2);
+    const auto width = std::bit_width(static_cast<std::uint64_t>(side(longest)) / most_slabs);
+    const auto slab_of = [&](const CountedCell& cell) {
+      return static_cast<std::size_t>((std::int64_t{cell.coord[longest]} - node.low[longest]) >> width);
+    };
+    slabs_.assign(static_cast<std::size_t>(side(longest) >> width) + 1, 0);
+    for (auto cell = begin; cell != end; ++cell) slabs_[slab_of(*cell)] += cell->points;
+    std::uint64_t before = 0;
+    std::size_t half_way = 0;
+    while (before + slabs_[half_way] <= node.points / 2) before += slabs_[half_way++];
+    const auto slab_begin =
+        std::partition(begin, end, [&](const auto& cell) { return slab_of(cell) < half_way; });
+    const auto slab_end =
+        std::partition(slab_begin, end, [&](const auto& cell) { return slab_of(cell) == half_way; });
+
     const auto across = [&](const CountedCell& a, const CountedCell& b) {
       if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
       return a.coord < b.coord;
     };
     // The half-way point lies in [first, last): halved until that is one cell.
-    std::uint32_t first = node.first, last = node.last;
-    std::uint64_t before = 0;
+    auto first = slab_begin, last = slab_end;
     while (last - first > 1) {
-      const std::uint32_t middle = first + (last - first) / 2;
-      const auto cells = tiling_.cells.begin();
-      std::nth_element(cells + first, cells + middle, cells + last, across);
-      std::uint64_t points = before;
-      for (std::uint32_t i = first; i < middle; ++i) points += tiling_.cells[i].points;
+      const auto middle = first + (last - first) / 2;
+      std::nth_element(first, middle, last, across);
+      const std::uint64_t points =
+          std::accumulate(first, middle, before,
+                          [](std::uint64_t sum, const CountedCell& cell) { return sum + cell.points; });
       if (points <= node.points / 2) {
         before = points;
         first = middle;
@@ -71,11 +88,13 @@ class Splitter {
         last = middle;
       }
     }
-    return std::clamp(first, node.first + 1, node.last - 1);
+    const auto half = static_cast<std::uint32_t>(first - tiling_.cells.begin());
+    return std::clamp(half, node.first + 1, node.last - 1);
   }
 
   Tiling& tiling_;
   std::uint64_t tile_points_;
+  std::vector<std::uint64_t> slabs_;  // points of each
 };
 
 }  // namespace

@@ -50,6 +50,15 @@ double robust_extent(const PointBatch& batch) {
   return extent;
 }
 
+constexpr std::size_t kMostRuns = 256;
+
+// visit(part): parts that are counted at a time.
+template <class Visit>
+void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
+  for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kMostRuns)))
+    visit(runs.first(std::min(runs.size(), kMostRuns)));
+}
+
 }  // namespace
 
 struct Survey::Counts {
@@ -59,8 +68,6 @@ struct Survey::Counts {
   LeafTable<openvdb::Int32Tree> leaves;
   std::uint64_t leaf_count = 0;
   std::uint64_t cells = 0;
-
-  static constexpr std::size_t kMostRuns = 64;
 
   // Where all the counts are, then the counts: the cache misses of points in random order overlap. `shift`:
   // doublings from the runs' cells to those of the grid.
@@ -134,7 +141,8 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
 Survey::~Survey() = default;
 
 // A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it; half of that size
-// leaves room for a first batch that sees only a part of the scan.
+// leaves room for a first batch that sees only a part of the scan. Where it sees the whole scan, in random
+// order, its cells tell how many there will be: sizes with several times too many are passed over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   double extent = robust_extent(batch);
@@ -148,6 +156,15 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   }
   const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
   scan_.grid.finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), kMinExponent, kMaxExponent);
+
+  // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
+  const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
+  const int doublings = std::ilogb(thinner) / 2;
+  Counts seen;
+  for_each_part(count_cells(batch, scan_.grid).runs,
+                [&](std::span<const CellRun> runs) { seen.add(runs, doublings); });
+  const double most = 2 * points / kPointsPerCell;
+  for (double cells = std::ldexp(seen.cells, 2 * doublings); cells > most; cells /= 4) ++scan_.grid.finest;
   sized_ = true;
 }
 
@@ -160,20 +177,22 @@ void Survey::add(const CellCounts& counts) {
   scan_.points += counts.points;
   scan_.dropped += counts.dropped;
   scan_.bounds.extend(counts.bounds);
-  for (std::span<const CellRun> runs = counts.runs; !runs.empty();) {
-    const std::size_t count = std::min(runs.size(), Counts::kMostRuns);
-    counts_->add(runs.first(count), scan_.grid.shift);
-    runs = runs.subspan(count);
+  for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
+    counts_->add(runs, scan_.grid.shift);
     while (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
-  }
+  });
 }
 
 bool Survey::is_too_fine() const {
   // Even with all points to come in the same cells, these would hold too few in the end. A scan that does not
   // tell may have more points than its cells were made for.
   const std::uint64_t points = std::max(scan_.points, is_told_ ? expected_points_ : 4 * expected_points_);
-  const bool sparse = counts_->cells > std::max<std::uint64_t>(points / kPointsPerCell, 1024);
-  return sparse || counts_->bytes() + counts_->cells * kBytesPerCell > memory_;
+  // In random order leaves are touched before their cells are: a surface fills about 50 cells of those that
+  // it passes through.
+  constexpr std::uint64_t kSurelyFilled = 24;
+  const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
+  return counts_->cells > most || counts_->leaf_count * kSurelyFilled > most ||
+         counts_->bytes() + counts_->cells * kBytesPerCell > memory_;
 }
 
 void Survey::coarsen() {
@@ -185,8 +204,8 @@ void Survey::coarsen() {
       const openvdb::Coord coord = cell.getCoord();
       cells[count++] = {{coord[0], coord[1], coord[2]}, *cell};
     }
-    for (std::size_t first = 0; first < count; first += Counts::kMostRuns)
-      coarse->add(std::span(cells).subspan(first, std::min(Counts::kMostRuns, count - first)), 1);
+    for_each_part(std::span<const CellRun>(cells).first(count),
+                  [&](std::span<const CellRun> runs) { coarse->add(runs, 1); });
   }
   counts_ = std::move(coarse);
   ++scan_.grid.shift;
