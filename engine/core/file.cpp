@@ -2,6 +2,7 @@
 
 #include "engine/core/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -15,6 +16,20 @@ namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* action) {
   throw Error(path.string() + ": cannot " + action + ": " + std::strerror(errno));
+}
+
+// About a tile's points.
+constexpr std::uint64_t kStripe = 4 << 20;
+
+// visit(file, offset in that file, from, count): the parts of [offset, offset + bytes) in each stripe.
+template <class Visit>
+void for_each_stripe(std::uint64_t offset, std::uint64_t bytes, std::size_t files, Visit&& visit) {
+  for (std::uint64_t done = 0; done < bytes;) {
+    const std::uint64_t stripe = (offset + done) / kStripe, within = (offset + done) % kStripe;
+    const std::uint64_t count = std::min(bytes - done, kStripe - within);
+    visit(stripe % files, stripe / files * kStripe + within, done, count);
+    done += count;
+  }
 }
 
 }  // namespace
@@ -55,6 +70,29 @@ void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
     offset += static_cast<std::uint64_t>(got);
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
+}
+
+void StripedFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  for_each_stripe(offset, bytes.size(), kFiles,
+                  [&](std::size_t i, std::uint64_t at, std::uint64_t from, std::uint64_t count) {
+                    Lazy& lazy = (*files_)[i];
+                    std::call_once(lazy.created,
+                                   [&] { lazy.file.emplace(path_.string() + "-" + std::to_string(i)); });
+                    lazy.file->write(at, bytes.subspan(from, count));
+                  });
+}
+
+void StripedFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
+  for_each_stripe(offset, bytes.size(), kFiles,
+                  [&](std::size_t i, std::uint64_t at, std::uint64_t from, std::uint64_t count) {
+                    const std::optional<ScratchFile>& file = (*files_)[i].file;
+                    const std::span<std::byte> part = bytes.subspan(from, count);
+                    if (file) {
+                      file->read(at, part);
+                    } else {
+                      std::ranges::fill(part, std::byte{0});
+                    }
+                  });
 }
 
 }  // namespace lacuna

@@ -1,9 +1,13 @@
 // Files of the workspace: positioned reads and writes, every one checked.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,17 +32,37 @@ class ScratchFile {
   int descriptor_;
 };
 
-// One record of plain data per row, in a file.
+// One array of bytes in several scratch files, a stripe in each in turn: the system lets only one thread at a
+// time write to a file. A file is created when it is first written to.
+class StripedFile {
+ public:
+  explicit StripedFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  void write(std::uint64_t offset, std::span<const std::byte> bytes);
+  // Bytes that were never written read as 0. Not while others write to the same part.
+  void read(std::uint64_t offset, std::span<std::byte> bytes) const;
+
+ private:
+  static constexpr std::size_t kFiles = 8;
+  struct Lazy {
+    std::once_flag created;
+    std::optional<ScratchFile> file;
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<std::array<Lazy, kFiles>> files_ = std::make_unique<std::array<Lazy, kFiles>>();
+};
+
+// One record of plain data per row, in files.
 template <class Record>
 class Column {
  public:
-  explicit Column(std::filesystem::path path) : file_(std::move(path)) {}
+  explicit Column(std::filesystem::path path) : bytes_(std::move(path)) {}
 
   void write(std::uint64_t row, std::span<const Record> records) {
-    file_.write(row * sizeof(Record), std::as_bytes(records));
+    bytes_.write(row * sizeof(Record), std::as_bytes(records));
   }
   void read(std::uint64_t row, std::span<Record> records) const {
-    file_.read(row * sizeof(Record), std::as_writable_bytes(records));
+    bytes_.read(row * sizeof(Record), std::as_writable_bytes(records));
   }
   std::vector<Record> read(std::uint64_t row, std::size_t count) const {
     std::vector<Record> records(count);
@@ -47,7 +71,7 @@ class Column {
   }
 
  private:
-  ScratchFile file_;
+  StripedFile bytes_;
 };
 
 // Records of rows in ascending order, read in runs: for a few here and there.

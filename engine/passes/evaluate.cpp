@@ -139,7 +139,9 @@ class TileRecorder {
     const Eigen::Vector3d& x = points_.positions[p];
     return {x.x(), x.y(), x.z(), points_.ids[p]};
   }
+  Vertex vertex(LocalIndex p) const { return {points_.ids[p], points_.rows[p]}; }
   float probability(LocalIndex p) const { return static_cast<float>(evaluations_[p].probability); }
+  Strength strength(LocalIndex p) const { return {evaluations_[p].mean_distance, probability(p)}; }
 
   void mark_border() {
     is_border_.resize(points_.owned);
@@ -164,8 +166,7 @@ class TileRecorder {
       end = std::min(begin + kRun, points_.owned);
       if (std::any_of(is_border_.begin() + begin, is_border_.begin() + end,
                       [](bool border) { return border; })) {
-        for (LocalIndex p = begin; p < end; ++p)
-          strengths.push_back({evaluations_[p].mean_distance, probability(p)});
+        for (LocalIndex p = begin; p < end; ++p) strengths.push_back(strength(p));
       } else {
         write(begin);
       }
@@ -177,9 +178,8 @@ class TileRecorder {
     const TileEdges edges = eligible_edges(points_, neighbourhoods_, evaluations_, job_.config.spanning);
     scan_.edges.append(tile_, edges.inside);
     std::vector<StoredCrossing> crossings;
-    for (const Crossing& c : edges.crossings) {
-      crossings.push_back({c.owned, points_.rows[c.foreign], points_.ids[c.foreign], c.distance});
-    }
+    for (const Crossing& c : edges.crossings)
+      crossings.push_back({vertex(c.owned), vertex(c.foreign), strength(c.owned), c.distance});
     scan_.crossings.append(tile_, crossings);
 
     // Ends of eligible edges; of edges between tiles another tile may tell, so all with foreign neighbours.

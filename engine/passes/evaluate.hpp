@@ -30,9 +30,8 @@ struct StoredCandidate {
 
 // An edge out of the tile, to be judged once Pi of its foreign end is known.
 struct StoredCrossing {
-  LocalIndex owned;
-  Row foreign;
-  PointId foreign_id;
+  Vertex own, foreign;
+  Strength strength;  // of its own end
   double distance;
 };
 

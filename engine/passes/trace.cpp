@@ -45,32 +45,27 @@ ComponentEdge component_edge(std::uint64_t component, double weight, const Verte
 
 // ---- seams: crossings judged with Pi and r of both ends
 
-void judge_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, const SpanningConfig& config,
+void judge_crossings(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, const SpanningConfig& config,
                      Spill<SeamEdge>& seams) {
-  const Tiling& tiling = store.tiling();
-  const Tile& tile = tiling.tiles[t];
   std::vector<StoredCrossing> crossings = scan.crossings.read(t);
   scan.crossings.drop(t);
-  if (crossings.empty()) return;
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
-    return a.foreign != b.foreign ? a.foreign < b.foreign : a.owned < b.owned;
+    return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
-  const std::vector<Strength> own = scan.strengths.read(value(tile.first_row), tile.points);
-  const std::vector<StoredPoint> points = store.points(t);
+  const auto index_in = [&](TileIndex tile, Row row) {
+    return static_cast<LocalIndex>(value(row) - value(tiling.tiles[tile].first_row));
+  };
   RunReader<Strength> foreign(scan.strengths);
   std::vector<SeamEdge> here;
   for (const StoredCrossing& c : crossings) {
-    const Strength& other = foreign[value(c.foreign)];
-    const PointId id = points[c.owned].id;
+    const Strength& other = foreign[value(c.foreign.row)];
     // Both ends tell if both are strong: then the lower id's word counts.
-    if (is_strong(other.probability, config) && c.foreign_id < id) continue;
-    const double weight = eligible_weight(own[c.owned], other, c.distance, config);
+    if (is_strong(other.probability, config) && c.foreign.id < c.own.id) continue;
+    const double weight = eligible_weight(c.strength, other, c.distance, config);
     if (weight < 0) continue;
-    const Vertex a{id, Row{value(tile.first_row) + c.owned}}, b{c.foreign_id, c.foreign};
-    here.push_back({c.owned, a, b, weight});
-    const TileIndex there = tiling.tile_of_row(c.foreign);
-    seams.append(there, {static_cast<LocalIndex>(value(c.foreign) - value(tiling.tiles[there].first_row)), b,
-                         a, weight});
+    here.push_back({index_in(t, c.own.row), c.own, c.foreign, weight});
+    const TileIndex there = tiling.tile_of_row(c.foreign.row);
+    seams.append(there, {index_in(there, c.foreign.row), c.foreign, c.own, weight});
   }
   seams.append(t, here);
 }
@@ -215,7 +210,7 @@ class Tracer {
 
   TracedLoops run() {
     job_.crew.for_each(tiles_, [&](std::size_t t) {
-      judge_crossings(scan_, store_, static_cast<TileIndex>(t), job_.config.spanning, seams_);
+      judge_crossings(scan_, store_.tiling(), static_cast<TileIndex>(t), job_.config.spanning, seams_);
     });
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
