@@ -61,9 +61,7 @@ class BorderPlan {
       visit(node.right);
       return;
     }
-    const std::uint32_t last = std::min(node.last, tile_.last_cell);
-    for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell)
-      plan_cell(cell, node);
+    plan_leaf(node);
   }
 
   // More than k points within a box have their neighbours within its diagonal.
@@ -90,10 +88,30 @@ class BorderPlan {
     return squared_reach(tiling_, cell, k_);
   }
 
-  void plan_cell(std::uint32_t cell, const CellNode& node) {
-    const Eigen::AlignedBox3d box = tiling_.cell_box(cell);
-    const double reach = reach_of(cell, node);
-    if (!leaves_tile(box, reach)) return;
+  struct BorderCell {
+    std::uint32_t cell;
+    double squared_reach;
+  };
+
+  void plan_leaf(const CellNode& node) {
+    std::vector<BorderCell> border;
+    const std::uint32_t last = std::min(node.last, tile_.last_cell);
+    for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell) {
+      const double reach = reach_of(cell, node);
+      if (leaves_tile(tiling_.cell_box(cell), reach)) border.push_back({cell, reach});
+    }
+    plan(border);
+  }
+
+  // Cells side by side: they see much the same.
+  void plan(std::span<const BorderCell> border) {
+    if (border.empty()) return;
+    Eigen::AlignedBox3d box;
+    double reach = 0;
+    for (const BorderCell& b : border) {
+      box.extend(tiling_.cell_box(b.cell));
+      reach = std::max(reach, b.squared_reach);
+    }
     sight_.clear();
     std::uint64_t points = 0;
     for_each_cell_near(tiling_, box, reach, 0, 0, [&](std::uint32_t near) {
@@ -102,10 +120,14 @@ class BorderPlan {
       return points <= kFarReach;
     });
     if (points > kFarReach) {
-      border_.far_cells.push_back(cell);
+      if (border.size() == 1) {
+        border_.far_cells.push_back(border.front().cell);
+      } else {
+        for (const BorderCell& b : border) plan(std::span(&b, 1));
+      }
       return;
     }
-    group_.border.push_back(cell);
+    for (const BorderCell& b : border) group_.border.push_back(b.cell);
     group_.sight.insert(group_.sight.end(), sight_.begin(), sight_.end());
     gathered_ += points;
     if (gathered_ > 8 * group_points_) {  // neighbours share most of their sight: count it once
