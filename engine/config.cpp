@@ -26,6 +26,9 @@ constexpr std::uint64_t kLeastMemory = 64 * kMiB;
 constexpr std::size_t kLargestConfigFile = 1 << 20;
 constexpr double kAboveZero = std::numeric_limits<double>::min();
 
+// In the order of LoopMethod.
+constexpr std::string_view kMethods[] = {"stars", "paper"};
+
 struct Unit {
   std::string_view name;
   std::uint64_t bytes;
@@ -100,6 +103,11 @@ struct SetFromText {
     *target = text == "true";
   }
   void operator()(std::string* target) const { *target = text; }
+  void operator()(LoopMethod* target) const {
+    const auto method = std::find(std::begin(kMethods), std::end(kMethods), text);
+    if (method == std::end(kMethods)) refuse(parameter, text);
+    *target = static_cast<LoopMethod>(method - std::begin(kMethods));
+  }
   void operator()(std::uint64_t* target) const {
     std::uint64_t bytes = 0;
     try {
@@ -129,6 +137,11 @@ struct SetFromToml {
     const auto text = node.value_exact<std::string>();
     if (!text) refuse(parameter, shown());
     *target = *text;
+  }
+  void operator()(LoopMethod*) const {
+    const auto text = node.value_exact<std::string>();
+    if (!text) refuse(parameter, shown());
+    parameter.set(*text);
   }
   void operator()(std::uint64_t*) const {
     if (const auto text = node.value_exact<std::string>()) {
@@ -162,6 +175,9 @@ struct PrintValue {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return quote(*value); }
   std::string operator()(const std::uint64_t* value) const { return quote(print_bytes(*value)); }
+  std::string operator()(const LoopMethod* value) const {
+    return quote(kMethods[static_cast<std::size_t>(*value)]);
+  }
 };
 
 // Number of letters to insert, remove or replace to turn one word into the other.
@@ -271,7 +287,7 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
 }  // namespace
 
 std::vector<Parameter> parameters(Config& config) {
-  auto& [neighbourhood, normals, criteria, coherence, spanning, selection, input, output, run] = config;
+  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, selection, input, output, run] = config;
   const double below_90 = std::nextafter(90.0, 0.0);
   return {
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
@@ -300,13 +316,18 @@ std::vector<Parameter> parameters(Config& config) {
       {"coherence", "threshold", &coherence.threshold, 0, 1, "a number from 0 to 1",
        "Boundary probability above which a point is a candidate."},
 
-      {"spanning", "max_prob_weight", &spanning.max_prob_weight, 0, 1e9, "a number from 0 to 1000000000",
-       "An edge takes part if its probability weight is below this."},
-      {"spanning", "max_total_weight", &spanning.max_total_weight, 0, 1e9, "a number from 0 to 1000000000",
-       "An edge takes part if its total weight is below this."},
-      {"spanning", "e", &spanning.e, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
-       "Loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of neighbours."},
+      {"loops", "method", &loops.method, 0, 1, "stars or paper",
+       "How loops are found: stars, along the surface that the points agree on; paper, as Bendels et al. do."},
 
+      {"spanning", "max_prob_weight", &spanning.max_prob_weight, 0, 1e9, "a number from 0 to 1000000000",
+       "Method paper: an edge takes part if its probability weight is below this."},
+      {"spanning", "max_total_weight", &spanning.max_total_weight, 0, 1e9, "a number from 0 to 1000000000",
+       "Method paper: an edge takes part if its total weight is below this."},
+      {"spanning", "e", &spanning.e, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
+       "Method paper: loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of neighbours."},
+
+      {"selection", "min_confidence", &selection.min_confidence, 0, 1, "a number from 0 to 1",
+       "Loops with a lower confidence are not reported."},
       {"selection", "min_perimeter", &selection.min_perimeter, 0, 1e300, "a length of 0 or more",
        "Loops with a smaller perimeter are not reported."},
       {"selection", "max_perimeter", &selection.max_perimeter, 0, 1e300, "a length of 0 (no limit) or more",
@@ -399,7 +420,7 @@ void check_config(const Config& config) {
   for (const Parameter& parameter : parameters(checked)) {
     std::visit(
         [&parameter](const auto* value) {
-          if constexpr (requires { static_cast<double>(*value); }) {
+          if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(*value)>>) {
             if (!in_range(parameter, static_cast<double>(*value))) refuse(parameter, parameter.print());
           }
         },

@@ -41,7 +41,17 @@ struct SpanningConfig {
   std::int64_t e = 0;             // an edge may close a loop of more than e edges; 0: round(2 sqrt(pi K))
 };
 
+enum class LoopMethod : std::uint8_t {
+  kStars,  // rims of the triangles that points' stars agree on
+  kPaper,  // spanning graph and breadth first search (5.1, 5.2)
+};
+
+struct LoopsConfig {
+  LoopMethod method = LoopMethod::kStars;
+};
+
 struct SelectionConfig {
+  double min_confidence = 0.5;
   double min_perimeter = 0.0;
   double max_perimeter = 0.0;  // 0: no limit
   std::int64_t min_points = 0;
@@ -69,6 +79,7 @@ struct Config {
   NormalsConfig normals;
   CriteriaConfig criteria;
   CoherenceConfig coherence;
+  LoopsConfig loops;
   SpanningConfig spanning;
   SelectionConfig selection;
   InputConfig input;
@@ -78,7 +89,7 @@ struct Config {
 
 // One line of the list: `[section] key = value`, on the command line `--key` with dashes.
 struct Parameter {
-  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*>;
+  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*, LoopMethod*>;
   std::string_view section;
   std::string_view key;
   Value value;  // points into the Config it was listed from; uint64_t: a size in bytes

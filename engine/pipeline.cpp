@@ -7,6 +7,7 @@
 #include "engine/passes/measure.hpp"
 #include "engine/passes/orient.hpp"
 #include "engine/passes/publish.hpp"
+#include "engine/passes/rims.hpp"
 #include "engine/passes/trace.hpp"
 #include "engine/stages/split.hpp"
 
@@ -79,7 +80,9 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   // Boundary points and loops (5.1, 5.2).
   const RowSet coherent = make_coherent(evaluated, store, job);
   const std::int64_t e = minimum_loop(config.spanning, evaluated.mean_neighbours());
-  const TracedLoops traced = trace_loops(evaluated, store, e, job);
+  const TracedLoops traced = config.loops.method == LoopMethod::kPaper
+                                 ? trace_loops(evaluated, store, e, job)
+                                 : TracedLoops{trace_rims(evaluated, store, job)};
   MeasuredLoops loops = measure_loops(traced.loops, evaluated, store, evaluated.mean_edge_length(), job);
 
   // Back into the order of the input.

@@ -130,6 +130,7 @@ Json record(const ReportedLoop& loop) {
           {"normal", list(measures.normal)},
           {"planarity", measures.planarity},
           {"mean_probability", measures.mean_probability},
+          {"confidence", measures.confidence},
           {"tiles", measures.tiles}};
 }
 

@@ -15,6 +15,7 @@ struct TypeName {
   std::string operator()(const bool*) const { return ""; }
   std::string operator()(const std::string*) const { return "TEXT"; }
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
+  std::string operator()(const LoopMethod*) const { return "NAME"; }
 };
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace lacuna {
 struct Vertex {
   PointId id;
   Row row;
+
+  friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
 // An eligible edge of a component of the graph; a.id < b.id. Edges are taken in ascending order of

@@ -39,6 +39,7 @@ struct LoopMeasures {
                          0};  // unit; right hand rule about the loop's direction; 0 where it encloses nothing
   double planarity = 0;       // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
+  double confidence = 1;    // that it is one, [0, 1]; of the method "paper": 1
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 

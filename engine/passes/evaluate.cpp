@@ -4,6 +4,7 @@
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
 #include "engine/stages/reach.hpp"
+#include "engine/stages/stars.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,8 +111,12 @@ class TileRecorder {
 
   void record() {
     mark_border();
-    record_strengths();
-    record_edges();
+    if (job_.config.loops.method == LoopMethod::kPaper) {
+      record_strengths();
+      record_edges();
+    } else {
+      record_stars();
+    }
     record_candidates();
     if (job_.config.output.points) record_results();
     if (job_.config.normals.orient) record_orientation();
@@ -152,26 +157,94 @@ class TileRecorder {
     }
   }
 
-  // Other tiles ask for those of points with neighbours among theirs: whole runs that hold none stay
-  // unwritten.
-  void record_strengths() {
+  // Other tiles ask for what a column holds of points near theirs: runs of the tile's rows that hold none of
+  // those stay unwritten. record(p): what is written of a point.
+  template <class Record, class Recorded>
+  void record_runs(Column<Record>& column, std::span<const std::uint8_t> is_wanted, Recorded&& record) {
     constexpr LocalIndex kRun = 64;
     const std::uint64_t first_row = value(store_.tiling().tiles[tile_].first_row);
-    std::vector<Strength> strengths;
+    std::vector<Record> records;
     const auto write = [&](LocalIndex end) {
-      if (!strengths.empty()) scan_.strengths.write(first_row + end - strengths.size(), strengths);
-      strengths.clear();
+      if (!records.empty()) column.write(first_row + end - records.size(), records);
+      records.clear();
     };
     for (LocalIndex begin = 0, end; begin < points_.owned; begin = end) {
       end = std::min(begin + kRun, points_.owned);
-      if (std::any_of(is_border_.begin() + begin, is_border_.begin() + end,
-                      [](bool border) { return border; })) {
-        for (LocalIndex p = begin; p < end; ++p) strengths.push_back(strength(p));
+      if (std::any_of(is_wanted.begin() + begin, is_wanted.begin() + end,
+                      [](bool wanted) { return wanted; })) {
+        for (LocalIndex p = begin; p < end; ++p) records.push_back(record(p));
       } else {
         write(begin);
       }
     }
     write(points_.owned);
+  }
+
+  void record_strengths() {
+    record_runs(scan_.strengths, is_border_, [&](LocalIndex p) { return strength(p); });
+  }
+
+  void record_stars() {
+    std::vector<Seat> seats;
+    seats.reserve(points_.owned);
+    for (LocalIndex p = 0; p < points_.owned; ++p)
+      seats.push_back(seat_of(points_.positions[p], points_.ids[p], evaluations_[p]));
+    record_border(seats);
+
+    const Stars<LocalIndex> stars = find_stars(points_, neighbourhoods_, evaluations_, seats, is_border_);
+    std::vector<std::uint8_t> is_vertex = is_border_;
+    std::vector<StoredCorner> open;
+    std::vector<Gap<Vertex>> gaps;
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      const auto star = stars[p];
+      const auto agreements = std::span(stars.agreements).subspan(stars.offsets[p], star.size());
+      const auto any = [&](Agreement agreement) {
+        return std::find(agreements.begin(), agreements.end(), agreement) != agreements.end();
+      };
+      if (any(Agreement::kOpen)) {
+        for (std::size_t i = 0; i < star.size(); ++i)
+          open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room});
+        is_vertex[p] = 1;
+      } else if (any(Agreement::kRefused)) {
+        for_each_gap(p, star, agreements, [&](const Gap<LocalIndex>& gap) {
+          gaps.push_back({vertex(gap.point), vertex(gap.from), vertex(gap.to), gap.room});
+          is_vertex[p] = 1;
+        });
+      }
+    }
+    scan_.stars.append(tile_, open);
+    scan_.gaps.append(tile_, gaps);
+    record_vertices(is_vertex);
+  }
+
+  // What the stars of points with foreign neighbours need, here and in other tiles.
+  void record_border(std::span<const Seat> seats) {
+    std::vector<BorderPoint> border;
+    std::vector<BorderNeighbour> neighbours;
+    std::vector<std::uint8_t> is_wanted = is_border_;
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!is_border_[p]) continue;
+      const Eigen::Vector3d& normal = evaluations_[p].normal;
+      border.push_back({points_.ids[p], p, 0, {normal.x(), normal.y(), normal.z()}});
+      for (const LocalIndex q : neighbourhoods_[p]) {
+        neighbours.push_back({p, 0, vertex(q)});
+        if (points_.is_owned(q)) is_wanted[q] = 1;
+      }
+    }
+    scan_.border.append(tile_, border);
+    scan_.border_neighbours.append(tile_, neighbours);
+    record_runs(scan_.seats, is_wanted, [&](LocalIndex p) { return seats[p]; });
+  }
+
+  // Points that may end up on a loop.
+  void record_vertices(std::span<const std::uint8_t> is_vertex) {
+    std::vector<StoredVertex> vertices;
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!is_vertex[p]) continue;
+      const Eigen::Vector3f surface = evaluations_[p].mean_offset.cast<float>();
+      vertices.push_back({p, probability(p), {surface.x(), surface.y(), surface.z()}, stored(p)});
+    }
+    scan_.vertices.append(tile_, vertices);
   }
 
   void record_edges() {
@@ -183,15 +256,9 @@ class TileRecorder {
     scan_.crossings.append(tile_, crossings);
 
     // Ends of eligible edges; of edges between tiles another tile may tell, so all with foreign neighbours.
-    std::vector<bool> is_vertex(points_.owned);
-    for (const TileEdge& edge : edges.inside) is_vertex[edge.a] = is_vertex[edge.b] = true;
-    std::vector<StoredVertex> vertices;
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!is_vertex[p] && !is_border_[p]) continue;
-      const Eigen::Vector3f surface = evaluations_[p].mean_offset.cast<float>();
-      vertices.push_back({p, probability(p), {surface.x(), surface.y(), surface.z()}, stored(p)});
-    }
-    scan_.vertices.append(tile_, vertices);
+    std::vector<std::uint8_t> is_vertex = is_border_;
+    for (const TileEdge& edge : edges.inside) is_vertex[edge.a] = is_vertex[edge.b] = 1;
+    record_vertices(is_vertex);
   }
 
   void record_candidates() {
@@ -290,6 +357,11 @@ std::uint64_t blocks(std::uint64_t ids, const Job& job) {
 EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
     : edges(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 12),
       crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 12),
+      border(job.file("border"), store.tiling().tiles.size(), job.memory.spills / 16),
+      border_neighbours(job.file("border-neighbours"), store.tiling().tiles.size(), job.memory.spills / 8),
+      seats(job.file("seats")),
+      stars(job.file("stars"), store.tiling().tiles.size(), job.memory.spills / 8),
+      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       vertices(job.file("vertices"), store.tiling().tiles.size(), job.memory.spills / 12),
       candidates(job.file("candidates"), store.tiling().tiles.size(), job.memory.spills / 12),
       strengths(job.file("strengths")),

@@ -4,6 +4,7 @@
 #include "engine/core/spill.hpp"
 #include "engine/core/tile_store.hpp"
 #include "engine/data/orientation.hpp"
+#include "engine/data/star.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"
@@ -51,6 +52,34 @@ struct OrientationCrossing {
   PointId foreign_id;
 };
 
+// ---- stars
+
+// A point with neighbours in other tiles, whose star waits for their seats.
+struct BorderPoint {
+  PointId id;
+  LocalIndex owned;
+  std::uint32_t padding = 0;
+  double normal[3];
+};
+
+// One of its neighbours, in the order of the neighbourhood.
+struct BorderNeighbour {
+  LocalIndex owned;
+  std::uint32_t padding = 0;
+  Vertex neighbour;
+};
+
+// A corner of a star that is not settled within its tile, and the agreement on the triangle that begins
+// there.
+struct StoredCorner {
+  PointId id;  // of the star's point
+  LocalIndex owned;
+  Agreement agreement;
+  Vertex corner;
+  float room;
+  std::uint32_t padding = 0;
+};
+
 __extension__ using Int128 = __int128;
 
 struct Totals {
@@ -68,6 +97,11 @@ struct EvaluatedScan {
 
   Spill<TileEdge> edges;  // eligible, inside the tile
   Spill<StoredCrossing> crossings;
+  Spill<BorderPoint> border;                 // in ascending owned index
+  Spill<BorderNeighbour> border_neighbours;  // in the same order
+  Column<Seat> seats;                        // by row, of border points and their neighbours
+  Spill<StoredCorner> stars;                 // open ones, each in one piece
+  Spill<Gap<Vertex>> gaps;
   Spill<StoredVertex> vertices;        // in ascending owned index
   Spill<StoredCandidate> candidates;   // in ascending row
   Column<Strength> strengths;          // by row, of points with neighbours in other tiles

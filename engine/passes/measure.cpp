@@ -79,6 +79,7 @@ MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, co
       const std::uint64_t from = measured.offsets[begin + i] - first;
       const Loop loop = to_loop(std::span(points).subspan(from, loops.points(begin + i)));
       measured.measures[begin + i] = measure_loop(loop, edge);
+      measured.measures[begin + i].confidence = loops.confidence(begin + i);
     });
     phase.advance(points.size());
   }
@@ -89,11 +90,12 @@ std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, co
   std::vector<std::size_t> selected;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const LoopMeasures& loop = loops[i];
+    const bool unsure = loop.confidence < config.min_confidence;
     const bool too_short = loop.perimeter < config.min_perimeter;
     const bool too_long = config.max_perimeter > 0 && loop.perimeter > config.max_perimeter;
     const bool too_few = loop.points < static_cast<std::uint64_t>(config.min_points);
     const bool unwanted = config.holes_only && loop.kind == LoopKind::kRim;
-    if (!too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
+    if (!unsure && !too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
   }
   return selected;
 }

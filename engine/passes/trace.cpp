@@ -79,7 +79,7 @@ void trace(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoop
   find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
     loop.clear();
     for (const LocalIndex v : found) loop.push_back({graph.ids[v], row_of(v)});
-    loops.add(loop);
+    loops.add(loop, kNoConfidence);
   });
 }
 
@@ -404,10 +404,10 @@ class Tracer {
 
 }  // namespace
 
-void RawLoops::add(std::span<const Vertex> loop) {
+void RawLoops::add(std::span<const Vertex> loop, double confidence) {
   const std::lock_guard lock(*mutex_);
   vertices_.write(end_, loop);
-  index_.push_back({end_, loop.size(), loop.front().id});
+  index_.push_back({end_, loop.size(), loop.front().id, confidence});
   end_ += loop.size();
 }
 

@@ -10,16 +10,20 @@
 
 namespace lacuna {
 
+// Of loops of the paper's method, which does not tell.
+inline constexpr double kNoConfidence = 1;
+
 // Loops as they are found, on disk; in memory only where each one is.
 class RawLoops {
  public:
   explicit RawLoops(std::filesystem::path file) : vertices_(std::move(file)) {}
 
   // May be called from any thread.
-  void add(std::span<const Vertex> loop);
+  void add(std::span<const Vertex> loop, double confidence);
   std::size_t size() const { return index_.size(); }
   std::uint64_t points() const { return end_; }
   std::uint64_t points(std::size_t loop) const { return index_[loop].points; }
+  double confidence(std::size_t loop) const { return index_[loop].confidence; }
   std::vector<Vertex> read(std::size_t loop) const;
   // In order of (first id, length, ids): from then on `read` and `points` count in that order.
   void sort();
@@ -28,6 +32,7 @@ class RawLoops {
   struct Entry {
     std::uint64_t offset, points;
     PointId first;
+    double confidence;
   };
   Column<Vertex> vertices_;
   std::uint64_t end_ = 0;

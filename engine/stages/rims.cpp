@@ -1,0 +1,121 @@
+#include "engine/stages/rims.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+namespace lacuna {
+namespace {
+
+// Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
+class Follower {
+ public:
+  Follower(std::span<const Gap<Vertex>> gaps, Row first, Row last)
+      : gaps_(gaps), first_(first), last_(last), is_done_(gaps.size()) {}
+
+  void follow(const std::function<void(RimPart&)>& visit) {
+    // Parts from one end to the other, then what is left is closed.
+    for (const bool ends_only : {true, false}) {
+      for (std::size_t g = 0; g < gaps_.size(); ++g) {
+        if (is_done_[g]) continue;
+        const bool enters = !is_here(gaps_[g].from), leaves = !is_here(gaps_[g].to);
+        if (ends_only && !enters && !leaves) continue;
+        RimPart part = walk(g, /*forwards=*/enters || !leaves);
+        visit(part);
+      }
+    }
+  }
+
+ private:
+  bool is_here(const Vertex& v) const { return first_ <= v.row && v.row < last_; }
+
+  RimPart walk(std::size_t start, bool forwards) {
+    RimPart part;
+    part.before = forwards ? gaps_[start].from : gaps_[start].to;
+    for (std::size_t g = start;;) {
+      const Gap<Vertex>& gap = gaps_[g];
+      is_done_[g] = true;
+      part.points.push_back({gap.point, gap.room});
+      const Vertex next = forwards ? gap.to : gap.from;
+      if (!is_here(next)) {
+        part.after = next;
+        return part;
+      }
+      g = at(next, gap.point);
+      forwards = gaps_[g].from == gap.point;
+      if (g == start) {
+        part.is_closed = true;
+        return part;
+      }
+    }
+  }
+
+  // The gap at `point` that ends at `neighbour`: there is just one.
+  std::size_t at(const Vertex& point, const Vertex& neighbour) const {
+    auto gap = std::lower_bound(gaps_.begin(), gaps_.end(), point.row,
+                                [](const Gap<Vertex>& g, Row row) { return g.point.row < row; });
+    while (!(gap->from == neighbour || gap->to == neighbour)) {
+      ++gap;
+      assert(gap != gaps_.end() && gap->point == point);
+    }
+    return static_cast<std::size_t>(gap - gaps_.begin());
+  }
+
+  std::span<const Gap<Vertex>> gaps_;
+  Row first_, last_;
+  std::vector<bool> is_done_;
+};
+
+// Place i of the rim as it is read from `start` on, in either direction.
+std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
+  return forwards ? (start + i) % count : (start + count - i) % count;
+}
+
+}  // namespace
+
+void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
+                 const std::function<void(RimPart&)>& visit) {
+  Follower(gaps, first, last).follow(visit);
+}
+
+void normalise(std::vector<RimPoint>& rim) {
+  struct Way {
+    std::size_t start;
+    bool forwards;
+  };
+  const std::size_t count = rim.size();
+  const auto id = [&](const Way& way, std::size_t i) {
+    return rim[place(way.start, i, way.forwards, count)].vertex.id;
+  };
+  const auto comes_first = [&](const Way& a, const Way& b) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (id(a, i) != id(b, i)) return id(a, i) < id(b, i);
+    }
+    return false;
+  };
+  PointId least = rim.front().vertex.id;
+  for (const RimPoint& p : rim) least = std::min(least, p.vertex.id);
+  std::optional<Way> best;
+  for (std::size_t start = 0; start < count; ++start) {
+    if (rim[start].vertex.id != least) continue;
+    for (const bool forwards : {true, false}) {
+      const Way way{start, forwards};
+      if (!best || comes_first(way, *best)) best = way;
+    }
+  }
+  std::vector<RimPoint> turned;
+  turned.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) turned.push_back(rim[place(best->start, i, best->forwards, count)]);
+  rim = std::move(turned);
+}
+
+double confidence(std::span<const RimPoint> rim) {
+  const auto share = [&](float room) {
+    const auto wide =
+        std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
+    return static_cast<double>(wide) / static_cast<double>(rim.size());
+  };
+  return std::min({1.0, share(1.25f), 1.25 * share(1.6f)});
+}
+
+}  // namespace lacuna

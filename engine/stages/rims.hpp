@@ -1,0 +1,41 @@
+// rims: the closed curves along which agreed triangles end, followed from gap to gap.
+#pragma once
+
+#include "engine/data/component.hpp"
+#include "engine/data/star.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// A point of a rim. A point with several gaps is on several rims, or several times on one.
+struct RimPoint {
+  Vertex vertex;
+  float room;                 // of the gap
+  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
+};
+
+// A rim, or the part of one that lies in a tile: consecutive points.
+struct RimPart {
+  std::vector<RimPoint> points;
+  bool is_closed = false;
+  Vertex before{}, after{};  // of a part: points of other tiles that the rim comes from and goes to
+};
+
+// `gaps`: of points with rows in [first, last), in ascending row of the point. Every gap that a rim goes on
+// to within those rows must be there. Each rim and part once, in any order and direction. About linear.
+void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
+                 const std::function<void(RimPart&)>& visit);
+
+// Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several
+// such ways the one whose ids come first).
+void normalise(std::vector<RimPoint>& rim);
+
+// How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a ball
+// that fits at some points of the rim does not at most. The share of points at which there is room for a ball
+// of 1.25 times the radius of triangles, or 1.25 times the share with room for 1.6, if that is less.
+double confidence(std::span<const RimPoint> rim);
+
+}  // namespace lacuna

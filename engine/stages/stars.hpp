@@ -1,0 +1,99 @@
+// stars: the triangles around each point over which a ball can rest, the rims that they leave, and how much
+// room there is beyond a rim.
+//
+// A ball of radius R touches p with its centre in p's tangent plane and rolls around it. Of all directions
+// to the centre, a neighbour at offset d forbids those in which the ball would hold it: with c the centre,
+// c . d / |d|^2 > 1/2. So what the ball of any size can do is told by the convex hull of the points
+// Pi(d / |d|^2), Pi the projection into the tangent plane. Corners of the hull are the neighbours that a ball
+// can rest on, in their order around p; at an edge of the hull at distance h from p the ball that rests on
+// both its ends has radius 1 / (2h). With h > 0 and 1 / (2h) <= R the edge is a triangle of p's star.
+//
+// A triangle counts only if it is in the stars of all its three corners. Triangles at one corner never
+// overlap (they are in one star), so the agreed triangles are a surface with boundary whatever the noise: an
+// edge has at most two of them, and around each point gaps and fans of triangles alternate. Each end of a gap
+// is an edge with one triangle, which ends exactly one gap at its other end, too: the rims are closed curves.
+#pragma once
+
+#include "engine/data/evaluation.hpp"
+#include "engine/data/neighbourhoods.hpp"
+#include "engine/data/star.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Radius of the ball over the mean of r over p and its neighbours: about 1.2 spacings.
+inline constexpr double kBall = 0.8;
+
+Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation);
+
+// Finds stars, one after the other: keeps its memory.
+class StarFinder {
+ public:
+  // Corners in counterclockwise order about the normal, by their number among the neighbours; none where the
+  // normal is undefined or fewer than three directions are seen. Deterministic: the order of the neighbours
+  // decides between points in one place.
+  std::span<const StarCorner<LocalIndex>> find(const Seat& at, const Eigen::Vector3d& normal,
+                                               std::span<const Seat> neighbours);
+
+ private:
+  struct Seen {
+    double x, y;
+    LocalIndex neighbour;
+  };
+  std::vector<Seen> seen_, hull_;
+  std::vector<StarCorner<LocalIndex>> star_;
+};
+
+// Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.
+template <class Name>
+struct Stars {
+  std::vector<std::uint32_t> offsets{0};
+  std::vector<StarCorner<Name>> corners;
+  std::vector<Agreement> agreements;
+
+  std::size_t size() const { return offsets.size() - 1; }
+  std::span<const StarCorner<Name>> operator[](std::size_t p) const {
+    return {corners.data() + offsets[p], corners.data() + offsets[p + 1]};
+  }
+};
+
+// Stars of the tile's owned points whose neighbours are all owned (`is_border` is 0), with a agreement on
+// each triangle: open where a corner is a border point, whose star is not known yet.
+Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhoods,
+                             std::span<const Evaluation> evaluations, std::span<const Seat> seats,
+                             std::span<const std::uint8_t> is_border);
+
+// The star has the triangle of its point with a and b.
+template <class Name>
+bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const std::size_t next = i + 1 < star.size() ? i + 1 : 0;
+    if ((star[i].point == a && star[next].point == b) || (star[i].point == b && star[next].point == a)) {
+      if (star[i].room <= 1) return true;
+    }
+  }
+  return false;
+}
+
+// visit(gap): each gap of a point between agreed triangles. None where nothing is agreed.
+template <class Name, class Visit>
+void for_each_gap(Name point, std::span<const StarCorner<Name>> star, std::span<const Agreement> agreements,
+                  Visit&& visit) {
+  const std::size_t count = star.size();
+  const auto next = [&](std::size_t i) { return i + 1 < count ? i + 1 : 0; };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (agreements[i] != Agreement::kAgreed || agreements[next(i)] == Agreement::kAgreed) continue;
+    Gap<Name> gap{point, star[next(i)].point, {}, 0};
+    std::size_t end = next(i);
+    for (; agreements[end] != Agreement::kAgreed; end = next(end))
+      gap.room = std::max(gap.room, star[end].room);
+    gap.to = star[end].point;
+    visit(gap);
+  }
+}
+
+}  // namespace lacuna
