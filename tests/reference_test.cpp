@@ -23,8 +23,9 @@ using reference::Detection;
 using reference::Edge;
 using reference::Point;
 
+// By the method of the paper.
 Detection detect(const Cloud& cloud, const Config& config = {}) {
-  return reference::detect(cloud.positions, cloud.normals, config);
+  return reference::detect(cloud.positions, cloud.normals, with_paper_loops(config));
 }
 
 constexpr double kDegree = std::numbers::pi / 180;

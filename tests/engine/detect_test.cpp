@@ -134,7 +134,7 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
   CHECK(engine.summary.mean_edge_length == Approx(plain.mean_edge_length).epsilon(1e-12));
   CHECK(engine.summary.e == plain.e);
   CHECK(engine.summary.counts.eligible_edges == plain.eligible.size());
-  CHECK(engine.loop_ids() == in_report_order(plain.loops));
+  CHECK(engine.loop_ids() == in_report_order(plain.sure));
 }
 
 // The seed decides the cloud, every parameter and the tiling.

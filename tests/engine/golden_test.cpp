@@ -72,7 +72,7 @@ TEST_CASE("the engine finds the paper's figures: the bunny's five holes, the ran
   REQUIRE(bunny.loops.size() == 5);
   for (const ReportedLoop& loop : bunny.loops) CHECK(loop.measures.kind == LoopKind::kHole);
 
-  Config config;  // figure 15
+  Config config = with_paper_loops({});  // figure 15
   config.spanning.e = 500;
   const Detected range_map = run_engine(read_cloud(*shared / "data/bun000.ply"), config);
   REQUIRE(range_map.loops.size() == 1);

@@ -135,7 +135,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
       read_file(folder / "holes.json")
           .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
                 "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
-                "\"mean_probability\":0.0,\"tiles\":0},\n") != std::string::npos);
+                "\"mean_probability\":0.0,\"confidence\":1.0,\"tiles\":0},\n") != std::string::npos);
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {

@@ -380,6 +380,13 @@ Config random_config(std::uint64_t seed, double spacing) {
   if (varied()) config.spanning.max_prob_weight = random.uniform(0.5, 1.6);
   if (varied()) config.spanning.max_total_weight = random.uniform(2, 4);
   if (varied()) config.spanning.e = random.whole(2, 40);
+  if (varied()) config.loops.method = LoopMethod::kPaper;
+  if (varied()) config.selection.min_confidence = random.uniform();
+  return config;
+}
+
+Config with_paper_loops(Config config) {
+  config.loops.method = LoopMethod::kPaper;
   return config;
 }
 

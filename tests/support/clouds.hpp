@@ -89,6 +89,8 @@ Cloud random_cloud(std::uint64_t seed);
 // All parameters of the method varied, each often left at its default. `spacing`: the typical distance
 // between neighbours, eps being a length.
 Config random_config(std::uint64_t seed, double spacing);
+// The same with the loops of the paper.
+Config with_paper_loops(Config config);
 
 Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2);
 

@@ -28,8 +28,8 @@ std::optional<std::filesystem::path> shared_folder() {
 }
 
 std::vector<GoldenSetting> golden_settings() {
-  const Config k15;
-  Config eps, k25, noisy;
+  const Config k15 = with_paper_loops({});
+  Config eps = k15, k25 = k15, noisy = k15;
   eps.neighbourhood.eps = 0.004;
   k25.neighbourhood.k = 25;
   noisy.criteria = {

@@ -506,7 +506,6 @@ bool path_within(const Graph& graph, PointId a, PointId b, std::int64_t steps, s
 Graph span(const SpanningConfig& config, Detection& result) {
   const std::size_t count = result.points.size();
   // 2 sqrt(pi K): steps around the smallest hole that edges do not cross.
-  result.e = config.e > 0 ? config.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
   Graph graph(count);
   UnionFind components(count);
   std::vector<bool> seen(count, false);
@@ -588,9 +587,171 @@ void find_loops(Graph graph, Detection& result) {
     result.loops.push_back(std::move(loop));
   }
   std::sort(result.loops.begin(), result.loops.end());
+  result.confidences.assign(result.loops.size(), 1);
+  result.sure = result.loops;
   for (PointId p : result.distinct) {
     Point& point = result.points[value(p)];
     point.boundary = point.coherent || on_loop[value(p)];
+  }
+}
+
+// ---- Stars -------------------------------------------------------------------------------------------
+
+// In the order around the point; room: of the ball on this corner and the next.
+struct Corner {
+  PointId point;
+  double room;
+};
+
+struct Gap {
+  PointId point, from, to;
+  double room;
+};
+
+using Triangle = std::array<PointId, 3>;
+
+Triangle triangle(PointId a, PointId b, PointId c) {
+  Triangle corners{a, b, c};
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+double weight(PointId id, double r) {
+  std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
+  mixed ^= mixed >> 29;
+  mixed *= 0xbf58476d1ce4e5b9;
+  return 1e-4 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
+}
+
+std::vector<Corner> star_of(const Positions& positions, const Detection& result, PointId id) {
+  const Point& p = result.points[value(id)];
+  if (!p.normal || p.neighbours.empty()) return {};
+  const Vector3d u = p.normal->unitOrthogonal(), v = p.normal->cross(u);
+  const auto shift = [&](const Point& q) -> Vector3d {
+    return q.normal ? Vector3d(*q.normal * q.normal->dot(q.surface)) : Vector3d(0, 0, 0);
+  };
+  double radius = p.mean_distance;
+  std::vector<std::pair<PointId, Eigen::Vector2d>> seen;
+  for (const PointId other : p.neighbours) {
+    const Point& q = result.points[value(other)];
+    radius += q.mean_distance;
+    const Vector3d d = (positions[value(other)] - positions[value(id)]) + (shift(q) - shift(p));
+    const double power = d.squaredNorm() + weight(id, p.mean_distance) - weight(other, q.mean_distance);
+    if (power > 0) seen.emplace_back(other, Eigen::Vector2d(d.dot(u), d.dot(v)) / power);
+  }
+  radius *= 0.8 / static_cast<double>(p.neighbours.size() + 1);
+
+  // The hull: its lower side from left to right, then its upper side back.
+  const auto place = [](const auto& q) { return std::tuple(q.second.x(), q.second.y(), q.first); };
+  std::sort(seen.begin(), seen.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  std::vector<std::pair<PointId, Eigen::Vector2d>> hull;
+  for (int side = 0; side < 2; ++side) {
+    std::vector<std::pair<PointId, Eigen::Vector2d>> chain;
+    for (const auto& q : seen) {
+      while (chain.size() > 1 && cross(chain.back().second - chain[chain.size() - 2].second,
+                                       q.second - chain[chain.size() - 2].second) <= 0) {
+        chain.pop_back();
+      }
+      chain.push_back(q);
+    }
+    hull.insert(hull.end(), chain.begin(), chain.end() - (chain.empty() ? 0 : 1));
+    std::reverse(seen.begin(), seen.end());
+  }
+  if (hull.size() < 3) return {};
+  std::vector<Corner> star;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d &a = hull[i].second, &b = hull[(i + 1) % hull.size()].second;
+    const double height = cross(a, b) / (b - a).norm();
+    star.push_back(
+        {hull[i].first, height > 0 ? 1 / (2 * height * radius) : std::numeric_limits<double>::infinity()});
+  }
+  return star;
+}
+
+std::vector<Gap> gaps_of(PointId p, const std::vector<Corner>& star,
+                         const std::map<Triangle, int>& stars_with) {
+  const std::size_t count = star.size();
+  const auto is_agreed = [&](std::size_t i) {
+    const auto found = stars_with.find(triangle(p, star[i % count].point, star[(i + 1) % count].point));
+    return star[i % count].room <= 1 && found != stars_with.end() && found->second == 3;
+  };
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_agreed(i) || is_agreed(i + 1)) continue;
+    Gap gap{p, star[(i + 1) % count].point, {}, 0};
+    std::size_t end = i + 1;
+    for (; !is_agreed(end); ++end) gap.room = std::max(gap.room, star[end % count].room);
+    gap.to = star[end % count].point;
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+// Of all ways to write a closed curve, the one that comes first.
+std::vector<PointId> first_way(std::vector<PointId> rim) {
+  std::vector<PointId> best = rim;
+  for (const bool turned : {false, true}) {
+    if (turned) std::reverse(rim.begin(), rim.end());
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      std::rotate(rim.begin(), rim.begin() + 1, rim.end());
+      if (rim.front() == *std::min_element(rim.begin(), rim.end())) best = std::min(best, rim);
+    }
+  }
+  return best;
+}
+
+void find_rims(const Positions& positions, double min_confidence, Detection& result) {
+  std::vector<std::vector<Corner>> stars(positions.size());
+  std::map<Triangle, int> stars_with;
+  for (const PointId p : result.distinct) {
+    const std::vector<Corner>& star = stars[value(p)] = star_of(positions, result, p);
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (star[i].room <= 1) ++stars_with[triangle(p, star[i].point, star[(i + 1) % star.size()].point)];
+    }
+  }
+  std::vector<Gap> gaps;
+  std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
+  for (const PointId p : result.distinct) {
+    for (const Gap& gap : gaps_of(p, stars[value(p)], stars_with)) {
+      at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
+      gaps.push_back(gap);
+    }
+  }
+  std::vector<std::pair<std::vector<PointId>, double>> rims;
+  std::vector<bool> is_done(gaps.size(), false);
+  for (std::size_t start = 0; start < gaps.size(); ++start) {
+    if (is_done[start]) continue;
+    std::vector<PointId> rim;
+    double wide = 0, wider = 0;
+    PointId next = gaps[start].to;
+    std::size_t g = start;
+    do {
+      is_done[g] = true;
+      rim.push_back(gaps[g].point);
+      wide += gaps[g].room >= 1.25;
+      wider += gaps[g].room >= 1.6;
+      const PointId here = gaps[g].point;
+      g = at.at({next, here});
+      next = gaps[g].from == here ? gaps[g].to : gaps[g].from;
+    } while (g != start);
+    const auto count = static_cast<double>(rim.size());
+    if (rim.size() >= 8)
+      rims.emplace_back(first_way(rim), std::min({1.0, wide / count, 1.25 * (wider / count)}));
+  }
+  std::sort(rims.begin(), rims.end());
+  for (const auto& [rim, confidence] : rims) {
+    result.loops.push_back(rim);
+    result.confidences.push_back(confidence);
+    if (confidence < min_confidence) continue;
+    result.sure.push_back(rim);
+    for (const PointId p : rim) result.points[value(p)].boundary = true;
+  }
+  for (const PointId p : result.distinct) {
+    Point& point = result.points[value(p)];
+    point.boundary = point.boundary || point.coherent;
   }
 }
 
@@ -605,8 +766,14 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
   for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
   if (config.normals.orient) orient_normals(positions, result);
   find_coherent(config.coherence, result);
-  find_eligible(positions, config.spanning, result);
-  find_loops(span(config.spanning, result), result);
+  result.e =
+      config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
+  if (config.loops.method == LoopMethod::kPaper) {
+    find_eligible(positions, config.spanning, result);
+    find_loops(span(config.spanning, result), result);
+  } else {
+    find_rims(positions, config.selection.min_confidence, result);
+  }
   for (Point& point : result.points) {
     if (!point.dropped) point = Point(result.points[value(point.representative)]);
   }

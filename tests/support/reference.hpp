@@ -1,6 +1,7 @@
 // The method done plainly, in memory and in one piece: what every engine test compares against. Written
-// straight from method.md (section numbers below are its), for the eye and not for speed; it shares
-// parameters and ids with the engine, but no code. Ids are ranks in the input: `points[value(id)]`.
+// straight from method.md (section numbers below are its) and from engine/README.md (the stars), for the eye
+// and not for speed; it shares parameters and ids with the engine, but no code. Ids are ranks in the input:
+// `points[value(id)]`.
 #pragma once
 
 #include "engine/config.hpp"
@@ -65,6 +66,8 @@ struct Detection {
   std::vector<Edge> eligible;               // with w_total, in the order in which they are taken
   std::vector<Edge> spanning;               // those accepted, in that order
   std::vector<std::vector<PointId>> loops;  // raw, as step 6 writes and sorts them
+  std::vector<double> confidences;          // of the loops; of the paper's all 1
+  std::vector<std::vector<PointId>> sure;   // those of at least min_confidence
 };
 
 // `normals` is empty or has one per point. Throws `Error` where the squared distance of distinct points is

@@ -29,11 +29,11 @@ bool same(const LoopMeasures& a, const LoopMeasures& b) {
 TEST_CASE(
     "points of a loop have their places and what the evaluation said, however few loops fit in memory") {
   const Cloud cloud = four_loops();
-  const reference::Detection plain = reference::detect(cloud.positions, {}, Config{});
+  const reference::Detection plain = reference::detect(cloud.positions, {}, with_paper_loops({}));
   REQUIRE(plain.loops.size() == 4);
   for (const std::uint64_t memory : {1 << 30, 20'000, 1}) {
     INFO(memory << " bytes");
-    TiledScan scan(cloud, tiled({}, 50));
+    TiledScan scan(cloud, tiled(with_paper_loops({}), 50));
     EvaluatedScan evaluated = scan.evaluate();
     const TracedLoops traced = scan.trace(evaluated);
     REQUIRE(traced.loops.size() == 4);

@@ -74,7 +74,7 @@ Cloud plane_and_islands() {
 }
 
 Config everything_eligible() {
-  Config config;
+  Config config = with_paper_loops({});
   config.spanning.max_prob_weight = 2.1;
   config.spanning.max_total_weight = 4;
   config.spanning.e = 12;
@@ -104,7 +104,7 @@ TEST_CASE("random clouds have the loops of the plain method in as little memory 
   std::size_t loops = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Cloud cloud = random_cloud(10'000 + seed);
-    Config config = random_config(seed, typical_spacing(cloud));
+    Config config = with_paper_loops(random_config(seed, typical_spacing(cloud)));
     config.neighbourhood.eps_fraction = 0;
     config.normals.orient = false;
     INFO("seed " << seed);
@@ -130,7 +130,7 @@ TEST_CASE("raw loops are sorted by first id, then length, then ids") {
   for (const std::vector<PointId>& ids : unsorted) {
     std::vector<Vertex> loop;
     for (const PointId id : ids) loop.push_back({id, Row{100 + value(id)}});
-    loops.add(loop);
+    loops.add(loop, kNoConfidence);
   }
   CHECK(loops.size() == 5);
   CHECK(loops.points() == 16);

@@ -38,7 +38,7 @@ TEST_CASE("an edge is eligible only strictly below both thresholds") {
 TEST_CASE("eligible edges are those of the plain method, each once, with their weights") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Cloud cloud = random_cloud(3000 + seed);
-    Config config = random_config(3000 + seed, typical_spacing(cloud));
+    Config config = with_paper_loops(random_config(3000 + seed, typical_spacing(cloud)));
     config.normals.orient = false;
     config.neighbourhood.k = std::min<std::int64_t>(config.neighbourhood.k, 15);
     const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
@@ -59,7 +59,7 @@ TEST_CASE("eligible edges are those of the plain method, each once, with their w
 
 TEST_CASE("of an eligible edge between tiles the tile of a strong end tells") {
   const Cloud cloud = plane(14).punched({7, 7}, 3).jittered(0.2, 5);
-  Config config;
+  Config config = with_paper_loops({});
   const reference::Detection plain = reference::detect(cloud.positions, {}, config);
   const auto strength = [&](PointId id) {
     const reference::Point& p = plain.points[value(id)];

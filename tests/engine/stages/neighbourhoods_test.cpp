@@ -22,6 +22,7 @@ std::vector<std::vector<PointId>> plain(const Cloud& cloud, const TilePoints& po
                                         double eps) {
   Config config;
   config.neighbourhood = {.k = static_cast<std::int64_t>(k), .eps = eps};
+  config.loops.method = LoopMethod::kPaper;
   config.spanning.max_prob_weight = 1e-9;
   const reference::Detection result = reference::detect(cloud.positions, {}, config);
   std::vector<std::vector<PointId>> ids;
