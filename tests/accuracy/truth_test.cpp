@@ -5,6 +5,7 @@
 #include "tools/accuracy/spacing.hpp"
 #include "tools/accuracy/true_loops.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -71,6 +72,16 @@ TEST_CASE("a hole is a loop beside the rim, joined to it where they touch") {
   REQUIRE(two.size() == 2);
   CHECK(two[1].vertices == Ids{7, 8, 13, 14, 15, 20, 21});
   CHECK(two[1].edges.size() == 8);
+}
+
+TEST_CASE("an edge on three triangles is no boundary") {
+  Drawing drawing;
+  for (int i = 0; i < 5; ++i) drawing.point(i == 1, i == 2 ? 1 : i == 3 ? -1 : 0, i == 4);
+  const std::vector<Triangle> fins = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  const auto loops = mesh_boundary(fins, stand_ins(drawing.positions));
+  REQUIRE(loops.size() == 1);
+  CHECK(loops[0].edges.size() == 6);
+  CHECK(std::count(loops[0].edges.begin(), loops[0].edges.end(), std::array<std::uint64_t, 2>{0, 1}) == 0);
 }
 
 TEST_CASE("a closed mesh, triangles without area and no triangles have no boundary") {

@@ -11,7 +11,7 @@ namespace {
 using Edge = std::array<std::uint64_t, 2>;
 
 std::array<double, 3> place_of(const Eigen::Vector3d& p) {
-  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0 + 0 is 0
+  return {p.x(), p.y(), p.z()};
 }
 
 void sort_once(std::vector<std::uint64_t>& ids) {
