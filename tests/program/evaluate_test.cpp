@@ -94,6 +94,29 @@ TEST_CASE("the scan is the one that the run names, where none lies beside the tr
   CHECK(evaluate({made.out, moved.string()}).at("found") == 4);
 }
 
+TEST_CASE("a scan that is text is read with the columns of the run") {
+  const ScratchFolder folder;
+  std::string rows;
+  for (int i = 0; i < 40 * 40; ++i)
+    rows += "7 " + std::to_string(i % 40) + " 0 " + std::to_string(i / 40) + "\n";
+  const std::string scan = folder.write("sheet.txt", rows);
+  const std::string out = (folder / "out").string();
+  REQUIRE(run_program({"detect", scan, "--out", out, "--quiet", "--columns", "t", "x", "z", "y"}).exit_code ==
+          0);
+  std::string rim;
+  for (int i = 0; i < 39; ++i) rim += std::to_string(i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(39 + 40 * i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(40 * 40 - 1 - i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(40 * (39 - i)) + " ";
+  const std::string truth = folder.write("true.txt", rim + "\n");
+  const auto report = evaluate({out, truth});
+  CHECK(report.at("spacing") == Approx(1));
+  CHECK(report.at("found") == 1);
+  fs::rename(scan, folder / "moved.txt");
+  check_refused(run_program({"evaluate", out, truth}), 1, "--scan must name it");
+  CHECK(evaluate({out, truth, "--scan", (folder / "moved.txt").string()}).at("found") == 1);
+}
+
 TEST_CASE("the tolerance is in spacings") {
   const ScratchFolder folder;
   std::string rows;

@@ -44,6 +44,7 @@ void read_report(const fs::path& file, Result& result) {
   try {
     const Json report = Json::parse(in);
     result.points = report.at("counts").at("points").get<std::uint64_t>();
+    result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
     for (const Json& input : report.at("inputs")) {
       result.inputs.emplace_back(input.at("file").get<std::string>());
     }
@@ -65,8 +66,8 @@ bool is_ply(const fs::path& file) {
   return looks_like_ply(InputFile(file).peek(4));
 }
 
-std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files) {
-  FileScan scan(files, {});
+std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files, const std::string& columns) {
+  FileScan scan(files, {.columns = columns});
   std::vector<Eigen::Vector3d> positions;
   for (PointBatch batch; scan.next(batch);) {
     positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
@@ -80,9 +81,12 @@ std::vector<fs::path> scans_of(const fs::path& truth, const Result& result) {
     const fs::path beside = name.substr(0, name.size() - kLoopsEnding.size()) + ".ply";
     if (fs::exists(beside)) return {beside};
   }
-  if (!result.inputs.empty()) return result.inputs;
+  const auto exists = [](const fs::path& input) { return fs::exists(input); };
+  if (!result.inputs.empty() && std::all_of(result.inputs.begin(), result.inputs.end(), exists)) {
+    return result.inputs;
+  }
   throw Error(name + ": no scan of that name (X.ply beside X" + std::string(kLoopsEnding) +
-              "), and none named by the result; --scan must name it");
+              "), and none named by the result is there; --scan must name it");
 }
 
 void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const Truth& truth) {
@@ -139,7 +143,7 @@ Truth read_truth(const fs::path& file, std::vector<fs::path> scans, const Result
   const std::vector<LoopIds> loops = mesh ? std::vector<LoopIds>{} : read_loops(file);
   if (mesh) scans = {file};
   if (scans.empty()) scans = scans_of(file, result);
-  truth.positions = read_positions(scans);
+  truth.positions = read_positions(scans, result.columns);
   truth.stand_ins = stand_ins(truth.positions);
   if (mesh) {
     take_mesh(triangles, truth);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,6 +23,7 @@ struct Result {
   std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
   std::optional<std::uint64_t> points;                 // of the input, where the run tells
   std::vector<std::filesystem::path> inputs;           // where the run tells
+  std::string columns;                                 // of inputs that are text, where the run was told
 };
 
 // What is there. Ids are places in `positions`.
@@ -49,8 +51,8 @@ struct Evaluation {
 Result read_result(const std::filesystem::path& path);
 
 // A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`;
-// without any, of the scan X.ply beside X.loops.txt, else of the result's inputs. Points that no face of a
-// mesh uses take no part in the spacing. Throws `Error`.
+// without any, of the scan X.ply beside X.loops.txt, else of the result's inputs where they still are. Points
+// that no face of a mesh uses take no part in the spacing. Throws `Error`.
 Truth read_truth(const std::filesystem::path& file, std::vector<std::filesystem::path> scans,
                  const Result& result);
 
