@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lacuna {
 namespace {
@@ -71,6 +72,43 @@ bool is_blank_line(std::string_view line) {
   return !next_field(line, ' ', word);
 }
 
+std::int64_t parse_integer(const InputFile& in, const PlyProperty& property, std::string_view word) {
+  return with_type(property.type, [&](auto value) {
+    using T = decltype(value);
+    if (!parse_number(word, value)) in.fail_at_line(in.line() + 1, not_a_value<T>(property, word));
+    return static_cast<std::int64_t>(value);
+  });
+}
+
+// Passes over rows and hands on one list of each, an index into the properties; beyond them: none. By words,
+// since a list (of a triangle strip, say) may be longer than any buffer.
+template <class Visit>
+void pass_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::size_t list,
+               const Visit& visit) {
+  if (element.properties.empty()) return;
+  const auto word = [&] {
+    const auto word = in.next_word();
+    if (!word) in.fail_at_line(in.line() + 1, few_values(element));
+    return *word;
+  };
+  std::vector<std::int64_t> values;
+  for (; count > 0; --count) {
+    if (!in.next_row()) fail_few_rows(in, element, count);
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      const std::string_view first = word();
+      if (!property.count_type) continue;
+      if (i == list) values.clear();
+      for (auto left = parse_count(in, in.line() + 1, property, first); left > 0; --left) {
+        const std::string_view value = word();
+        if (i == list) values.push_back(parse_integer(in, property, value));
+      }
+    }
+    if (!in.end_row()) in.fail_at_line(in.line() + 1, many_values(element));
+    visit(values);
+  }
+}
+
 }  // namespace
 
 void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::byte* rows) {
@@ -91,23 +129,12 @@ void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t cou
   }
 }
 
-// By words, since a list (of a triangle strip, say) may be longer than any buffer.
 void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count) {
-  if (element.properties.empty()) return;
-  const auto word = [&] {
-    const auto word = in.next_word();
-    if (!word) in.fail_at_line(in.line() + 1, few_values(element));
-    return *word;
-  };
-  for (; count > 0; --count) {
-    if (!in.next_row()) fail_few_rows(in, element, count);
-    for (const PlyProperty& property : element.properties) {
-      const std::string_view first = word();
-      if (!property.count_type) continue;
-      for (auto left = parse_count(in, in.line() + 1, property, first); left > 0; --left) word();
-    }
-    if (!in.end_row()) in.fail_at_line(in.line() + 1, many_values(element));
-  }
+  pass_rows(in, element, count, element.properties.size(), [](std::span<const std::int64_t>) {});
+}
+
+void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit) {
+  pass_rows(in, element, element.count, list, visit);
 }
 
 }  // namespace lacuna

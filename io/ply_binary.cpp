@@ -5,22 +5,46 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <type_traits>
+#include <vector>
 
 namespace lacuna {
 namespace {
 
-void skip_list(InputFile& in, const PlyProperty& property, bool swapped) {
+template <class T>
+T read_value(InputFile& in, bool swapped) {
+  std::array<std::byte, sizeof(T)> bytes;
+  in.read(bytes.data(), bytes.size());
+  if (swapped) std::reverse(bytes.begin(), bytes.end());
+  T value;
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return value;
+}
+
+// At most 2^32 - 1.
+std::uint64_t read_count(InputFile& in, const PlyProperty& property, bool swapped) {
   const std::uint64_t place = in.position();
-  const std::uint64_t count = with_type(*property.count_type, [&](auto value) -> std::uint64_t {
-    std::array<std::byte, sizeof(value)> bytes;
-    in.read(bytes.data(), bytes.size());
-    if (swapped) std::reverse(bytes.begin(), bytes.end());
-    std::memcpy(&value, bytes.data(), bytes.size());
+  return with_type(*property.count_type, [&](auto zero) -> std::uint64_t {
+    const auto value = read_value<decltype(zero)>(in, swapped);
     if (value < 0) in.fail_at_byte(place, "list " + in_quotes(property.name) + " has a negative count");
     return static_cast<std::uint64_t>(value);
   });
-  in.skip(count * size_of(property.type));  // at most 2^32 times 8
+}
+
+void skip_list(InputFile& in, const PlyProperty& property, bool swapped) {
+  in.skip(read_count(in, property, swapped) * size_of(property.type));
+}
+
+void read_list(InputFile& in, const PlyProperty& property, bool swapped, std::vector<std::int64_t>& values) {
+  const std::uint64_t count = read_count(in, property, swapped);
+  const std::uint64_t bytes = count * size_of(property.type);
+  if (bytes > in.remaining()) in.skip(bytes);  // tells what is missing
+  values.clear();
+  values.reserve(count);
+  with_type(property.type, [&](auto zero) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      values.push_back(static_cast<std::int64_t>(read_value<decltype(zero)>(in, swapped)));
+    }
+  });
 }
 
 }  // namespace
@@ -62,6 +86,24 @@ void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, st
         in.skip(size_of(property.type));
       }
     }
+  }
+}
+
+void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, std::size_t list,
+                        const ListVisitor& visit) {
+  std::vector<std::int64_t> values;
+  for (std::uint64_t row = 0; row < element.count; ++row) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (i == list) {
+        read_list(in, property, swapped, values);
+      } else if (property.count_type) {
+        skip_list(in, property, swapped);
+      } else {
+        in.skip(size_of(property.type));
+      }
+    }
+    visit(values);
   }
 }
 

@@ -1,12 +1,12 @@
 #include "io/ply_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/ply_body.hpp"
 #include "io/ply_header.hpp"
 #include "io/ply_rows.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 namespace lacuna {
@@ -32,48 +32,6 @@ void require_position(const InputFile& in, const PlyElement& vertex) {
   }
 }
 
-// A row takes at least so many bytes. ASCII: a digit and a blank for each value.
-std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
-  if (format == PlyFormat::kAscii) return 2 * element.properties.size();
-  std::uint64_t bytes = 0;
-  for (const PlyProperty& property : element.properties) {
-    bytes += size_of(property.count_type.value_or(property.type));
-  }
-  return bytes;
-}
-
-// Whether the file can hold the rows that the header declares. Afterwards their number is safe to count to.
-void require_size(const InputFile& in, const PlyHeader& header) {
-  const std::uint64_t size = in.position() + in.remaining();
-  std::uint64_t left = in.remaining();
-  if (header.format == PlyFormat::kAscii) ++left;  // the last line may have no end
-  for (const PlyElement& element : header.elements) {
-    const std::uint64_t least = least_row_bytes(element, header.format);
-    if (least > 0 && element.count > left / least) {
-      in.fail_at_byte(size, "the file ends here, too early for the " + std::to_string(element.count) +
-                                " rows of element " + in_quotes(element.name) +
-                                " that its header declares; it must be complete");
-    }
-    left -= element.count * least;
-  }
-}
-
-// Rows that the header does not count would be lost points.
-void require_end(InputFile& in) {
-  constexpr std::size_t kBlock = 4096;
-  while (in.remaining() > 0) {
-    const std::uint64_t place = in.position();
-    const std::string_view block = in.peek(kBlock);
-    const std::size_t data = block.find_first_not_of(" \t\r\n\v\f");
-    if (data != std::string_view::npos) {
-      in.fail_at_byte(place + data,
-                      "more data after the last row that the header declares; its counts must hold");
-    }
-    if (block.empty()) return;
-    in.skip(block.size());
-  }
-}
-
 class PlyReader final : public ScanReader {
  public:
   explicit PlyReader(const std::filesystem::path& file) : in_(file), header_(read_ply_header(in_)) {
@@ -83,7 +41,7 @@ class PlyReader final : public ScanReader {
     element_ = vertex;
     layout_ = header_.elements[vertex].layout();
     left_ = header_.elements[vertex].count;
-    for (std::size_t i = 0; i < vertex; ++i) skip(header_.elements[i]);
+    for (std::size_t i = 0; i < vertex; ++i) skip_rows(in_, header_.format, header_.elements[i]);
   }
 
   const RowLayout& layout() const override { return layout_; }
@@ -103,28 +61,18 @@ class PlyReader final : public ScanReader {
     if (header_.format == PlyFormat::kAscii) {
       read_ascii_rows(in_, vertex, batch.count, batch.bytes.data());
     } else {
-      read_binary_rows(in_, vertex, swapped(), batch.count, batch.bytes.data());
+      read_binary_rows(in_, vertex, is_swapped(header_.format), batch.count, batch.bytes.data());
     }
     left_ -= batch.count;
     return true;
   }
 
  private:
-  bool swapped() const {
-    return (header_.format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
-  }
-
-  void skip(const PlyElement& element) {
-    if (header_.format == PlyFormat::kAscii) {
-      skip_ascii_rows(in_, element, element.count);
-    } else {
-      skip_binary_rows(in_, element, swapped(), element.count);
-    }
-  }
-
   void finish() {
     if (finished_) return;
-    for (std::size_t i = element_ + 1; i < header_.elements.size(); ++i) skip(header_.elements[i]);
+    for (std::size_t i = element_ + 1; i < header_.elements.size(); ++i) {
+      skip_rows(in_, header_.format, header_.elements[i]);
+    }
     require_end(in_);
     finished_ = true;
   }

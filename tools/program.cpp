@@ -2,6 +2,7 @@
 
 #include "engine/core/error.hpp"
 #include "tools/detect_command.hpp"
+#include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/signals.hpp"
@@ -81,6 +82,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   add_detect_command(app);
+  add_evaluate_command(app);
   add_info_command(app);
   add_synth_command(app);
 

@@ -33,23 +33,6 @@ std::string print_position(const Eigen::Vector3d& position) {
   return buffer;
 }
 
-// Columns as wide as their widest cell; the first to the left, the others to the right.
-std::string print_table(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string table;
-  for (const auto& row : rows) {
-    table += "  " + row[0] + std::string(widths[0] - row[0].size(), ' ');
-    for (std::size_t i = 1; i < row.size(); ++i) {
-      table += "  " + std::string(widths[i] - row[i].size(), ' ') + row[i];
-    }
-    table += '\n';
-  }
-  return table;
-}
-
 std::string print_input(const Counts& counts, const std::vector<std::filesystem::path>& scans) {
   std::string text = print_count(counts.points) + " points";
   text += scans.size() == 1 ? " in " + scans.front().string()
@@ -143,6 +126,22 @@ std::string print_result_files(const std::filesystem::path& folder) {
     if (std::filesystem::exists(file)) text += "written: " + file.string() + "\n";
   }
   return text;
+}
+
+std::string print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string table;
+  for (const auto& row : rows) {
+    table += "  " + row[0] + std::string(widths[0] - row[0].size(), ' ');
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      table += "  " + std::string(widths[i] - row[i].size(), ' ') + row[i];
+    }
+    table += '\n';
+  }
+  return table;
 }
 
 std::string print_count(std::uint64_t count) {

@@ -26,6 +26,10 @@ std::string print_summary(const Detection& detection, const std::vector<std::fil
 // The files that a run has left in its output folder.
 std::string print_result_files(const std::filesystem::path& folder);
 
+// Rows of as many cells each, at least one row; columns as wide as their widest cell, the first to the left,
+// the others to the right.
+std::string print_table(const std::vector<std::vector<std::string>>& rows);
+
 std::string print_count(std::uint64_t count);  // "1,234,567"
 std::string print_size(std::uint64_t bytes);   // "1.5 GiB", for people; exact: print_bytes
 std::uint64_t peak_memory();                   // bytes resident, as the operating system measures it

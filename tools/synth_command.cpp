@@ -22,11 +22,13 @@ using namespace synth;
 template <typename T>
 using Choice = std::pair<const char*, T>;
 
-constexpr std::array<Choice<SurfaceKind>, 5> kKinds{{{"plane", SurfaceKind::kPlane},
+constexpr std::array<Choice<SurfaceKind>, 7> kKinds{{{"plane", SurfaceKind::kPlane},
                                                      {"waves", SurfaceKind::kWaves},
                                                      {"cylinder", SurfaceKind::kCylinder},
                                                      {"torus", SurfaceKind::kTorus},
-                                                     {"sphere-cap", SurfaceKind::kSphereCap}}};
+                                                     {"sphere-cap", SurfaceKind::kSphereCap},
+                                                     {"sphere", SurfaceKind::kSphere},
+                                                     {"cube", SurfaceKind::kCube}}};
 constexpr std::array<Choice<SceneKind>, 3> kScenes{
     {{"room", SceneKind::kRoom}, {"court", SceneKind::kCourt}, {"hall", SceneKind::kHall}}};
 constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, {"random", Order::kRandom}}};

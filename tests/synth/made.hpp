@@ -112,11 +112,13 @@ inline SurfaceOptions small_surface(const ScratchFolder& folder, SurfaceKind kin
 }
 
 inline std::size_t rims_of(SurfaceKind kind) {
-  if (kind == SurfaceKind::kTorus) return 0;
+  if (kind == SurfaceKind::kTorus || kind == SurfaceKind::kSphere || kind == SurfaceKind::kCube) return 0;
   return kind == SurfaceKind::kCylinder ? 2 : 1;
 }
 
-inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves, SurfaceKind::kCylinder,
-                                      SurfaceKind::kTorus, SurfaceKind::kSphereCap};
+inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves,     SurfaceKind::kCylinder,
+                                      SurfaceKind::kTorus, SurfaceKind::kSphereCap, SurfaceKind::kSphere,
+                                      SurfaceKind::kCube};
+inline constexpr std::array kPanelKinds{SurfaceKind::kSphere, SurfaceKind::kCube};
 
 }  // namespace lacuna::synth

@@ -36,26 +36,28 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   if (options.holes == 0) return;
   const double reach = std::ceil(options.hole_radius[1] * std::sqrt(kMaxElongation)) + kMargin;
   // The holes keep to the full half; on a tube its first column is a step, too.
-  const std::uint32_t width = grid.stride > 1 ? grid.step_column + 1 : grid.columns;
+  const std::uint32_t width = grid.stride > 1 ? grid.step_column + 1 : grid.panel_columns();
   down_ = static_cast<std::uint32_t>(grid.rows / (2 * reach + 1));
   across_ = static_cast<std::uint32_t>(width / (2 * reach + 1));
-  const std::uint64_t room = std::uint64_t{down_} * across_;
+  const std::uint64_t room = std::uint64_t{down_} * across_ * grid.panels;
   if (options.holes > room)
     throw Error("--holes " + std::to_string(options.holes) + ": only " + std::to_string(room) +
                 " holes of this radius fit on this surface; plant fewer or smaller ones, or more points");
-  widen_cells(options.holes, grid.rows, width, down_, across_);
+  widen_cells((options.holes + grid.panels - 1) / grid.panels, grid.rows, width, down_, across_);
   cell_rows_ = grid.rows / down_;
   cell_columns_ = width / across_;
 
-  const Permutation cells(std::uint64_t{down_} * across_, mix(options.seed));
+  const std::uint64_t cells_of_panel = std::uint64_t{down_} * across_;
+  const Permutation cells(cells_of_panel * grid.panels, mix(options.seed));
   const Random random(options.seed, 0x401e5);
-  hole_of_cell_.assign(std::size_t{down_} * across_, -1);
+  hole_of_cell_.assign(cells_of_panel * grid.panels, -1);
   holes_.reserve(options.holes);
   for (std::uint64_t hole = 0; hole < options.holes; ++hole) {
     const std::uint64_t cell = cells(hole);
     hole_of_cell_[cell] = static_cast<std::int32_t>(hole);
-    const double top = static_cast<double>(cell / across_ * cell_rows_);
-    const double left = static_cast<double>(cell % across_ * cell_columns_);
+    const double top = static_cast<double>(cell % cells_of_panel / across_ * cell_rows_);
+    const double left = static_cast<double>(cell / cells_of_panel * grid.panel_columns() +
+                                            cell % cells_of_panel % across_ * cell_columns_);
     const double radius = random.uniform(5 * hole, options.hole_radius[0], options.hole_radius[1]);
     const double elongation = random.uniform(5 * hole + 1, 1, kMaxElongation);
     const auto [sin, cos] = sin_cos(0.5 * random.uniform(5 * hole + 2));
@@ -73,9 +75,10 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
 
 NodeState HoleField::state(std::uint32_t row, std::uint32_t column) const {
   const std::uint32_t down = row / cell_rows_;
-  const std::uint32_t across = column / cell_columns_;
+  const std::uint32_t across = column % grid_.panel_columns() / cell_columns_;
   if (down >= down_ || across >= across_) return NodeState::kSurface;
-  const std::int32_t index = hole_of_cell_[std::size_t{down} * across_ + across];
+  const std::size_t panel = column / grid_.panel_columns();
+  const std::int32_t index = hole_of_cell_[(panel * down_ + down) * across_ + across];
   if (index < 0) return NodeState::kSurface;
   const Ellipse& hole = holes_[static_cast<std::size_t>(index)];
   const double form = hole.form(row, column);

@@ -11,7 +11,7 @@ namespace lacuna::synth {
 enum class NodeState { kSurface, kOnLoop, kRemoved };
 
 // Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it, so that
-// none comes near another, the rim or a density step.
+// none comes near another, the rim, a density step or the edge of a panel.
 //
 // The surface is the quads whose four nodes exist; a loop is the closed chain of edges with exactly one such
 // quad. A hole has exactly one loop, which visits no node twice, because the nodes that it takes are those
@@ -51,7 +51,7 @@ class HoleField {
 
   SurfaceGrid grid_;
   std::uint32_t cell_rows_ = 1, cell_columns_ = 1;  // nodes per cell
-  std::uint32_t down_ = 0, across_ = 0;             // cells
+  std::uint32_t down_ = 0, across_ = 0;             // cells, of one panel
   std::vector<Ellipse> holes_;
   std::vector<std::int32_t> hole_of_cell_;  // -1: none
 };

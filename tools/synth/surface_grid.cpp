@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMinSide = 8;
 constexpr double kMaxSide = 0x1p31;
+constexpr std::uint32_t kCubeFaces = 6;
 
 // Columns per row of the grid, for squares of about one spacing.
 double aspect(SurfaceKind kind) {
@@ -20,9 +21,16 @@ double aspect(SurfaceKind kind) {
       return 2;
     case SurfaceKind::kTorus:
       return 3;  // the major radius is three minor ones
+    case SurfaceKind::kSphere:
+    case SurfaceKind::kCube:
+      return kCubeFaces;
     default:
       return 1;
   }
+}
+
+bool has_panels(SurfaceKind kind) {
+  return kind == SurfaceKind::kSphere || kind == SurfaceKind::kCube;
 }
 
 std::uint32_t exact_root(std::uint32_t square) {
@@ -51,6 +59,16 @@ SurfaceGrid lay_grid(const SurfaceOptions& options) {
         ": this surface needs at least about 10 x 10 points in its sparsest part, and at most 2^31 in a row");
 
   SurfaceGrid grid;
+  if (has_panels(options.kind)) {
+    if (options.density_step > 1)
+      throw Error("--density-step: not on a sphere or a cube, which have no halves");
+    grid.panels = kCubeFaces;
+    grid.wrap_rows = grid.wrap_columns = true;  // no rim
+    grid.rows = whole_strides(side, 1);
+    grid.columns = grid.panels * grid.rows;
+    grid.step_column = grid.columns;
+    return grid;
+  }
   grid.stride = exact_root(options.density_step);
   grid.wrap_columns = options.kind == SurfaceKind::kCylinder || options.kind == SurfaceKind::kTorus;
   grid.wrap_rows = options.kind == SurfaceKind::kTorus;

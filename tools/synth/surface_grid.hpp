@@ -15,7 +15,11 @@ struct SurfaceGrid {
   bool wrap_rows = false, wrap_columns = false;  // the last row (column) is next to the first
   std::uint32_t step_column = 0;
   std::uint32_t stride = 1;
+  // The columns are those of so many square panels side by side: the faces of a cube, or of one blown up to a
+  // sphere. Panels are neighbours in space, not in the grid, and their nodes are the middles of its squares.
+  std::uint32_t panels = 1;
 
+  std::uint32_t panel_columns() const { return columns / panels; }
   std::uint64_t nodes() const { return std::uint64_t{rows} * columns; }
   std::uint64_t node(std::uint32_t row, std::uint32_t column) const {
     return std::uint64_t{row} * columns + column;
@@ -36,7 +40,8 @@ using NodeLoop = std::vector<std::uint64_t>;
 // is too few or too many.
 SurfaceGrid lay_grid(const SurfaceOptions& options);
 
-// The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus. Where the
+// The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus, a sphere
+// or a cube. Where the
 // density steps, fine and coarse quads meet without a gap.
 std::vector<NodeLoop> rims(const SurfaceGrid& grid);
 

@@ -10,7 +10,7 @@
 
 namespace lacuna::synth {
 
-enum class SurfaceKind { kPlane, kWaves, kCylinder, kTorus, kSphereCap };
+enum class SurfaceKind { kPlane, kWaves, kCylinder, kTorus, kSphereCap, kSphere, kCube };
 
 struct SurfaceOptions {
   std::filesystem::path out;    // PLY

@@ -2,6 +2,8 @@
 
 #include "tools/synth/trig.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lacuna::synth {
@@ -53,19 +55,55 @@ SurfacePoint on_sphere_cap(double u, double v, double width, double height) {
   return {radius * normal, normal};
 }
 
+// The directions of a face of a cube: outwards, and those of u and v.
+struct Face {
+  Vec3 out, across, down;
+};
+
+constexpr std::array<Face, 6> kFaces{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                      {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                      {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},
+                                      {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                      {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                      {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}}};
+
+SurfacePoint on_cube(const Face& face, double u, double v, double edge) {
+  return {0.5 * edge * (face.out + (2 * u - 1) * face.across + (2 * v - 1) * face.down), face.out};
+}
+
+// Equal steps of u and v are equal angles seen from the middle. The sphere has the area of the cube.
+SurfacePoint on_sphere(const Face& face, double u, double v, double edge) {
+  const double radius = edge * std::sqrt(3 / kTwoPi);
+  const auto [sin_u, cos_u] = sin_cos((2 * u - 1) / 8);
+  const auto [sin_v, cos_v] = sin_cos((2 * v - 1) / 8);
+  const Vec3 normal = normalized(face.out + sin_u / cos_u * face.across + sin_v / cos_v * face.down);
+  return {radius * normal, normal};
+}
+
 }  // namespace
 
 SurfaceShape::SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options)
     : kind_(options.kind),
       wrap_rows_(grid.wrap_rows),
       wrap_columns_(grid.wrap_columns),
+      panels_(grid.panels),
       rows_(grid.rows - (grid.wrap_rows ? 0.0 : 1.0)),
       columns_(grid.columns - (grid.wrap_columns ? 0.0 : 1.0)),
       height_(rows_ * options.spacing),
       width_(columns_ * options.spacing),
       stretch_(std::sqrt(options.density_factor)) {}
 
+// A point is at most half a step from its node, the middle of a square: it stays on its panel.
+SurfacePoint SurfaceShape::on_panel(double row, double column) const {
+  const double panel = std::min(std::floor((column + 0.5) / rows_), panels_ - 1.0);
+  const double u = warp((column + 0.5) / rows_ - panel, stretch_, true);
+  const double v = warp((row + 0.5) / rows_, stretch_, true);
+  const Face& face = kFaces[static_cast<std::size_t>(panel)];
+  return kind_ == SurfaceKind::kSphere ? on_sphere(face, u, v, height_) : on_cube(face, u, v, height_);
+}
+
 SurfacePoint SurfaceShape::at(double row, double column) const {
+  if (panels_ > 1) return on_panel(row, column);
   const double u = warp(column / columns_, stretch_, wrap_columns_);
   const double v = warp(row / rows_, stretch_, wrap_rows_);
   switch (kind_) {
@@ -77,6 +115,8 @@ SurfacePoint SurfaceShape::at(double row, double column) const {
       return on_torus(u, v, width_, height_);
     case SurfaceKind::kSphereCap:
       return on_sphere_cap(u, v, width_, height_);
+    case SurfaceKind::kSphere:
+    case SurfaceKind::kCube:
     case SurfaceKind::kPlane:
       break;
   }

@@ -12,7 +12,8 @@ struct SurfacePoint {
 };
 
 // From the plane of the grid to space. Neighbours are one spacing apart on average; a torus is denser inside,
-// a sphere cap at its corners, as their geometry has it.
+// a sphere cap at its corners, a sphere up to 1.4 times along the seams of its
+// six panels, as their geometry has it. A density factor is one of every panel.
 class SurfaceShape {
  public:
   SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);
@@ -21,8 +22,11 @@ class SurfaceShape {
   SurfacePoint at(double row, double column) const;
 
  private:
+  SurfacePoint on_panel(double row, double column) const;
+
   SurfaceKind kind_;
   bool wrap_rows_, wrap_columns_;
+  std::uint32_t panels_;
   double rows_, columns_;  // steps from the first to the last, or around
   double height_, width_;  // rows_ and columns_, units of the scan
   double stretch_;         // largest over smallest step in each direction

@@ -1,0 +1,64 @@
+#include "io/ply_body.hpp"
+
+#include "io/ply_rows.hpp"
+
+#include <bit>
+
+namespace lacuna {
+namespace {
+
+// A row takes at least so many bytes. ASCII: a digit and a blank for each value.
+std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
+  if (format == PlyFormat::kAscii) return 2 * element.properties.size();
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    bytes += size_of(property.count_type.value_or(property.type));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void require_size(const InputFile& in, const PlyHeader& header) {
+  const std::uint64_t size = in.position() + in.remaining();
+  std::uint64_t left = in.remaining();
+  if (header.format == PlyFormat::kAscii) ++left;  // the last line may have no end
+  for (const PlyElement& element : header.elements) {
+    const std::uint64_t least = least_row_bytes(element, header.format);
+    if (least > 0 && element.count > left / least) {
+      in.fail_at_byte(size, "the file ends here, too early for the " + std::to_string(element.count) +
+                                " rows of element " + in_quotes(element.name) +
+                                " that its header declares; it must be complete");
+    }
+    left -= element.count * least;
+  }
+}
+
+void require_end(InputFile& in) {
+  constexpr std::size_t kBlock = 4096;
+  while (in.remaining() > 0) {
+    const std::uint64_t place = in.position();
+    const std::string_view block = in.peek(kBlock);
+    const std::size_t data = block.find_first_not_of(" \t\r\n\v\f");
+    if (data != std::string_view::npos) {
+      in.fail_at_byte(place + data,
+                      "more data after the last row that the header declares; its counts must hold");
+    }
+    if (block.empty()) return;
+    in.skip(block.size());
+  }
+}
+
+bool is_swapped(PlyFormat format) {
+  return (format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
+}
+
+void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element) {
+  if (format == PlyFormat::kAscii) {
+    skip_ascii_rows(in, element, element.count);
+  } else {
+    skip_binary_rows(in, element, is_swapped(format), element.count);
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,161 @@
+#include "tools/accuracy/match_loops.hpp"
+
+#include "tests/accuracy/drawn.hpp"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::accuracy {
+namespace {
+
+LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,
+                   const std::vector<LoopIds>& truth, const MatchRule& rule = {.tolerance = 2}) {
+  return match_loops(loops, loops_through(truth, stand_ins(drawing.positions)), drawing.positions, rule);
+}
+
+// There and back again, so that no edge cuts across.
+LoopIds and_back(LoopIds ids) {
+  for (std::size_t i = ids.size() - 1; i-- > 1;) ids.push_back(ids[i]);
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  const LoopIds beside = drawing.ring(36, 0.3, 0);
+  const LoopIds far = drawing.ring(40, 100, 0);
+  const LoopAccuracy result = match(drawing, {beside, ring, ring}, {far, ring});
+  CHECK(result.loops[0].verdict == Verdict::kFound);
+  CHECK(result.loops[1].verdict == Verdict::kRepeated);
+  CHECK(result.loops[2].verdict == Verdict::kRepeated);
+  CHECK(result.loops[0].true_loop == 1u);
+  CHECK(result.loops[0].on == 1);
+  CHECK(result.loops[0].covered == 1);
+  CHECK_FALSE(result.true_loops[0].found_by);
+  CHECK(result.true_loops[1].found_by == 0u);
+  const LoopScores& scores = result.scores;
+  CHECK((scores.true_loops == 2 && scores.found == 1 && scores.missed == 1));
+  CHECK((scores.loops == 3 && scores.false_loops == 0 && scores.repeated == 2));
+  CHECK(scores.recall == 0.5);
+  CHECK(scores.precision == 1);
+}
+
+TEST_CASE("a loop that covers less than 70 percent of a true one is false") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(100, 0, 0);
+  // The vertices within the tolerance beyond both ends are covered, too.
+  const LoopAccuracy less = match(drawing, {and_back(part(ring, 0.60))}, {ring}, {.tolerance = 1.5});
+  CHECK(less.loops[0].verdict == Verdict::kFalse);
+  CHECK(less.loops[0].true_loop == 0u);
+  CHECK(less.loops[0].on == 1);
+  CHECK(less.loops[0].covered == Approx(0.62));
+  CHECK(less.scores.found == 0);
+  CHECK(less.scores.precision == 0);
+  const LoopAccuracy more = match(drawing, {and_back(part(ring, 0.68))}, {ring}, {.tolerance = 1.5});
+  CHECK(more.loops[0].covered == Approx(0.70));
+  CHECK(more.loops[0].verdict == Verdict::kFound);
+}
+
+TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  LoopIds away = ring;
+  for (int i = 0; i < 18; ++i) away.push_back(drawing.point(30 + i, 0));
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == Verdict::kFalse);
+  CHECK(match(drawing, {away}, {ring}).loops[0].on == Approx(40.0 / 58));
+  away.pop_back();
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == Verdict::kFound);
+}
+
+TEST_CASE("a loop that is near nothing has no true loop") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  const LoopIds far = drawing.ring(40, 100, 0);
+  const LoopAccuracy result = match(drawing, {far}, {ring});
+  CHECK(result.loops[0].verdict == Verdict::kFalse);
+  CHECK_FALSE(result.loops[0].true_loop);
+  CHECK(result.scores.false_loops == 1);
+}
+
+TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {
+  Drawing drawing;
+  const LoopIds small = drawing.ring(7, 0, 0);
+  const LoopIds missed = drawing.ring(7, 50, 0);
+  const LoopIds large = drawing.ring(8, 100, 0);
+  const LoopAccuracy result = match(drawing, {small, small}, {small, missed, large});
+  CHECK(result.loops[0].verdict == Verdict::kShort);
+  CHECK(result.loops[1].verdict == Verdict::kShort);
+  CHECK_FALSE(result.true_loops[0].counts);
+  CHECK(result.true_loops[0].found_by == 0u);
+  const LoopScores& scores = result.scores;
+  CHECK((scores.true_loops == 1 && scores.short_loops == 2 && scores.found == 0 && scores.missed == 1));
+  CHECK((scores.false_loops == 0 && scores.repeated == 0 && scores.precision == 1));
+  CHECK(match(drawing, {small}, {small}, {.tolerance = 2, .min_vertices = 7}).scores.found == 1);
+}
+
+TEST_CASE("a loop on a short true loop beside a long one goes to the long one") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(20, 0, 0);
+  const LoopIds sparse = {ring[0], ring[4], ring[8], ring[12], ring[16]};
+  const LoopAccuracy result = match(drawing, {ring}, {sparse, ring});
+  CHECK(result.loops[0].verdict == Verdict::kFound);
+  CHECK(result.loops[0].true_loop == 1u);
+}
+
+TEST_CASE("distances are to edges, so long ones hide nothing") {
+  Drawing drawing;
+  LoopIds corners, dense;
+  const double side = 30;
+  for (const auto& [x, y] : {std::pair{0., 0.}, {side, 0.}, {side, side}, {0., side}}) {
+    corners.push_back(drawing.point(x, y));
+  }
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(i, 0));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side, i));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side - i, side));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(0, side - i));
+  const MatchRule rule{.tolerance = 0.5, .min_vertices = 4};
+  CHECK(match(drawing, {dense}, {corners}, rule).scores.found == 1);
+  CHECK(match(drawing, {corners}, {dense}, rule).scores.found == 1);
+}
+
+TEST_CASE("without loops and without truth there is no precision and no recall") {
+  const LoopAccuracy nothing = match(Drawing{}, {}, {});
+  CHECK_FALSE(nothing.scores.precision);
+  CHECK_FALSE(nothing.scores.recall);
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  CHECK(match(drawing, {}, {ring}).scores.recall == 0);
+  CHECK(match(drawing, {ring}, {}).scores.precision == 0);
+  CHECK(match(drawing, {ring}, {}).scores.false_loops == 1);
+}
+
+TEST_CASE("points that are not finite are near nothing") {
+  Drawing drawing;
+  LoopIds ring = drawing.ring(40, 0, 0);
+  drawing.positions[ring[3]].x() = std::numeric_limits<double>::quiet_NaN();
+  const LoopAccuracy result = match(drawing, {ring}, {ring});
+  CHECK(result.loops[0].on == Approx(39.0 / 40));
+  CHECK(result.scores.found == 1);
+}
+
+TEST_CASE("the area under the ROC curve is the share of pairs in the right order") {
+  const auto area = [](std::vector<Verdict> verdicts, std::vector<double> confidence) {
+    std::vector<LoopMatch> loops;
+    for (const Verdict verdict : verdicts) loops.push_back({.verdict = verdict});
+    return area_under_roc(loops, confidence);
+  };
+  using enum Verdict;
+  CHECK(area({kFound, kRepeated, kFalse, kFalse}, {0.9, 0.8, 0.2, 0.1}) == 1);
+  CHECK(area({kFound, kFound, kFalse, kFalse}, {0.9, 0.15, 0.2, 0.1}) == 0.75);
+  CHECK(area({kFound, kFalse}, {0.5, 0.5}) == 0.5);
+  CHECK(area({kFound, kFalse}, {0.1, 0.2}) == 0);
+  CHECK(area({kFound, kFalse, kShort, kFalse}, {0.5, 0.4, 0.1, std::nan("")}) == 1);
+  CHECK_FALSE(area({kFound, kFound}, {0.5, 0.4}));
+  CHECK_FALSE(area({kFalse}, {0.5}));
+  CHECK_FALSE(area({}, {}));
+}
+
+}  // namespace lacuna::accuracy

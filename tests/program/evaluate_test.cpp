@@ -1,0 +1,207 @@
+// `lacuna evaluate` as a user calls it: on what `detect` and `synth` write, on meshes, and on what is
+// neither.
+#include "tests/support/run_program.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+nlohmann::json evaluate(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "evaluate");
+  arguments.push_back("--json");
+  const ProgramResult result = run_program(arguments);
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  return nlohmann::json::parse(result.out);
+}
+
+void check_refused(const ProgramResult& result, int exit_code, const std::string& reason) {
+  INFO(result.err);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.out.empty());
+  CHECK(test::count_lines(result.err) == 1);
+  CHECK_THAT(result.err, Contains(reason));
+}
+
+// A plane with three holes and its result.
+struct Made {
+  ScratchFolder folder;
+  std::string scan = (folder / "made.ply").string();
+  std::string truth = (folder / "made.loops.txt").string();
+  std::string out = (folder / "out").string();
+
+  Made() {
+    REQUIRE(
+        run_program({"synth", "surface", scan, "--points", "5000", "--holes", "3", "--hole-radius", "5", "7"})
+            .exit_code == 0);
+    REQUIRE(run_program({"detect", scan, "--out", out, "--quiet"}).exit_code == 0);
+  }
+};
+
+const std::string kSquare =
+    "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n9 9 9\n4 0 1 2 3\n";
+
+}  // namespace
+
+TEST_CASE("a made surface is evaluated against the truth beside it") {
+  const Made made;
+  const auto report = evaluate({made.out, made.truth});
+  CHECK(report.at("true") == 4);
+  CHECK(report.at("found") == 4);
+  CHECK(report.at("false") == 0);
+  CHECK(report.at("recall") == 1);
+  CHECK(report.at("precision") == 1);
+  CHECK(report.at("boundary").at("within_spacing").at("f1") > 0.9);
+  CHECK(report.at("spacing") == Approx(0.01).epsilon(0.1));
+  CHECK(report.at("true_loops").size() == 4);
+
+  const ProgramResult text = run_program({"evaluate", made.out, made.truth});
+  CHECK(text.exit_code == 0);
+  CHECK_THAT(text.out, Contains("\n  found       4\n") && Contains("recall      1.000") &&
+                           Contains("1 spacing precision"));
+}
+
+TEST_CASE("the truth is itself found, from either kind of file, without boundary points") {
+  const Made made;
+  for (const std::string& result : {made.truth, made.out + "/loops.ply"}) {
+    const auto report = evaluate({result, made.truth});
+    CHECK(report.at("found") == 4);
+    CHECK(report.at("boundary").is_null());
+    CHECK(report.at("confidence_auc").is_null());
+  }
+  fs::rename(made.scan, made.folder / "other.ply");
+  check_refused(run_program({"evaluate", made.truth, made.truth}), 1, "--scan must name it");
+  CHECK(evaluate({made.truth, made.truth, "--scan", (made.folder / "other.ply").string()}).at("found") == 4);
+}
+
+TEST_CASE("the scan is the one that the run names, where none lies beside the truth") {
+  const Made made;
+  const fs::path moved = made.folder / "elsewhere.loops.txt";
+  fs::rename(made.truth, moved);
+  CHECK(evaluate({made.out, moved.string()}).at("found") == 4);
+}
+
+TEST_CASE("a scan that is text is read with the columns of the run") {
+  const ScratchFolder folder;
+  std::string rows;
+  for (int i = 0; i < 40 * 40; ++i)
+    rows += "7 " + std::to_string(i % 40) + " 0 " + std::to_string(i / 40) + "\n";
+  const std::string scan = folder.write("sheet.txt", rows);
+  const std::string out = (folder / "out").string();
+  REQUIRE(run_program({"detect", scan, "--out", out, "--quiet", "--columns", "t", "x", "z", "y"}).exit_code ==
+          0);
+  std::string rim;
+  for (int i = 0; i < 39; ++i) rim += std::to_string(i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(39 + 40 * i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(40 * 40 - 1 - i) + " ";
+  for (int i = 0; i < 39; ++i) rim += std::to_string(40 * (39 - i)) + " ";
+  const std::string truth = folder.write("true.txt", rim + "\n");
+  const auto report = evaluate({out, truth});
+  CHECK(report.at("spacing") == Approx(1));
+  CHECK(report.at("found") == 1);
+  fs::rename(scan, folder / "moved.txt");
+  check_refused(run_program({"evaluate", out, truth}), 1, "--scan must name it");
+  CHECK(evaluate({out, truth, "--scan", (folder / "moved.txt").string()}).at("found") == 1);
+}
+
+TEST_CASE("the tolerance is in spacings") {
+  const ScratchFolder folder;
+  std::string rows;
+  for (const int y : {0, 3}) {
+    for (int x = 0; x < 20; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  }
+  const std::string scan = folder.write("rows.xyz", rows);  // neighbours at 1, 1, 2 and 2: spacing 1.5
+  const std::string truth = folder.write("true.txt", "0 2 4 6 8 9 7 5 3 1\n");
+  const std::string found = folder.write("found.txt", "20 22 24 26 28 29 27 25 23 21\n");
+  CHECK(evaluate({found, truth, "--scan", scan}).at("found") == 1);
+  CHECK(evaluate({found, truth, "--scan", scan, "--tolerance", "1.99"}).at("found") == 0);
+}
+
+TEST_CASE("true loops too short to count are the user's to say") {
+  const Made made;
+  const auto large = evaluate({made.out, made.truth, "--min-vertices", "100"});
+  CHECK(large.at("true") == 1);
+  CHECK(large.at("short") == 3);
+  CHECK(large.at("false") == 0);
+}
+
+TEST_CASE("the truth of a mesh is its boundary, without vertices that no face uses") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("square.ply", kSquare);
+  const std::string loops = folder.write("found.txt", "0 1 2 3\n4 4 4\n");
+  const auto report = evaluate({loops, mesh, "--min-vertices", "4"});
+  CHECK(report.at("true") == 1);
+  CHECK(report.at("found") == 1);
+  CHECK(report.at("false") == 1);
+  CHECK(report.at("true_loops")[0].at("vertices") == 4);
+  CHECK(report.at("spacing") == Approx((2 + std::sqrt(2)) / 3));
+}
+
+TEST_CASE("confidences of the report are judged by the area under the ROC curve") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("square.ply", kSquare);
+  fs::create_directory(folder / "out");
+  const std::string rows = "0 0 0 0 0\n0 0 0 1 0\n0 0 0 2 0\n0 0 0 3 0\n0 0 0 4 1\n";
+  folder.write(
+      "out/loops.ply",
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uint id\nproperty int loop\nend_header\n" +
+          rows);
+  const auto area = [&](const std::string& first, const std::string& second) {
+    folder.write("out/holes.json", R"({"counts": {"points": 5}, "inputs": [{"file": "a.ply"}], "loops": [{)" +
+                                       first + "}, {" + second + "}]}");
+    return evaluate({(folder / "out").string(), mesh, "--min-vertices", "4"}).at("confidence_auc");
+  };
+  CHECK(area(R"("confidence": 0.9)", R"("confidence": 0.2)") == 1);
+  CHECK(area(R"("confidence": 0.1)", R"("confidence": 0.2)") == 0);
+  CHECK(area(R"("confidence": 0.1)", R"("confidence": null)").is_null());
+  CHECK(area("", "").is_null());
+}
+
+TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
+  const Made made;
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& reason) {
+    arguments.insert(arguments.begin(), "evaluate");
+    check_refused(run_program(arguments), 1, reason);
+  };
+  const std::string square = made.folder.write("square.ply", kSquare);
+  refused({"missing", made.truth}, "missing: cannot be opened");
+  refused({made.folder.path().string(), made.truth}, "loops.ply: cannot be opened");
+  refused({made.out, (made.folder / "missing.txt").string()}, "missing.txt: cannot be opened");
+  refused({made.out, made.scan}, "no element 'face'");
+  refused({made.out, square}, "is of a scan of");
+  refused({made.out + "/loops.ply", square}, "but the scan has 5 points");
+  refused({made.truth, square, "--scan", made.scan}, "no --scan is allowed");
+  refused({made.truth, made.folder.write("bad.loops.txt", "1 2 x\n")}, "line 1: 'x' is not a point id");
+  made.folder.write("far.ply", test::read_file(made.scan));
+  refused({made.truth, made.folder.write("far.loops.txt", "1 2 999999\n")}, "id 999999");
+  std::ofstream(made.out + "/holes.json") << "{\"counts\": ";
+  refused({made.out, made.truth}, "is not JSON");
+  std::ofstream(made.out + "/holes.json") << "{}";
+  refused({made.out, made.truth}, "is not a report of lacuna detect");
+  std::ofstream(made.out + "/holes.json") << R"({"counts": {"points": 1}, "inputs": [], "loops": []})";
+  refused({made.out, made.truth}, "both must be of one run");
+}
+
+TEST_CASE("wrong usage of evaluate has exit code 2") {
+  check_refused(run_program({"evaluate"}), 2, "RESULT");
+  check_refused(run_program({"evaluate", "a"}), 2, "TRUTH");
+  check_refused(run_program({"evaluate", "a", "b", "--tolerance", "-1"}), 2, "--tolerance");
+  check_refused(run_program({"evaluate", "a", "b", "--tolerance", "nan"}), 2, "--tolerance");
+  check_refused(run_program({"evaluate", "a", "b", "--min-vertices", "-1"}), 2, "--min-vertices");
+}
+
+}  // namespace lacuna

@@ -1,0 +1,178 @@
+#include "tools/accuracy/evaluation.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/file_scan.hpp"
+#include "io/input_file.hpp"
+#include "io/loops_reader.hpp"
+#include "io/mesh_reader.hpp"
+#include "io/ply_reader.hpp"
+#include "tools/accuracy/spacing.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace lacuna::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::string_view kLoopsEnding = ".loops.txt";
+
+std::vector<double> confidences(const Json& loops) {
+  std::vector<double> values;
+  bool any = false;
+  for (const Json& loop : loops) {
+    const auto found = loop.find("confidence");
+    const bool known = found != loop.end() && found->is_number();
+    values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
+    any = any || known;
+  }
+  if (!any) values.clear();
+  return values;
+}
+
+void read_report(const fs::path& file, Result& result) {
+  std::ifstream in(file, std::ios::binary);
+  try {
+    const Json report = Json::parse(in);
+    result.points = report.at("counts").at("points").get<std::uint64_t>();
+    result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
+    for (const Json& input : report.at("inputs")) {
+      result.inputs.emplace_back(input.at("file").get<std::string>());
+    }
+    if (report.at("loops").size() != result.loops.size()) {
+      throw Error(file.string() + ": " + std::to_string(report.at("loops").size()) + " loops, but " +
+                  result.file.string() + " has " + std::to_string(result.loops.size()) +
+                  "; both must be of one run");
+    }
+    result.confidence = confidences(report.at("loops"));
+  } catch (const Json::parse_error& error) {
+    throw Error(file.string() + ": byte " + std::to_string(error.byte) +
+                ": is not JSON; a report of lacuna detect is needed");
+  } catch (const Json::exception&) {
+    throw Error(file.string() + ": is not a report of lacuna detect, with counts, inputs and loops");
+  }
+}
+
+bool is_ply(const fs::path& file) {
+  return looks_like_ply(InputFile(file).peek(4));
+}
+
+std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files, const std::string& columns) {
+  FileScan scan(files, {.columns = columns});
+  std::vector<Eigen::Vector3d> positions;
+  for (PointBatch batch; scan.next(batch);) {
+    positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
+  }
+  return positions;
+}
+
+std::vector<fs::path> scans_of(const fs::path& truth, const Result& result) {
+  const std::string name = truth.string();
+  if (name.ends_with(kLoopsEnding)) {
+    const fs::path beside = name.substr(0, name.size() - kLoopsEnding.size()) + ".ply";
+    if (fs::exists(beside)) return {beside};
+  }
+  const auto exists = [](const fs::path& input) { return fs::exists(input); };
+  if (!result.inputs.empty() && std::all_of(result.inputs.begin(), result.inputs.end(), exists)) {
+    return result.inputs;
+  }
+  throw Error(name + ": no scan of that name (X.ply beside X" + std::string(kLoopsEnding) +
+              "), and none named by the result is there; --scan must name it");
+}
+
+void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const Truth& truth) {
+  for (const std::uint64_t id : ids) {
+    if (id < truth.positions.size()) continue;
+    throw Error(file.string() + ": id " + std::to_string(id) + ", but the scan has " +
+                std::to_string(truth.positions.size()) + " points, counted from 0; both must be of one scan");
+  }
+}
+
+// Over distinct finite points; of a mesh, over those in its faces.
+double spacing_of(const Truth& truth, const std::vector<bool>& takes_part) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t id = 0; id < truth.positions.size(); ++id) {
+    if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
+  }
+  return median_spacing(points);
+}
+
+void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
+  std::vector<bool> takes_part(truth.positions.size());
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
+  }
+  truth.loops = mesh_boundary(triangles, truth.stand_ins);
+  truth.spacing = spacing_of(truth, takes_part);
+}
+
+void take_loops(const std::vector<LoopIds>& loops, Truth& truth) {
+  for (const LoopIds& loop : loops) check_ids(truth.file, loop, truth);
+  std::vector<bool> takes_part(truth.positions.size());
+  for (const std::uint64_t id : truth.stand_ins) takes_part[id] = true;
+  truth.loops = loops_through(loops, truth.stand_ins);
+  truth.spacing = spacing_of(truth, takes_part);
+}
+
+}  // namespace
+
+Result read_result(const fs::path& path) {
+  Result result{.file = fs::is_directory(path) ? path / "loops.ply" : path};
+  result.loops = read_loops(result.file);
+  if (!fs::is_directory(path)) return result;
+  if (const fs::path file = path / "boundary.ply"; fs::exists(file)) result.boundary = read_ids(file);
+  if (const fs::path file = path / "holes.json"; fs::exists(file)) read_report(file, result);
+  return result;
+}
+
+Truth read_truth(const fs::path& file, std::vector<fs::path> scans, const Result& result) {
+  Truth truth{.file = file};
+  const bool mesh = is_ply(file);
+  if (mesh && !scans.empty())
+    throw Error(file.string() + ": is a mesh, its vertices are the scan; no --scan is allowed");
+  const std::vector<Triangle> triangles = mesh ? read_triangles(file) : std::vector<Triangle>{};
+  const std::vector<LoopIds> loops = mesh ? std::vector<LoopIds>{} : read_loops(file);
+  if (mesh) scans = {file};
+  if (scans.empty()) scans = scans_of(file, result);
+  truth.positions = read_positions(scans, result.columns);
+  truth.stand_ins = stand_ins(truth.positions);
+  if (mesh) {
+    take_mesh(triangles, truth);
+  } else {
+    take_loops(loops, truth);
+  }
+  return truth;
+}
+
+Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule) {
+  if (result.points && *result.points != truth.positions.size()) {
+    throw Error(result.file.string() + ": is of a scan of " + std::to_string(*result.points) + " points, " +
+                truth.file.string() + " of one of " + std::to_string(truth.positions.size()) +
+                "; both must be of one scan");
+  }
+  for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
+  Evaluation evaluation;
+  evaluation.loops =
+      match_loops(result.loops, truth.loops, truth.positions,
+                  {.tolerance = rule.tolerance * truth.spacing, .min_vertices = rule.min_vertices});
+  if (result.boundary) {
+    check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
+    evaluation.boundary =
+        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, truth.spacing);
+  }
+  if (!result.confidence.empty()) {
+    evaluation.confidence = area_under_roc(evaluation.loops.loops, result.confidence);
+  }
+  return evaluation;
+}
+
+}  // namespace lacuna::accuracy

@@ -1,0 +1,63 @@
+// A result held against the truth: files in, scores out.
+#pragma once
+
+#include "tools/accuracy/boundary_points.hpp"
+#include "tools/accuracy/match_loops.hpp"
+#include "tools/accuracy/true_loops.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::accuracy {
+
+// What a run found. Ids are ranks of the input's points.
+struct Result {
+  std::filesystem::path file;  // with the loops
+  std::vector<LoopIds> loops;
+  std::vector<double> confidence;                      // of each loop, NaN: unknown; empty: of none
+  std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
+  std::optional<std::uint64_t> points;                 // of the input, where the run tells
+  std::vector<std::filesystem::path> inputs;           // where the run tells
+  std::string columns;                                 // of inputs that are text, where the run was told
+};
+
+// What is there. Ids are places in `positions`.
+struct Truth {
+  std::filesystem::path file;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<std::uint64_t> stand_ins;
+  std::vector<TrueLoop> loops;
+  double spacing = 0;  // median, over the places that take part
+};
+
+struct EvaluationRule {
+  double tolerance = 2;  // spacings
+  std::size_t min_vertices = 8;
+};
+
+struct Evaluation {
+  LoopAccuracy loops;
+  std::optional<PointAccuracy> boundary;  // radius: one spacing
+  std::optional<double> confidence;       // area under the ROC curve
+};
+
+// The output folder of a run (loops.ply, and boundary.ply and holes.json where they are there) or a file of
+// loops, loops.ply or text. Throws `Error`.
+Result read_result(const std::filesystem::path& path);
+
+// A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`;
+// without any, of the scan X.ply beside X.loops.txt, else of the result's inputs where they still are. Points
+// that no face of a mesh uses take no part in the spacing. Throws `Error`.
+Truth read_truth(const std::filesystem::path& file, std::vector<std::filesystem::path> scans,
+                 const Result& result);
+
+// Throws `Error` where the result is of another scan: ids, or a number of points, that the truth does not
+// have.
+Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule);
+
+}  // namespace lacuna::accuracy

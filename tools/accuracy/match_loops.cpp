@@ -1,0 +1,165 @@
+#include "tools/accuracy/match_loops.hpp"
+
+#include "tools/accuracy/edge_tree.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace lacuna::accuracy {
+namespace {
+
+using Positions = std::span<const Eigen::Vector3d>;
+
+struct Shares {
+  double on = 0, covered = 0;
+};
+
+// Of every loop: the true loops that it comes near to.
+using Overlaps = std::vector<std::map<std::size_t, Shares>>;
+
+EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {
+  std::vector<Segment> edges;
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    const LoopIds& ids = loops[loop];
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      edges.push_back({positions[ids[i]], positions[ids[i + 1 < ids.size() ? i + 1 : 0]], loop});
+    }
+  }
+  return EdgeTree(std::move(edges));
+}
+
+EdgeTree tree_of_truth(std::span<const TrueLoop> truth, Positions positions) {
+  std::vector<Segment> edges;
+  for (std::size_t loop = 0; loop < truth.size(); ++loop) {
+    for (const auto& [a, b] : truth[loop].edges) edges.push_back({positions[a], positions[b], loop});
+  }
+  return EdgeTree(std::move(edges));
+}
+
+Overlaps overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth, Positions positions,
+                     double tolerance) {
+  Overlaps overlaps(loops.size());
+  std::vector<std::size_t> near;
+  const EdgeTree true_edges = tree_of_truth(truth, positions);
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    for (const std::uint64_t id : loops[loop]) {
+      true_edges.owners_within(positions[id], tolerance, near);
+      for (const std::size_t hit : near) overlaps[loop][hit].on += 1;
+    }
+    for (auto& [hit, shares] : overlaps[loop]) shares.on /= static_cast<double>(loops[loop].size());
+  }
+  const EdgeTree loop_edges = tree_of_loops(loops, positions);
+  for (std::size_t hit = 0; hit < truth.size(); ++hit) {
+    const double share = 1 / static_cast<double>(truth[hit].vertices.size());
+    std::map<std::size_t, std::size_t> covered;  // vertices, by loop
+    for (const std::uint64_t id : truth[hit].vertices) {
+      loop_edges.owners_within(positions[id], tolerance, near);
+      for (const std::size_t loop : near) ++covered[loop];
+    }
+    for (const auto& [loop, vertices] : covered) {
+      overlaps[loop][hit].covered = static_cast<double>(vertices) * share;
+    }
+  }
+  return overlaps;
+}
+
+bool matches(const Shares& shares, const MatchRule& rule) {
+  return shares.on >= rule.share && shares.covered >= rule.share;
+}
+
+LoopMatch best_match(const std::map<std::size_t, Shares>& overlaps, std::span<const TrueMatch> truth,
+                     const MatchRule& rule) {
+  const auto rank = [&](std::size_t hit, const Shares& shares) {
+    const bool match = matches(shares, rule);
+    return std::tuple(match, match && truth[hit].counts, std::min(shares.on, shares.covered),
+                      shares.on + shares.covered);
+  };
+  LoopMatch best;
+  std::tuple<bool, bool, double, double> highest;
+  for (const auto& [hit, shares] : overlaps) {
+    if (best.true_loop && rank(hit, shares) <= highest) continue;
+    highest = rank(hit, shares);
+    best = {.verdict = Verdict::kFalse, .true_loop = hit, .on = shares.on, .covered = shares.covered};
+  }
+  if (best.true_loop && matches({best.on, best.covered}, rule)) {
+    best.verdict = truth[*best.true_loop].counts ? Verdict::kFound : Verdict::kShort;
+  }
+  return best;
+}
+
+LoopScores count(std::span<const LoopMatch> loops, std::span<const TrueMatch> truth) {
+  LoopScores scores;
+  for (const TrueMatch& loop : truth) {
+    ++(loop.counts ? scores.true_loops : scores.short_loops);
+    if (loop.counts) ++(loop.found_by ? scores.found : scores.missed);
+  }
+  scores.loops = loops.size();
+  for (const LoopMatch& loop : loops) {
+    scores.false_loops += loop.verdict == Verdict::kFalse;
+    scores.repeated += loop.verdict == Verdict::kRepeated;
+  }
+  const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
+    if (whole == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(whole);
+  };
+  scores.recall = share(scores.found, scores.true_loops);
+  scores.precision = share(scores.loops - scores.false_loops, scores.loops);
+  return scores;
+}
+
+}  // namespace
+
+LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
+                         std::span<const Eigen::Vector3d> positions, const MatchRule& rule) {
+  LoopAccuracy result;
+  for (const TrueLoop& loop : truth) {
+    result.true_loops.push_back({.counts = loop.vertices.size() >= rule.min_vertices});
+  }
+  const Overlaps overlaps = overlaps_of(loops, truth, positions, rule.tolerance);
+  std::vector<bool> taken(truth.size());
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    for (const auto& [hit, shares] : overlaps[loop]) {
+      if (matches(shares, rule) && !result.true_loops[hit].found_by) result.true_loops[hit].found_by = loop;
+    }
+    LoopMatch match = best_match(overlaps[loop], result.true_loops, rule);
+    if (match.verdict == Verdict::kFound) {
+      if (taken[*match.true_loop]) match.verdict = Verdict::kRepeated;
+      taken[*match.true_loop] = true;
+    }
+    result.loops.push_back(match);
+  }
+  result.scores = count(result.loops, result.true_loops);
+  return result;
+}
+
+std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence) {
+  assert(confidence.size() == loops.size());
+  struct Judged {
+    double confidence;
+    bool is_true;
+  };
+  std::vector<Judged> judged;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].verdict == Verdict::kShort || std::isnan(confidence[i])) continue;
+    judged.push_back({confidence[i], loops[i].verdict != Verdict::kFalse});
+  }
+  std::sort(judged.begin(), judged.end(),
+            [](const Judged& a, const Judged& b) { return a.confidence < b.confidence; });
+  double wins = 0, false_below = 0, true_loops = 0;
+  for (std::size_t i = 0, end = 0; i < judged.size(); i = end) {
+    double tied_true = 0, tied_false = 0;
+    for (; end < judged.size() && judged[end].confidence == judged[i].confidence; ++end) {
+      ++(judged[end].is_true ? tied_true : tied_false);
+    }
+    wins += tied_true * (false_below + tied_false / 2);
+    false_below += tied_false;
+    true_loops += tied_true;
+  }
+  if (true_loops == 0 || false_below == 0) return std::nullopt;
+  return wins / (true_loops * false_below);
+}
+
+}  // namespace lacuna::accuracy

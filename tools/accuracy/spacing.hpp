@@ -1,0 +1,14 @@
+// How far apart the points of a scan are.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::accuracy {
+
+// The median over the points of the mean distance to their 4 nearest others, or to all where there are fewer;
+// 0 for fewer than two points. The points are finite and distinct. Cost: n log n.
+double median_spacing(std::span<const Eigen::Vector3d> points);
+
+}  // namespace lacuna::accuracy

@@ -1,0 +1,34 @@
+// What is true of a scan: the loops that its holes and rims have.
+#pragma once
+
+#include "io/loops_reader.hpp"
+#include "io/mesh_reader.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::accuracy {
+
+// A place may have several points; ids here are those of the points that stand for a place (see stand_ins).
+struct TrueLoop {
+  std::vector<std::uint64_t> vertices;              // ascending, each once
+  std::vector<std::array<std::uint64_t, 2>> edges;  // in no particular order
+};
+
+// For each point the lowest id among the points at exactly its coordinates (-0 is 0); a point that is not
+// finite stands for itself.
+std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions);
+
+// The closed polygons through `ids`, in their order.
+std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<const std::uint64_t> stand_ins);
+
+// The boundary of a mesh: edges on exactly one triangle, in connected pieces, by their lowest id. Triangles
+// with two corners at one place have no area and do not count.
+std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
+                                    std::span<const std::uint64_t> stand_ins);
+
+}  // namespace lacuna::accuracy
