@@ -61,6 +61,13 @@ void remove_on_signal(const std::filesystem::path& path) {
   paths.push_back(std::filesystem::absolute(path));
 }
 
+std::filesystem::path make_removed_on_signal(const std::function<std::filesystem::path()>& make) {
+  const std::lock_guard lock(paths_mutex);
+  const std::filesystem::path path = make();
+  paths.push_back(std::filesystem::absolute(path));
+  return path;
+}
+
 void keep_on_signal(const std::filesystem::path& path) {
   const std::lock_guard lock(paths_mutex);
   std::erase(paths, std::filesystem::absolute(path));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace lacuna {
 
@@ -12,6 +13,8 @@ void handle_signals();
 
 // A file, or a folder with all it holds; it need not exist.
 void remove_on_signal(const std::filesystem::path& path);
+// The same of what is made here: a signal finds it named, or not made yet.
+std::filesystem::path make_removed_on_signal(const std::function<std::filesystem::path()>& make);
 void keep_on_signal(const std::filesystem::path& path);
 
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.

@@ -43,12 +43,14 @@ MadeFolder::~MadeFolder() {
 }
 
 Workspace::Workspace(const fs::path& parent, const std::string& prefix, bool keep) : keep_(keep) {
-  std::string name = (parent / (prefix + "XXXXXX")).string();
-  if (!mkdtemp(name.data())) {
-    throw Error(parent.string() + ": cannot make a workspace: " + std::strerror(errno));
-  }
-  folder_ = name;
-  if (!keep_) remove_on_signal(folder_);
+  const auto make = [&] {
+    std::string name = (parent / (prefix + "XXXXXX")).string();
+    if (!mkdtemp(name.data())) {
+      throw Error(parent.string() + ": cannot make a workspace: " + std::strerror(errno));
+    }
+    return fs::path(name);
+  };
+  folder_ = keep_ ? make() : make_removed_on_signal(make);
 }
 
 Workspace::~Workspace() {
