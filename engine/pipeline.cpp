@@ -77,19 +77,22 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   Spill<Link> links = link_tiles(store, job);
   EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
 
-  // Boundary points and loops (5.1, 5.2).
-  const RowSet coherent = make_coherent(evaluated, store, job);
+  // Loops and boundary points: along the rims of the surface that the points agree on, or by the paper
+  // (5.1, 5.2).
+  const bool by_stars = config.loops.method == LoopMethod::kStars;
+  std::optional<RowSet> coherent;
+  if (!by_stars) coherent = make_coherent(evaluated, store, job);
   const std::int64_t e = minimum_loop(config.spanning, evaluated.mean_neighbours());
-  const TracedLoops traced = config.loops.method == LoopMethod::kPaper
-                                 ? trace_loops(evaluated, store, e, job)
-                                 : TracedLoops{trace_rims(evaluated, store, job)};
+  const TracedLoops traced =
+      by_stars ? TracedLoops{trace_rims(evaluated, store, job)} : trace_loops(evaluated, store, e, job);
+  if (by_stars) coherent = find_beside_loops(traced.loops, evaluated, store, job);
   MeasuredLoops loops = measure_loops(traced.loops, evaluated, store, evaluated.mean_edge_length(), job);
 
   // Back into the order of the input.
   std::optional<RowSet> turned;
   if (config.normals.orient) turned = orient_normals(evaluated, store, job);
   add_findings(evaluated, traced, eps, e, summary);
-  return publish(std::move(evaluated), store, coherent, std::move(loops), std::move(turned),
+  return publish(std::move(evaluated), store, *coherent, std::move(loops), std::move(turned),
                  std::move(summary), job);
 }
 

@@ -43,4 +43,21 @@ RowSet make_coherent(const EvaluatedScan& scan, const TileStore& store, Job& job
   return boundary;
 }
 
+RowSet find_beside_loops(const RawLoops& loops, const EvaluatedScan& scan, const TileStore& store, Job& job) {
+  Phase phase(job, "coherence", scan.totals.candidates);
+  RowSet on_loop(store.tiling().row_count()), beside(store.tiling().row_count());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops.confidence(i) < job.config.selection.min_confidence) continue;
+    for (const Vertex& v : loops.read(i)) on_loop.insert(v.row);
+  }
+  job.crew.for_each(store.tiling().tiles.size(), [&](std::size_t t) {
+    const std::vector<Candidate> candidates = read_candidates(scan, static_cast<TileIndex>(t));
+    for (const Candidate& c : candidates) {
+      if (on_loop.contains(c.gap_near) && on_loop.contains(c.gap_far)) beside.insert(c.row);
+    }
+    phase.advance(candidates.size());
+  });
+  return beside;
+}
+
 }  // namespace lacuna

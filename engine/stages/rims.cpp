@@ -7,6 +7,9 @@
 namespace lacuna {
 namespace {
 
+// Points without room that are added to every rim: shares of a few points say little.
+constexpr double kDoubt = 4;
+
 // Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
 class Follower {
  public:
@@ -113,7 +116,7 @@ double confidence(std::span<const RimPoint> rim) {
   const auto share = [&](float room) {
     const auto wide =
         std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
-    return static_cast<double>(wide) / static_cast<double>(rim.size());
+    return static_cast<double>(wide) / (static_cast<double>(rim.size()) + kDoubt);
   };
   return std::min({1.0, share(1.25f), 1.25 * share(1.6f)});
 }

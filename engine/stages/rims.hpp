@@ -33,9 +33,10 @@ void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
 // such ways the one whose ids come first).
 void normalise(std::vector<RimPoint>& rim);
 
-// How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a ball
-// that fits at some points of the rim does not at most. The share of points at which there is room for a ball
-// of 1.25 times the radius of triangles, or 1.25 times the share with room for 1.6, if that is less.
+// How sure it is that the rim is that of a hole, in [0, 1): where the scan only happens to be thin, a larger
+// ball fits at few points of the rim. The share of points at which there is room for a ball of 1.25 times the
+// radius of triangles, or 1.25 times the share with room for one of 1.6 times, if that is less; out of four
+// points more than there are, so that small rims need room all around.
 double confidence(std::span<const RimPoint> rim);
 
 }  // namespace lacuna

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -703,7 +704,7 @@ std::vector<PointId> first_way(std::vector<PointId> rim) {
   return best;
 }
 
-void find_rims(const Positions& positions, double min_confidence, Detection& result) {
+void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
   std::vector<std::vector<Corner>> stars(positions.size());
   std::map<Triangle, int> stars_with;
   for (const PointId p : result.distinct) {
@@ -737,21 +738,24 @@ void find_rims(const Positions& positions, double min_confidence, Detection& res
       g = at.at({next, here});
       next = gaps[g].from == here ? gaps[g].to : gaps[g].from;
     } while (g != start);
-    const auto count = static_cast<double>(rim.size());
+    const double count = static_cast<double>(rim.size()) + 4;
     if (rim.size() >= 8)
       rims.emplace_back(first_way(rim), std::min({1.0, wide / count, 1.25 * (wider / count)}));
   }
   std::sort(rims.begin(), rims.end());
+  std::set<PointId> on_loop;
   for (const auto& [rim, confidence] : rims) {
     result.loops.push_back(rim);
     result.confidences.push_back(confidence);
     if (confidence < min_confidence) continue;
     result.sure.push_back(rim);
-    for (const PointId p : rim) result.points[value(p)].boundary = true;
+    on_loop.insert(rim.begin(), rim.end());
   }
   for (const PointId p : result.distinct) {
     Point& point = result.points[value(p)];
-    point.boundary = point.boundary || point.coherent;
+    point.coherent = point.probability > threshold && point.gap && on_loop.contains((*point.gap)[0]) &&
+                     on_loop.contains((*point.gap)[1]);
+    point.boundary = point.coherent || on_loop.contains(p);
   }
 }
 
@@ -765,14 +769,14 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
   find_neighbours(positions, config.neighbourhood, result);
   for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
   if (config.normals.orient) orient_normals(positions, result);
-  find_coherent(config.coherence, result);
   result.e =
       config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
   if (config.loops.method == LoopMethod::kPaper) {
+    find_coherent(config.coherence, result);
     find_eligible(positions, config.spanning, result);
     find_loops(span(config.spanning, result), result);
   } else {
-    find_rims(positions, config.selection.min_confidence, result);
+    find_rims(positions, config.coherence.threshold, config.selection.min_confidence, result);
   }
   for (Point& point : result.points) {
     if (!point.dropped) point = Point(result.points[value(point.representative)]);
