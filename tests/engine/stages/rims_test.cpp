@@ -1,0 +1,119 @@
+#include "engine/stages/rims.hpp"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+// Ids are not rows: what is told apart by rows must not be by ids.
+Vertex vertex(std::uint64_t row) {
+  return {PointId{1000 - row}, Row{row}};
+}
+
+// The gaps of a closed rim, every second one written against its direction.
+std::vector<Gap<Vertex>> ring(const std::vector<std::uint64_t>& rows) {
+  std::vector<Gap<Vertex>> gaps;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Vertex from = vertex(rows[(i + rows.size() - 1) % rows.size()]), to = vertex(rows[(i + 1) % rows.size()]);
+    if (i % 2 == 1) std::swap(from, to);
+    gaps.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
+  }
+  return gaps;
+}
+
+std::vector<Gap<Vertex>> in_order(std::vector<Gap<Vertex>> gaps, std::uint64_t first, std::uint64_t last) {
+  std::erase_if(
+      gaps, [&](const auto& gap) { return value(gap.point.row) < first || value(gap.point.row) >= last; });
+  std::stable_sort(gaps.begin(), gaps.end(),
+                   [](const auto& a, const auto& b) { return a.point.row < b.point.row; });
+  return gaps;
+}
+
+std::vector<std::uint64_t> rows(const RimPart& part) {
+  std::vector<std::uint64_t> rows;
+  for (const RimPoint& p : part.points) rows.push_back(value(p.vertex.row));
+  return rows;
+}
+
+std::vector<RimPart> follow(const std::vector<Gap<Vertex>>& gaps, std::uint64_t first, std::uint64_t last) {
+  std::vector<RimPart> parts;
+  follow_rims(in_order(gaps, first, last), Row{first}, Row{last},
+              [&](RimPart& part) { parts.push_back(part); });
+  return parts;
+}
+
+std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
+  std::vector<RimPoint> rim;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i]});
+  return rim;
+}
+
+std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
+  std::vector<std::uint64_t> ids;
+  for (const RimPoint& p : rim) ids.push_back(value(p.vertex.id));
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("a rim within the rows is closed, through a point that it passes twice too") {
+  std::vector<Gap<Vertex>> gaps = ring({3, 9, 4, 8, 1, 7});
+  const std::vector<RimPart> one = follow(gaps, 0, 20);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].is_closed);
+  std::vector<std::uint64_t> found = rows(one[0]);
+  std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
+  if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
+  CHECK(found == std::vector<std::uint64_t>{3, 9, 4, 8, 1, 7});
+  for (const RimPoint& p : one[0].points) CHECK(p.room == static_cast<float>(value(p.vertex.row)));
+
+  const std::vector<Gap<Vertex>> twice = ring({3, 9, 4, 8, 9, 7});
+  REQUIRE(follow(twice, 0, 20).size() == 1);
+  CHECK(rows(follow(twice, 0, 20)[0]).size() == 6);
+
+  const std::vector<Gap<Vertex>> other = ring({9, 10, 11});  // touches the first in a point
+  gaps.insert(gaps.end(), other.begin(), other.end());
+  REQUIRE(follow(gaps, 0, 20).size() == 2);
+}
+
+TEST_CASE("of a rim that leaves the rows there are the parts, with what comes before and after") {
+  const std::vector<Gap<Vertex>> gaps = ring({12, 3, 4, 15, 16, 5, 17});
+  std::vector<RimPart> parts = follow(gaps, 0, 10);
+  REQUIRE(parts.size() == 2);
+  if (parts[0].points.size() == 1) std::swap(parts[0], parts[1]);
+  CHECK_FALSE(parts[0].is_closed);
+  const bool forwards = parts[0].before.row == Row{12};
+  CHECK(rows(parts[0]) == (forwards ? std::vector<std::uint64_t>{3, 4} : std::vector<std::uint64_t>{4, 3}));
+  CHECK(std::pair(parts[0].before.row, parts[0].after.row) ==
+        (forwards ? std::pair(Row{12}, Row{15}) : std::pair(Row{15}, Row{12})));
+  CHECK(rows(parts[1]) == std::vector<std::uint64_t>{5});
+  CHECK(std::minmax({parts[1].before.row, parts[1].after.row}) == std::pair(Row{16}, Row{17}));
+}
+
+TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour") {
+  for (const std::vector<std::uint64_t>& way :
+       {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
+    std::vector<RimPoint> rim = rim_of(way);
+    normalise(rim);
+    CHECK(ids(rim) == std::vector<std::uint64_t>{2, 5, 7, 9});
+  }
+  std::vector<RimPoint> twice = rim_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
+  normalise(twice);
+  CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
+}
+
+TEST_CASE("confidence is the share of points with room, of four more than there are") {
+  const std::vector<std::uint64_t> sixteen(16, 1);
+  CHECK(confidence(rim_of(sixteen, std::vector<float>(16, 1.7f))) == 0.8);
+  CHECK(confidence(rim_of(sixteen, std::vector<float>(16, 1.3f))) == 0);
+  std::vector<float> half(16, 1.1f);
+  std::fill(half.begin(), half.begin() + 8, 1.6f);
+  CHECK(confidence(rim_of(sixteen, half)) == 0.4);
+  std::fill(half.begin(), half.begin() + 4, 1.25f);  // 8 of 1.25, 4 of 1.6
+  CHECK(confidence(rim_of(sixteen, half)) == 1.25 * 4 / 20);
+}
+
+}  // namespace lacuna
