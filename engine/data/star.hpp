@@ -4,9 +4,6 @@
 #include "engine/data/ids.hpp"
 
 #include <cstdint>
-#include <vector>
-
-#include <Eigen/Core>
 
 namespace lacuna {
 
