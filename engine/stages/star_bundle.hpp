@@ -28,11 +28,10 @@ struct StarBundle {
   double normals[3][kStarBundle];     // unit; NaN: no star
 };
 
-// Row i holds the i-th corner of each star, by its number among the neighbours.
 struct BundledStars {
   static constexpr std::uint32_t kInDoubt = UINT32_MAX;
 
-  StarCorner<LocalIndex> corners[kMostSeen][kStarBundle];
+  StarCorner<LocalIndex> corners[kStarBundle][kMostSeen];  // by their numbers among the neighbours
   std::uint32_t sizes[kStarBundle];  // in doubt: corners are so near to a line that rounding decides
 };
 

@@ -72,37 +72,69 @@ std::vector<View> hull_of(std::vector<View> views) {
   return hull;
 }
 
-constexpr std::size_t kNone = SIZE_MAX;
+// Stars that are read without a branch have no more corners; as many are readable beyond the last star.
+constexpr std::size_t kFew = 8;
 
-// The corner of the star from which its point's triangle with a and b goes on to the next corner.
-std::size_t find_triangle(std::span<const StarCorner<LocalIndex>> star, LocalIndex a, LocalIndex b) {
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    if (star[i].point != a) continue;
-    const std::size_t next = i + 1 < star.size() ? i + 1 : 0, before = i > 0 ? i - 1 : star.size() - 1;
-    if (star[next].point == b) return star[i].room <= 1 ? i : kNone;
-    if (star[before].point == b) return star[before].room <= 1 ? before : kNone;
-    return kNone;
+constexpr std::uint32_t kNone = UINT32_MAX;
+
+// The corner of a star from which its point's triangle with a and b goes on to the next corner.
+std::uint32_t find_triangle(const Stars<LocalIndex>& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
+  const std::uint32_t begin = stars.offsets[point], size = stars.offsets[point + 1] - begin;
+  const StarCorner<LocalIndex>* const star = stars.corners.data() + begin;
+  std::uint32_t place = size;
+  for (std::uint32_t i = kFew; i-- > 0;) place = star[i].point == a ? i : place;
+  if (place >= size) {
+    for (place = kFew; place < size && star[place].point != a;) ++place;
+    if (place >= size) return kNone;
   }
-  return kNone;
+  const std::uint32_t next = place + 1 < size ? place + 1 : 0, before = (place > 0 ? place : size) - 1;
+  const std::uint32_t at = star[next].point == b ? place : before;
+  return (star[next].point == b || star[before].point == b) && star[at].room <= 1 ? begin + at : kNone;
 }
 
-// Of the corners whose stars are known, the first one asks the others.
-void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
-  stars.agreements.resize(stars.corners.size(), Agreement::kRefused);
+// A triangle that one of its corners, the first one whose star is known, asks the others for.
+struct AskedTriangle {
+  std::uint32_t corner;  // of the asking star
+  LocalIndex point, a, b;
+};
+
+// Those of all stars. Written without a branch: which corner asks cannot be foretold.
+std::vector<AskedTriangle> asked_triangles(const Stars<LocalIndex>& stars,
+                                           std::span<const std::uint8_t> is_border) {
+  std::vector<AskedTriangle> asked(stars.offsets.back());
+  std::size_t count = 0;
   for (LocalIndex p = 0; p < stars.size(); ++p) {
     const auto star = stars[p];
+    if (star.empty()) continue;
+    const auto asks_before = [&](LocalIndex q) { return (q < p) & !is_border[q]; };
+    LocalIndex a = star.back().point;
+    bool a_asks = asks_before(a);
+    float room = star.back().room;
+    std::uint32_t corner = stars.offsets[p + 1] - 1;
     for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star[i].room > 1) continue;
-      const LocalIndex a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
-      if ((a < p && !is_border[a]) || (b < p && !is_border[b])) continue;
-      std::size_t in_a = kNone, in_b = kNone;
-      if (!is_border[a] && (in_a = find_triangle(stars[a], p, b)) == kNone) continue;
-      if (!is_border[b] && (in_b = find_triangle(stars[b], p, a)) == kNone) continue;
-      const Agreement agreement = is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
-      stars.agreements[stars.offsets[p] + i] = agreement;
-      if (!is_border[a]) stars.agreements[stars.offsets[a] + in_a] = agreement;
-      if (!is_border[b]) stars.agreements[stars.offsets[b] + in_b] = agreement;
+      const LocalIndex b = star[i].point;
+      const bool b_asks = asks_before(b);
+      asked[count] = {corner, p, a, b};
+      count += !a_asks & !b_asks & (room <= 1);
+      a = b;
+      a_asks = b_asks;
+      room = star[i].room;
+      corner = stars.offsets[p] + static_cast<std::uint32_t>(i);
     }
+  }
+  asked.resize(count);
+  return asked;
+}
+
+void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
+  stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
+  for (const AskedTriangle& asked : asked_triangles(stars, is_border)) {
+    const auto [corner, p, a, b] = asked;
+    std::uint32_t in_a = corner, in_b = corner;
+    if (!is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
+    if (!is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
+    const Agreement agreement = is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
+    stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
   }
 }
 
@@ -151,16 +183,14 @@ void StarFinder::find(std::span<const StarQuery> queries) {
   }
   fastest::find_bundled_stars(bundle, bundled_);
 
-  corners_.clear();
   for (std::size_t lane = 0; lane < queries.size(); ++lane) {
     const std::uint32_t size = bundled_.sizes[lane];
     if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
-      const auto star = find_star_carefully(seats_, queries[lane]);
-      corners_.insert(corners_.end(), star.begin(), star.end());
+      careful_[lane] = find_star_carefully(seats_, queries[lane]);
+      stars_[lane] = careful_[lane];
     } else {
-      for (std::size_t i = 0; i < size; ++i) corners_.push_back(bundled_.corners[i][lane]);
+      stars_[lane] = {bundled_.corners[lane], size};
     }
-    ends_[lane + 1] = corners_.size();
   }
 }
 
@@ -169,7 +199,6 @@ Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhood
                              std::span<const std::uint8_t> is_border) {
   Stars<LocalIndex> stars;
   stars.offsets.reserve(points.owned + 1);
-  stars.corners.reserve(std::size_t{8} * points.owned);
   StarFinder finder(seats);
   std::vector<StarQuery> queries;
   for (LocalIndex first = 0; first < points.owned; first += kStarBundle) {
@@ -180,13 +209,17 @@ Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhood
           {p, evaluations[p].normal, is_border[p] ? std::span<const LocalIndex>() : neighbourhoods[p]});
     }
     finder.find(queries);
+    std::uint32_t end_of_star = stars.offsets.back();
+    for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
+    if (stars.corners.size() < end_of_star + kFew) stars.corners.resize(2 * end_of_star + 8 * points.owned);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      for (const auto& corner : finder[i])
-        stars.corners.push_back({queries[i].neighbours[corner.point], corner.room});
-      stars.offsets.push_back(static_cast<std::uint32_t>(stars.corners.size()));
+      StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
+      for (const auto& corner : finder[i]) *to++ = {queries[i].neighbours[corner.point], corner.room};
+      stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
     }
   }
   agree(stars, is_border);
+  stars.corners.resize(stars.offsets.back());
   return stars;
 }
 

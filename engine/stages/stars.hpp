@@ -48,15 +48,13 @@ class StarFinder {
 
   // At most kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
   void find(std::span<const StarQuery> queries);
-  std::span<const StarCorner<LocalIndex>> operator[](std::size_t i) const {
-    return {corners_.data() + ends_[i], corners_.data() + ends_[i + 1]};
-  }
+  std::span<const StarCorner<LocalIndex>> operator[](std::size_t i) const { return stars_[i]; }
 
  private:
   std::span<const Seat> seats_;
   BundledStars bundled_;
-  std::vector<StarCorner<LocalIndex>> corners_;
-  std::array<std::size_t, kStarBundle + 1> ends_{};
+  std::array<std::vector<StarCorner<LocalIndex>>, kStarBundle> careful_;
+  std::array<std::span<const StarCorner<LocalIndex>>, kStarBundle> stars_;
 };
 
 // Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.

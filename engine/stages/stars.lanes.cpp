@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kUndefined = __builtin_nan("");
 
-// A corner to the right of an edge by less than this is on it, in units of the edge's length times the
+// A corner to the right of an edge by less than this is on it, in units of the edge's |x| + |y| times the
 // distance of the farthest corner: 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 
@@ -20,58 +20,73 @@ struct Views {
   Lanes radius;      // of the ball
 };
 
-// Offset of a neighbour, and the difference of the weights.
-using Offset = double __attribute__((vector_size(32)));
+// Points whose neighbours are read side by side.
+constexpr std::size_t kAbreast = 4;
+using Four = double __attribute__((vector_size(kAbreast * sizeof(double))));
+using FourBits = std::int64_t __attribute__((vector_size(sizeof(Four))));
 
-Offset load_offset(const double* from) {
-  Offset offset;
-  __builtin_memcpy(&offset, from, sizeof offset);
-  return offset;
+LACUNA_INLINE Four load_four(const double* from) {
+  Four four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return four;
 }
 
-// Returns the radius of the point's ball. Beyond the point's count the offsets are 0.
-double gather(const StarBundle& bundle, std::size_t point, std::size_t rows, Offset (*offsets)[kLanes],
-              std::size_t lane) {
-  // A seat is eight numbers: position, shift, mean distance, weight. The fourth of what is loaded is not
-  // used.
+// Offsets of neighbours and differences of weights, by row.
+struct Offsets {
+  alignas(64) double x[kMostSeen][kStarBundle], y[kMostSeen][kStarBundle], z[kMostSeen][kStarBundle];
+  double weight[kMostSeen][kStarBundle];
+};
+
+LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& offsets, std::size_t row,
+                                    std::size_t first) {
+  const FourBits low{0, 4, 2, 6}, high{1, 5, 3, 7}, left{0, 1, 4, 5}, right{2, 3, 6, 7};
+  const Four xz01 = __builtin_shuffle(points[0], points[1], low);
+  const Four yw01 = __builtin_shuffle(points[0], points[1], high);
+  const Four xz23 = __builtin_shuffle(points[2], points[3], low);
+  const Four yw23 = __builtin_shuffle(points[2], points[3], high);
+  const auto store_four = [&](double* to, Four four) { __builtin_memcpy(to, &four, sizeof four); };
+  store_four(&offsets.x[row][first], __builtin_shuffle(xz01, xz23, left));
+  store_four(&offsets.y[row][first], __builtin_shuffle(yw01, yw23, left));
+  store_four(&offsets.z[row][first], __builtin_shuffle(xz01, xz23, right));
+  store_four(&offsets.weight[row][first], __builtin_shuffle(yw01, yw23, right));
+}
+
+// Of kAbreast points from `first` on. Beyond a point's count it stands for its neighbours: all is 0.
+void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets& offsets, double* radii) {
+  // A seat is eight numbers: position, shift, mean distance, weight. Of four loaded, three are used.
   static_assert(sizeof(Seat) == 8 * sizeof(double));
-  const Seat& at = bundle.seats[bundle.points[point]];
-  const Offset position = load_offset(at.position), shift = load_offset(at.shift);
-  double sum = at.mean_distance;
-  const std::size_t count = bundle.counts[point];
-  for (std::size_t row = 0; row < count; ++row) {
-    const Seat& q = bundle.seats[bundle.neighbours[point][row]];
-    Offset offset = (load_offset(q.position) - position) + (load_offset(q.shift) - shift);
-    offset[3] = at.weight - q.weight;
-    offsets[row][lane] = offset;
-    sum += q.mean_distance;
+  const Seat* at[kAbreast];
+  Four position[kAbreast], shift[kAbreast];
+  double sums[kAbreast];
+  for (std::size_t i = 0; i < kAbreast; ++i) {
+    at[i] = &bundle.seats[bundle.points[first + i]];
+    position[i] = load_four(at[i]->position);
+    shift[i] = load_four(at[i]->shift);
+    sums[i] = at[i]->mean_distance;
   }
-  for (std::size_t row = count; row < rows; ++row) offsets[row][lane] = Offset{};
-  return kBall * sum / static_cast<double>(count + 1);
+  for (std::size_t row = 0; row < rows; ++row) {
+    Four around[kAbreast];
+    for (std::size_t i = 0; i < kAbreast; ++i) {
+      const bool is_there = row < bundle.counts[first + i];
+      const Seat& q = is_there ? bundle.seats[bundle.neighbours[first + i][row]] : *at[i];
+      around[i] = (load_four(q.position) - position[i]) + (load_four(q.shift) - shift[i]);
+      around[i][3] = at[i]->weight - q.weight;
+      sums[i] += is_there ? q.mean_distance : 0.0;
+    }
+    store_transposed(around, offsets, row, first);
+  }
+  for (std::size_t i = 0; i < kAbreast; ++i)
+    radii[first + i] = kBall * sums[i] / static_cast<double>(bundle.counts[first + i] + 1);
 }
 
-void look_around(const StarBundle& bundle, std::size_t first, Views& views) {
-  Offset offsets[kMostSeen][kLanes];
-  std::size_t most = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    most = bundle.counts[first + lane] > most ? bundle.counts[first + lane] : most;
-  views.rows = (most + kChains - 1) / kChains * kChains;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    views.radius[lane] = gather(bundle, first + lane, views.rows, offsets, lane);
-
+void look_around(const StarBundle& bundle, const Offsets& offsets, std::size_t first, Views& views) {
   const auto& normals = bundle.normals;
   const Frame<Lanes> frame =
       frame_of(Vector<Lanes>{load(normals[0] + first), load(normals[1] + first), load(normals[2] + first)});
   for (std::size_t row = 0; row < views.rows; ++row) {
-    Vector<Lanes> d;
-    Lanes weight;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      d.x[lane] = offsets[row][lane][0];
-      d.y[lane] = offsets[row][lane][1];
-      d.z[lane] = offsets[row][lane][2];
-      weight[lane] = offsets[row][lane][3];
-    }
-    const Lanes power = dot(d, d) + weight;
+    const Vector<Lanes> d{load(offsets.x[row] + first), load(offsets.y[row] + first),
+                          load(offsets.z[row] + first)};
+    const Lanes power = dot(d, d) + load(offsets.weight[row] + first);
     const Lanes inverse = select(power > 0.0, 1.0 / power, all_lanes(kUndefined));
     views.x[row] = dot(d, frame.u) * inverse;
     views.y[row] = dot(d, frame.v) * inverse;
@@ -128,18 +143,13 @@ LACUNA_INLINE Edge next_edge(const Views& views, const Corner& at, const Edge& b
     for (std::size_t i = 0; i < kChains; ++i) {
       const std::size_t row = first + i;
       const Lanes x = views.x[row] - at.x, y = views.y[row] - at.y;
-      on_edge -= cross(back, x, y) >= -margin;
+      on_edge = cross(back, x, y) >= -margin ? on_edge + 1 : on_edge;
       const Edge edge{x, y, {views.x[row], views.y[row], LaneBits{} + static_cast<std::int64_t>(row)}};
       next[i] = choose(cross(next[i], x, y) < 0.0, edge, next[i]);
     }
   }
-  for (std::size_t chains = kChains / 2; chains > 0; chains /= 2) {
-    for (std::size_t i = 0; i < chains; ++i) {
-      const Edge& other = next[i + chains];
-      next[i] = choose(cross(next[i], other.x, other.y) < 0.0, other, next[i]);
-    }
-  }
-  return next[0];
+  const auto first_of = [](const Edge& a, const Edge& b) { return choose(cross(a, b.x, b.y) < 0.0, b, a); };
+  return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
 }
 
 // Eight bytes each: a corner's row, and the room beyond it.
@@ -151,9 +161,7 @@ LACUNA_INLINE LaneBits pack(LaneBits row, Lanes room) {
 }
 
 // Gift wrapping: the convex hull from corner to corner, counterclockwise.
-void find_part(const StarBundle& bundle, std::size_t first, BundledStars& stars) {
-  Views views;
-  look_around(bundle, first, views);
+void find_part(const Views& views, std::size_t first, BundledStars& stars) {
   Lanes squared_distance;
   LaneBits seen;
   const Corner start = first_corner(views, squared_distance, seen);
@@ -180,8 +188,11 @@ void find_part(const StarBundle& bundle, std::size_t first, BundledStars& stars)
       break;
     }
     const LaneBits corners = pack(at.row, room_at(at.x, at.y, next.x, next.y, views.radius));
-    __builtin_memcpy(&stars.corners[step][first], &corners, sizeof corners);
-    margin = scale * root(next.x * next.x + next.y * next.y);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::int64_t corner = corners[lane];
+      __builtin_memcpy(&stars.corners[first + lane][step], &corner, sizeof corner);
+    }
+    margin = scale * (magnitude(next.x) + magnitude(next.y));
     back = {-next.x, -next.y, at};
     at = next.to;
   }
@@ -193,7 +204,19 @@ void find_part(const StarBundle& bundle, std::size_t first, BundledStars& stars)
 }  // namespace
 
 void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
-  for (std::size_t first = 0; first < kStarBundle; first += kLanes) find_part(bundle, first, stars);
+  std::size_t most = 0;
+  for (const std::uint32_t count : bundle.counts) most = count > most ? count : most;
+  Views views;
+  views.rows = (most + kChains - 1) / kChains * kChains;
+  Offsets offsets;
+  alignas(64) double radii[kStarBundle];
+  for (std::size_t first = 0; first < kStarBundle; first += kAbreast)
+    gather(bundle, first, views.rows, offsets, radii);
+  for (std::size_t first = 0; first < kStarBundle; first += kLanes) {
+    look_around(bundle, offsets, first, views);
+    views.radius = load(radii + first);
+    find_part(views, first, stars);
+  }
 }
 
 }  // namespace lacuna::LACUNA_LANES
