@@ -98,43 +98,46 @@ struct AskedTriangle {
   LocalIndex point, a, b;
 };
 
-// Those of all stars. Written without a branch: which corner asks cannot be foretold.
-std::vector<AskedTriangle> asked_triangles(const Stars<LocalIndex>& stars,
-                                           std::span<const std::uint8_t> is_border) {
-  std::vector<AskedTriangle> asked(stars.offsets.back());
+// Those of the stars of points [first, last), to `asked`: returns how many. Without a branch: which corner
+// asks cannot be foretold.
+std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border, LocalIndex first,
+                LocalIndex last, AskedTriangle* asked) {
+  const auto asks_before = [&](LocalIndex p, LocalIndex q) { return (q < p) & !is_border[q]; };
   std::size_t count = 0;
-  for (LocalIndex p = 0; p < stars.size(); ++p) {
-    const auto star = stars[p];
-    if (star.empty()) continue;
-    const auto asks_before = [&](LocalIndex q) { return (q < p) & !is_border[q]; };
-    LocalIndex a = star.back().point;
-    bool a_asks = asks_before(a);
-    float room = star.back().room;
-    std::uint32_t corner = stars.offsets[p + 1] - 1;
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      const LocalIndex b = star[i].point;
-      const bool b_asks = asks_before(b);
-      asked[count] = {corner, p, a, b};
-      count += !a_asks & !b_asks & (room <= 1);
+  for (LocalIndex p = first; p < last; ++p) {
+    const std::uint32_t begin = stars.offsets[p], end = stars.offsets[p + 1];
+    if (begin == end) continue;
+    const StarCorner<LocalIndex>* a = &stars.corners[end - 1];
+    bool is_told = asks_before(p, a->point);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const StarCorner<LocalIndex>* const b = &stars.corners[i];
+      const bool is_told_by_b = asks_before(p, b->point);
+      asked[count] = {static_cast<std::uint32_t>(a - stars.corners.data()), p, a->point, b->point};
+      count += !(is_told | is_told_by_b) & (a->room <= 1);
       a = b;
-      a_asks = b_asks;
-      room = star[i].room;
-      corner = stars.offsets[p] + static_cast<std::uint32_t>(i);
+      is_told = is_told_by_b;
     }
   }
-  asked.resize(count);
-  return asked;
+  return count;
 }
 
 void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
   stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
-  for (const AskedTriangle& asked : asked_triangles(stars, is_border)) {
-    const auto [corner, p, a, b] = asked;
-    std::uint32_t in_a = corner, in_b = corner;
-    if (!is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
-    if (!is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-    const Agreement agreement = is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
-    stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
+  constexpr LocalIndex kRun = 64;
+  std::vector<AskedTriangle> asked;
+  const auto points = static_cast<LocalIndex>(stars.size());
+  for (LocalIndex first = 0; first < points; first += kRun) {
+    const LocalIndex last = std::min(first + kRun, points);
+    const std::size_t most = stars.offsets[last] - stars.offsets[first] + 1;
+    if (asked.size() < most) asked.resize(2 * most);
+    const std::size_t count = ask(stars, is_border, first, last, asked.data());
+    for (const auto& [corner, p, a, b] : std::span(asked).first(count)) {
+      std::uint32_t in_a = corner, in_b = corner;
+      if (!is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
+      if (!is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
+      const Agreement agreement = is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
+      stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
+    }
   }
 }
 
@@ -164,9 +167,13 @@ std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> se
     return squared_a != squared_b ? squared_a < squared_b : a.neighbour > b.neighbour;
   };
   std::rotate(hull.begin(), std::max_element(hull.begin(), hull.end(), nearer), hull.end());
+  double x = hull[0].x, y = hull[0].y;
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const View &a = hull[i], &b = hull[i + 1 < hull.size() ? i + 1 : 0];
-    star.push_back({a.neighbour, static_cast<float>(room_at(a.x, a.y, b.x - a.x, b.y - a.y, views.radius))});
+    const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
+    const double dx = next.x - x, dy = next.y - y;
+    star.push_back({hull[i].neighbour, room_at(x, y, dx, dy, views.radius)});
+    x += dx;  // rounded as in a bundle
+    y += dy;
   }
   return star;
 }

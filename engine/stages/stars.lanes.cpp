@@ -9,13 +9,18 @@ constexpr double kUndefined = __builtin_nan("");
 // distance of the farthest corner: 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 
+// What rounding can do at most, by a hundred times, in units of the square of that distance.
+constexpr double kRounding = 1e-13;
+
 // Comparisons of rows depend on one another: as many at a time do not.
-constexpr std::size_t kChains = 4;
+constexpr std::size_t kChains = 2;
 static_assert(kMostSeen % kChains == 0);
 
 // Where points see their neighbours, inverted, by row. NaN: not at all.
 struct Views {
-  Lanes x[kMostSeen], y[kMostSeen];
+  struct Row {
+    Lanes x, y;
+  } at[kMostSeen];
   std::size_t rows;  // a multiple of kChains
   Lanes radius;      // of the ball
 };
@@ -31,66 +36,92 @@ LACUNA_INLINE Four load_four(const double* from) {
   return four;
 }
 
-// Offsets of neighbours and differences of weights, by row.
-struct Offsets {
-  alignas(64) double x[kMostSeen][kStarBundle], y[kMostSeen][kStarBundle], z[kMostSeen][kStarBundle];
-  double weight[kMostSeen][kStarBundle];
+// Offsets of neighbours and differences of weights.
+struct alignas(64) Offsets {
+  double x[kStarBundle], y[kStarBundle], z[kStarBundle], weight[kStarBundle];
 };
 
-LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& offsets, std::size_t row,
-                                    std::size_t first) {
+LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& offsets, std::size_t first) {
   const FourBits low{0, 4, 2, 6}, high{1, 5, 3, 7}, left{0, 1, 4, 5}, right{2, 3, 6, 7};
   const Four xz01 = __builtin_shuffle(points[0], points[1], low);
   const Four yw01 = __builtin_shuffle(points[0], points[1], high);
   const Four xz23 = __builtin_shuffle(points[2], points[3], low);
   const Four yw23 = __builtin_shuffle(points[2], points[3], high);
   const auto store_four = [&](double* to, Four four) { __builtin_memcpy(to, &four, sizeof four); };
-  store_four(&offsets.x[row][first], __builtin_shuffle(xz01, xz23, left));
-  store_four(&offsets.y[row][first], __builtin_shuffle(yw01, yw23, left));
-  store_four(&offsets.z[row][first], __builtin_shuffle(xz01, xz23, right));
-  store_four(&offsets.weight[row][first], __builtin_shuffle(yw01, yw23, right));
+  store_four(&offsets.x[first], __builtin_shuffle(xz01, xz23, left));
+  store_four(&offsets.y[first], __builtin_shuffle(yw01, yw23, left));
+  store_four(&offsets.z[first], __builtin_shuffle(xz01, xz23, right));
+  store_four(&offsets.weight[first], __builtin_shuffle(yw01, yw23, right));
 }
 
-// Of kAbreast points from `first` on. Beyond a point's count it stands for its neighbours: all is 0.
-void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets& offsets, double* radii) {
-  // A seat is eight numbers: position, shift, mean distance, weight. Of four loaded, three are used.
-  static_assert(sizeof(Seat) == 8 * sizeof(double));
-  const Seat* at[kAbreast];
-  Four position[kAbreast], shift[kAbreast];
-  double sums[kAbreast];
+// What is loaded of a seat: its eight numbers are position, shift, mean distance and weight.
+struct LoadedSeat {
+  Four position, shift, weight;  // and sx; mean distance; before it sy, sz and mean distance
+};
+static_assert(sizeof(Seat) == 8 * sizeof(double));
+
+LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
+  return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
+}
+
+// Offsets of neighbours of kAbreast points from `first` on, and the radii of the points' balls.
+void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets, double* radii) {
+  LoadedSeat at[kAbreast];
+  Four sums[kAbreast];
+  std::size_t common = rows;
   for (std::size_t i = 0; i < kAbreast; ++i) {
-    at[i] = &bundle.seats[bundle.points[first + i]];
-    position[i] = load_four(at[i]->position);
-    shift[i] = load_four(at[i]->shift);
-    sums[i] = at[i]->mean_distance;
+    at[i] = load_seat(bundle.seats[bundle.points[first + i]]);
+    sums[i] = at[i].shift;
+    common = bundle.counts[first + i] < common ? bundle.counts[first + i] : common;
   }
-  for (std::size_t row = 0; row < rows; ++row) {
-    Four around[kAbreast];
+  Four around[kAbreast];
+  const auto look_at_neighbour = [&](std::size_t i, std::size_t row) {
+    const LoadedSeat q = load_seat(bundle.seats[bundle.neighbours[first + i][row]]);
+    const Four offset = (q.position - at[i].position) + (q.shift - at[i].shift);
+    around[i] = __builtin_shuffle(offset, at[i].weight - q.weight, FourBits{0, 1, 2, 7});
+    sums[i] += q.shift;
+  };
+  std::size_t row = 0;
+  for (; row < common; ++row) {
+    for (std::size_t i = 0; i < kAbreast; ++i) look_at_neighbour(i, row);
+    store_transposed(around, offsets[row], first);
+  }
+  for (; row < rows; ++row) {
     for (std::size_t i = 0; i < kAbreast; ++i) {
-      const bool is_there = row < bundle.counts[first + i];
-      const Seat& q = is_there ? bundle.seats[bundle.neighbours[first + i][row]] : *at[i];
-      around[i] = (load_four(q.position) - position[i]) + (load_four(q.shift) - shift[i]);
-      around[i][3] = at[i]->weight - q.weight;
-      sums[i] += is_there ? q.mean_distance : 0.0;
+      around[i] = Four{};
+      if (row < bundle.counts[first + i]) look_at_neighbour(i, row);
     }
-    store_transposed(around, offsets, row, first);
+    store_transposed(around, offsets[row], first);
   }
   for (std::size_t i = 0; i < kAbreast; ++i)
-    radii[first + i] = kBall * sums[i] / static_cast<double>(bundle.counts[first + i] + 1);
+    radii[first + i] = kBall * sums[i][3] / static_cast<double>(bundle.counts[first + i] + 1);
 }
 
-void look_around(const StarBundle& bundle, const Offsets& offsets, std::size_t first, Views& views) {
+void look_around(const StarBundle& bundle, const Offsets* offsets, std::size_t first, Views& views) {
   const auto& normals = bundle.normals;
   const Frame<Lanes> frame =
       frame_of(Vector<Lanes>{load(normals[0] + first), load(normals[1] + first), load(normals[2] + first)});
   for (std::size_t row = 0; row < views.rows; ++row) {
-    const Vector<Lanes> d{load(offsets.x[row] + first), load(offsets.y[row] + first),
-                          load(offsets.z[row] + first)};
-    const Lanes power = dot(d, d) + load(offsets.weight[row] + first);
+    const Vector<Lanes> d{load(offsets[row].x + first), load(offsets[row].y + first),
+                          load(offsets[row].z + first)};
+    const Lanes power = dot(d, d) + load(offsets[row].weight + first);
     const Lanes inverse = select(power > 0.0, 1.0 / power, all_lanes(kUndefined));
-    views.x[row] = dot(d, frame.u) * inverse;
-    views.y[row] = dot(d, frame.v) * inverse;
+    views.at[row].x = dot(d, frame.u) * inverse;
+    views.at[row].y = dot(d, frame.v) * inverse;
   }
+}
+
+// From a corner to the next one.
+struct Edge {
+  Lanes x, y;
+  LaneBits to;  // its row
+};
+
+LACUNA_INLINE Lanes cross(const Edge& edge, Lanes x, Lanes y) {
+  return edge.x * y - edge.y * x;
+}
+LACUNA_INLINE Edge choose(LaneBits mask, const Edge& a, const Edge& b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), mask ? a.to : b.to};
 }
 
 // A corner of each star.
@@ -99,65 +130,51 @@ struct Corner {
   LaneBits row;
 };
 
-// From a corner to another one.
-struct Edge {
-  Lanes x, y;
-  Corner to;
-};
-
-LACUNA_INLINE Lanes cross(const Edge& edge, Lanes x, Lanes y) {
-  return edge.x * y - edge.y * x;
-}
-LACUNA_INLINE Edge choose(LaneBits mask, const Edge& a, const Edge& b) {
-  return {select(mask, a.x, b.x),
-          select(mask, a.y, b.y),
-          {select(mask, a.to.x, b.to.x), select(mask, a.to.y, b.to.y), mask ? a.to.row : b.to.row}};
-}
-
 // The view farthest from the origin is a corner.
 Corner first_corner(const Views& views, Lanes& squared_distance, LaneBits& seen) {
   Corner corner{};
   squared_distance = Lanes{};
   seen = LaneBits{};
-  for (std::size_t row = 0; row < views.rows; ++row) {
-    const Lanes x = views.x[row], y = views.y[row];
+  LaneBits number{};
+  for (std::size_t row = 0; row < views.rows; ++row, ++number) {
+    const Lanes x = views.at[row].x, y = views.at[row].y;
     const Lanes squared = x * x + y * y;
     const LaneBits is_farther = squared > squared_distance;
     squared_distance = select(is_farther, squared, squared_distance);
     corner.x = select(is_farther, x, corner.x);
     corner.y = select(is_farther, y, corner.y);
-    corner.row = is_farther ? LaneBits{} + static_cast<std::int64_t>(row) : corner.row;
-    seen -= squared == squared;
+    corner.row = is_farther ? number : corner.row;
+    seen = squared == squared ? seen + 1 : seen;
   }
   return corner;
 }
 
 // The edge from a corner such that no view is to its right. `back`: the edge before, turned; all views are to
-// its right. `on_edge`: how many are not, by more than `margin`.
+// its right, `on_edge`: but for so many, by more than `margin`. Views nearer to a line than `rounding` are on
+// it.
 LACUNA_INLINE Edge next_edge(const Views& views, const Corner& at, const Edge& back, Lanes margin,
-                             LaneBits& on_edge) {
+                             Lanes rounding, LaneBits& on_edge) {
   Edge next[kChains];
   for (Edge& edge : next) edge = back;
   on_edge = LaneBits{};
+  LaneBits number{};
   for (std::size_t first = 0; first < views.rows; first += kChains) {
-    for (std::size_t i = 0; i < kChains; ++i) {
-      const std::size_t row = first + i;
-      const Lanes x = views.x[row] - at.x, y = views.y[row] - at.y;
+    for (std::size_t i = 0; i < kChains; ++i, ++number) {
+      const Lanes x = views.at[first + i].x - at.x, y = views.at[first + i].y - at.y;
       on_edge = cross(back, x, y) >= -margin ? on_edge + 1 : on_edge;
-      const Edge edge{x, y, {views.x[row], views.y[row], LaneBits{} + static_cast<std::int64_t>(row)}};
-      next[i] = choose(cross(next[i], x, y) < 0.0, edge, next[i]);
+      next[i] = choose(cross(next[i], x, y) < -rounding, {x, y, number}, next[i]);
     }
   }
-  const auto first_of = [](const Edge& a, const Edge& b) { return choose(cross(a, b.x, b.y) < 0.0, b, a); };
-  return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
+  Edge first = next[0];
+  for (std::size_t i = 1; i < kChains; ++i)
+    first = choose(cross(first, next[i].x, next[i].y) < -rounding, next[i], first);
+  return first;
 }
 
 // Eight bytes each: a corner's row, and the room beyond it.
-LACUNA_INLINE LaneBits pack(LaneBits row, Lanes room) {
-  using Floats = float __attribute__((vector_size(kLaneBytes / 2)));
-  using FloatBits = std::uint32_t __attribute__((vector_size(kLaneBytes / 2)));
-  const FloatBits rooms = reinterpret_cast<FloatBits>(__builtin_convertvector(room, Floats));
-  return __builtin_convertvector(rooms, LaneBits) << 32 | row;
+LACUNA_INLINE LaneBits pack(LaneBits row, SingleLanes room) {
+  using SingleBits = std::uint32_t __attribute__((vector_size(sizeof(SingleLanes))));
+  return __builtin_convertvector(reinterpret_cast<SingleBits>(room), LaneBits) << 32 | row;
 }
 
 // Gift wrapping: the convex hull from corner to corner, counterclockwise.
@@ -165,15 +182,15 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
   Lanes squared_distance;
   LaneBits seen;
   const Corner start = first_corner(views, squared_distance, seen);
-  const Lanes scale = kOnEdge * root(squared_distance);
+  const Lanes scale = kOnEdge * root(squared_distance), rounding = kRounding * squared_distance;
 
   LaneBits is_open = seen > 2, in_doubt{}, sizes{};
   Corner at = start;
-  Edge back{start.y, -start.x, start};  // all views are on one side of the tangent at the farthest
+  Edge back{start.y, -start.x, start.row};  // all views are on one side of the tangent at the farthest
   Lanes margin{};
   for (std::size_t step = 0;; ++step) {
     LaneBits on_edge;
-    const Edge next = next_edge(views, at, back, margin, on_edge);
+    const Edge next = next_edge(views, at, back, margin, rounding, on_edge);
     if (step > 0) {
       // Both ends of the edge before are on it. Any other: the way is not the hull's, or within rounding.
       in_doubt |= is_open & (on_edge != 2);
@@ -193,8 +210,9 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
       __builtin_memcpy(&stars.corners[first + lane][step], &corner, sizeof corner);
     }
     margin = scale * (magnitude(next.x) + magnitude(next.y));
-    back = {-next.x, -next.y, at};
-    at = next.to;
+    back = {-next.x, -next.y, at.row};
+    // Where the edges lead, within rounding: to choose among views takes longer.
+    at = {at.x + next.x, at.y + next.y, next.to};
   }
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     stars.sizes[first + lane] =
@@ -208,7 +226,7 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
   for (const std::uint32_t count : bundle.counts) most = count > most ? count : most;
   Views views;
   views.rows = (most + kChains - 1) / kChains * kChains;
-  Offsets offsets;
+  Offsets offsets[kMostSeen];
   alignas(64) double radii[kStarBundle];
   for (std::size_t first = 0; first < kStarBundle; first += kAbreast)
     gather(bundle, first, views.rows, offsets, radii);
