@@ -107,7 +107,8 @@ void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, S
       const BorderPoint& p = bundle[i];
       const BorderNeighbour* const around = &neighbours[queries[i].neighbours.data() - places.data()];
       const std::size_t begin = stars.size();
-      for (const auto& corner : finder[i]) {
+      for (std::size_t c = 0; c < finder[i].size(); ++c) {
+        const StarCorner<LocalIndex>& corner = finder[i][c];
         stars.push_back({p.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
                          around[corner.point].neighbour, corner.room});
       }

@@ -31,7 +31,7 @@ struct StarBundle {
 struct BundledStars {
   static constexpr std::uint32_t kInDoubt = UINT32_MAX;
 
-  StarCorner<LocalIndex> corners[kStarBundle][kMostSeen];  // by their numbers among the neighbours
+  StarCorner<LocalIndex> corners[kMostSeen][kStarBundle];  // by their numbers among the neighbours
   std::uint32_t sizes[kStarBundle];  // in doubt: corners are so near to a line that rounding decides
 };
 

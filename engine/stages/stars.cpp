@@ -194,9 +194,9 @@ void StarFinder::find(std::span<const StarQuery> queries) {
     const std::uint32_t size = bundled_.sizes[lane];
     if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
       careful_[lane] = find_star_carefully(seats_, queries[lane]);
-      stars_[lane] = careful_[lane];
+      stars_[lane] = {careful_[lane].data(), 1, careful_[lane].size()};
     } else {
-      stars_[lane] = {bundled_.corners[lane], size};
+      stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size};
     }
   }
 }
@@ -221,7 +221,8 @@ Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhood
     if (stars.corners.size() < end_of_star + kFew) stars.corners.resize(2 * end_of_star + 8 * points.owned);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
-      for (const auto& corner : finder[i]) *to++ = {queries[i].neighbours[corner.point], corner.room};
+      for (std::size_t c = 0; c < finder[i].size(); ++c)
+        *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
       stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
     }
   }

@@ -41,6 +41,21 @@ struct StarQuery {
 // seen. Deterministic: the order of the neighbours decides between points in one place.
 std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> seats, const StarQuery& query);
 
+// Corners as above.
+class FoundStar {
+ public:
+  FoundStar() = default;
+  FoundStar(const StarCorner<LocalIndex>* first, std::size_t stride, std::size_t size)
+      : first_(first), stride_(stride), size_(size) {}
+
+  std::size_t size() const { return size_; }
+  const StarCorner<LocalIndex>& operator[](std::size_t i) const { return first_[i * stride_]; }
+
+ private:
+  const StarCorner<LocalIndex>* first_ = nullptr;
+  std::size_t stride_ = 1, size_ = 0;
+};
+
 // Finds the same stars, those of a bundle side by side: keeps its memory.
 class StarFinder {
  public:
@@ -48,13 +63,13 @@ class StarFinder {
 
   // At most kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
   void find(std::span<const StarQuery> queries);
-  std::span<const StarCorner<LocalIndex>> operator[](std::size_t i) const { return stars_[i]; }
+  const FoundStar& operator[](std::size_t i) const { return stars_[i]; }
 
  private:
   std::span<const Seat> seats_;
   BundledStars bundled_;
   std::array<std::vector<StarCorner<LocalIndex>>, kStarBundle> careful_;
-  std::array<std::span<const StarCorner<LocalIndex>>, kStarBundle> stars_;
+  std::array<FoundStar, kStarBundle> stars_;
 };
 
 // Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.

@@ -13,7 +13,7 @@ constexpr double kOnEdge = 1e-12;
 constexpr double kRounding = 1e-13;
 
 // Comparisons of rows depend on one another: as many at a time do not.
-constexpr std::size_t kChains = 2;
+constexpr std::size_t kChains = 4;
 static_assert(kMostSeen % kChains == 0);
 
 // Where points see their neighbours, inverted, by row. NaN: not at all.
@@ -114,17 +114,12 @@ void look_around(const StarBundle& bundle, const Offsets* offsets, std::size_t f
 // From a corner to the next one.
 struct Edge {
   Lanes x, y;
-  LaneBits to;  // its row
 };
 
-LACUNA_INLINE Lanes cross(const Edge& edge, Lanes x, Lanes y) {
-  return edge.x * y - edge.y * x;
-}
-LACUNA_INLINE Edge choose(LaneBits mask, const Edge& a, const Edge& b) {
-  return {select(mask, a.x, b.x), select(mask, a.y, b.y), mask ? a.to : b.to};
+LACUNA_INLINE Lanes cross(const Edge& edge, const Edge& other) {
+  return edge.x * other.y - edge.y * other.x;
 }
 
-// A corner of each star.
 struct Corner {
   Lanes x, y;
   LaneBits row;
@@ -149,26 +144,36 @@ Corner first_corner(const Views& views, Lanes& squared_distance, LaneBits& seen)
   return corner;
 }
 
+// Rows of some views: how many, and their sum.
+constexpr int kCountShift = 32;
+
 // The edge from a corner such that no view is to its right. `back`: the edge before, turned; all views are to
-// its right, `on_edge`: but for so many, by more than `margin`. Views nearer to a line than `rounding` are on
-// it.
+// its right by more than `margin` but those `on_edge`. Views nearer to a line than `rounding` are on it.
 LACUNA_INLINE Edge next_edge(const Views& views, const Corner& at, const Edge& back, Lanes margin,
                              Lanes rounding, LaneBits& on_edge) {
+  const auto first_of = [&](const Edge& a, const Edge& b) {
+    const LaneBits is_right = cross(a, b) < -rounding;
+    return Edge{select(is_right, b.x, a.x), select(is_right, b.y, a.y)};
+  };
   Edge next[kChains];
   for (Edge& edge : next) edge = back;
   on_edge = LaneBits{};
-  LaneBits number{};
-  for (std::size_t first = 0; first < views.rows; first += kChains) {
-    for (std::size_t i = 0; i < kChains; ++i, ++number) {
-      const Lanes x = views.at[first + i].x - at.x, y = views.at[first + i].y - at.y;
-      on_edge = cross(back, x, y) >= -margin ? on_edge + 1 : on_edge;
-      next[i] = choose(cross(next[i], x, y) < -rounding, {x, y, number}, next[i]);
-    }
+  LaneBits row_of_one = LaneBits{} + (std::int64_t{1} << kCountShift);
+  const auto look_at = [&](std::size_t row, Edge& chain) {
+    const Edge edge{views.at[row].x - at.x, views.at[row].y - at.y};
+    on_edge = cross(back, edge) >= -margin ? on_edge + row_of_one : on_edge;
+    chain = first_of(chain, edge);
+    ++row_of_one;
+  };
+  std::size_t row = 0;
+  for (; row + kChains <= views.rows; row += kChains) {
+    for (std::size_t i = 0; i < kChains; ++i) look_at(row + i, next[i]);
   }
-  Edge first = next[0];
-  for (std::size_t i = 1; i < kChains; ++i)
-    first = choose(cross(first, next[i].x, next[i].y) < -rounding, next[i], first);
-  return first;
+  for (; row < views.rows; row += 2) {
+    look_at(row, next[0]);
+    look_at(row + 1, next[1]);
+  }
+  return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
 }
 
 // Eight bytes each: a corner's row, and the room beyond it.
@@ -184,17 +189,18 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
   const Corner start = first_corner(views, squared_distance, seen);
   const Lanes scale = kOnEdge * root(squared_distance), rounding = kRounding * squared_distance;
 
-  LaneBits is_open = seen > 2, in_doubt{}, sizes{};
+  LaneBits is_open = seen > 2, in_doubt{}, sizes{}, before = start.row;
   Corner at = start;
-  Edge back{start.y, -start.x, start.row};  // all views are on one side of the tangent at the farthest
+  Edge back{start.y, -start.x};  // all views are on one side of the tangent at the farthest
   Lanes margin{};
   for (std::size_t step = 0;; ++step) {
     LaneBits on_edge;
     const Edge next = next_edge(views, at, back, margin, rounding, on_edge);
     if (step > 0) {
       // Both ends of the edge before are on it. Any other: the way is not the hull's, or within rounding.
-      in_doubt |= is_open & (on_edge != 2);
+      in_doubt |= is_open & (on_edge >> kCountShift != 2);
       is_open &= ~in_doubt;
+      at.row = (on_edge & ((std::int64_t{1} << kCountShift) - 1)) - before;
       const LaneBits is_closed = is_open & (at.row == start.row);
       sizes = is_closed ? LaneBits{} + static_cast<std::int64_t>(step) : sizes;
       is_open &= ~is_closed;
@@ -205,14 +211,13 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
       break;
     }
     const LaneBits corners = pack(at.row, room_at(at.x, at.y, next.x, next.y, views.radius));
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::int64_t corner = corners[lane];
-      __builtin_memcpy(&stars.corners[first + lane][step], &corner, sizeof corner);
-    }
+    __builtin_memcpy(&stars.corners[step][first], &corners, sizeof corners);
     margin = scale * (magnitude(next.x) + magnitude(next.y));
-    back = {-next.x, -next.y, at.row};
-    // Where the edges lead, within rounding: to choose among views takes longer.
-    at = {at.x + next.x, at.y + next.y, next.to};
+    back = {-next.x, -next.y};
+    before = at.row;
+    // Where the edges lead, within rounding; which row that is, the views on the edge will tell.
+    at.x += next.x;
+    at.y += next.y;
   }
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     stars.sizes[first + lane] =
@@ -225,7 +230,7 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
   std::size_t most = 0;
   for (const std::uint32_t count : bundle.counts) most = count > most ? count : most;
   Views views;
-  views.rows = (most + kChains - 1) / kChains * kChains;
+  views.rows = (most + 1) / 2 * 2;
   Offsets offsets[kMostSeen];
   alignas(64) double radii[kStarBundle];
   for (std::size_t first = 0; first < kStarBundle; first += kAbreast)
