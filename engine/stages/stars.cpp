@@ -184,7 +184,7 @@ void StarFinder::find(std::span<const StarQuery> queries) {
     const StarQuery& query = queries[std::min(lane, queries.size() - 1)];
     const bool fits = lane < queries.size() && query.neighbours.size() <= kMostSeen;
     bundle.points[lane] = query.point;
-    bundle.neighbours[lane] = query.neighbours.data();
+    bundle.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
     bundle.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
     for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][lane] = query.normal[axis];
   }

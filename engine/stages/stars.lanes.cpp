@@ -75,21 +75,27 @@ void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offse
     common = bundle.counts[first + i] < common ? bundle.counts[first + i] : common;
   }
   Four around[kAbreast];
-  const auto look_at_neighbour = [&](std::size_t i, std::size_t row) {
+  const auto look_at_neighbour = [&](std::size_t i, std::size_t row, FourBits is_there) {
     const LoadedSeat q = load_seat(bundle.seats[bundle.neighbours[first + i][row]]);
     const Four offset = (q.position - at[i].position) + (q.shift - at[i].shift);
-    around[i] = __builtin_shuffle(offset, at[i].weight - q.weight, FourBits{0, 1, 2, 7});
-    sums[i] += q.shift;
+    const Four with_weight = __builtin_shuffle(offset, at[i].weight - q.weight, FourBits{0, 1, 2, 7});
+    const auto masked = [&](Four four) {
+      return reinterpret_cast<Four>(reinterpret_cast<FourBits>(four) & is_there);
+    };
+    around[i] = masked(with_weight);
+    sums[i] += masked(q.shift);
   };
   std::size_t row = 0;
   for (; row < common; ++row) {
-    for (std::size_t i = 0; i < kAbreast; ++i) look_at_neighbour(i, row);
+    for (std::size_t i = 0; i < kAbreast; ++i) look_at_neighbour(i, row, ~FourBits{});
     store_transposed(around, offsets[row], first);
   }
   for (; row < rows; ++row) {
     for (std::size_t i = 0; i < kAbreast; ++i) {
-      around[i] = Four{};
-      if (row < bundle.counts[first + i]) look_at_neighbour(i, row);
+      const std::size_t count = bundle.counts[first + i];
+      const FourBits is_there = FourBits{} - static_cast<std::int64_t>(row < count);
+      // Without a branch: which point has one neighbour more cannot be foretold.
+      look_at_neighbour(i, row < count ? row : 0, is_there);
     }
     store_transposed(around, offsets[row], first);
   }
