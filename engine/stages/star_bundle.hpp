@@ -38,6 +38,26 @@ struct BundledStars {
 using FindBundledStars = void(const StarBundle&, BundledStars&);
 LACUNA_DISPATCH(FindBundledStars, find_bundled_stars)
 
+// Stars that are compared in one step have no more corners; as many are readable beyond the last star.
+inline constexpr std::uint32_t kFewCorners = 8;
+
+// Stars by point, as in `Stars`, and what becomes of their triangles.
+struct StarTable {
+  const std::uint32_t* offsets;
+  const StarCorner<LocalIndex>* corners;
+  const std::uint8_t* is_border;  // points whose stars are not known
+  Agreement* agreements;
+};
+
+// A triangle that one of its corners, the first one whose star is known, asks the others for.
+struct AskedTriangle {
+  std::uint32_t corner;  // of the asking star
+  LocalIndex point, a, b;
+};
+
+using AgreeOnTriangles = void(const StarTable&, const AskedTriangle* asked, std::size_t count);
+LACUNA_DISPATCH(AgreeOnTriangles, agree_on_triangles)
+
 // ---- Formulas for one point or several
 
 inline namespace LACUNA_LANES {

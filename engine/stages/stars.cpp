@@ -72,34 +72,8 @@ std::vector<View> hull_of(std::vector<View> views) {
   return hull;
 }
 
-// Stars that are read without a branch have no more corners; as many are readable beyond the last star.
-constexpr std::size_t kFew = 8;
-
-constexpr std::uint32_t kNone = UINT32_MAX;
-
-// The corner of a star from which its point's triangle with a and b goes on to the next corner.
-std::uint32_t find_triangle(const Stars<LocalIndex>& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
-  const std::uint32_t begin = stars.offsets[point], size = stars.offsets[point + 1] - begin;
-  const StarCorner<LocalIndex>* const star = stars.corners.data() + begin;
-  std::uint32_t place = size;
-  for (std::uint32_t i = kFew; i-- > 0;) place = star[i].point == a ? i : place;
-  if (place >= size) {
-    for (place = kFew; place < size && star[place].point != a;) ++place;
-    if (place >= size) return kNone;
-  }
-  const std::uint32_t next = place + 1 < size ? place + 1 : 0, before = (place > 0 ? place : size) - 1;
-  const std::uint32_t at = star[next].point == b ? place : before;
-  return (star[next].point == b || star[before].point == b) && star[at].room <= 1 ? begin + at : kNone;
-}
-
-// A triangle that one of its corners, the first one whose star is known, asks the others for.
-struct AskedTriangle {
-  std::uint32_t corner;  // of the asking star
-  LocalIndex point, a, b;
-};
-
-// Those of the stars of points [first, last), to `asked`: returns how many. Without a branch: which corner
-// asks cannot be foretold.
+// The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
+// branch: which corner asks cannot be foretold.
 std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border, LocalIndex first,
                 LocalIndex last, AskedTriangle* asked) {
   const auto asks_before = [&](LocalIndex p, LocalIndex q) { return (q < p) & !is_border[q]; };
@@ -123,6 +97,8 @@ std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is
 
 void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
   stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
+  const StarTable table{stars.offsets.data(), stars.corners.data(), is_border.data(),
+                        stars.agreements.data()};
   constexpr LocalIndex kRun = 64;
   std::vector<AskedTriangle> asked;
   const auto points = static_cast<LocalIndex>(stars.size());
@@ -131,13 +107,7 @@ void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
     const std::size_t most = stars.offsets[last] - stars.offsets[first] + 1;
     if (asked.size() < most) asked.resize(2 * most);
     const std::size_t count = ask(stars, is_border, first, last, asked.data());
-    for (const auto& [corner, p, a, b] : std::span(asked).first(count)) {
-      std::uint32_t in_a = corner, in_b = corner;
-      if (!is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
-      if (!is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-      const Agreement agreement = is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
-      stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
-    }
+    fastest::agree_on_triangles(table, asked.data(), count);
   }
 }
 
@@ -218,7 +188,8 @@ Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhood
     finder.find(queries);
     std::uint32_t end_of_star = stars.offsets.back();
     for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
-    if (stars.corners.size() < end_of_star + kFew) stars.corners.resize(2 * end_of_star + 8 * points.owned);
+    if (stars.corners.size() < end_of_star + kFewCorners)
+      stars.corners.resize(2 * end_of_star + 8 * points.owned);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
       for (std::size_t c = 0; c < finder[i].size(); ++c)

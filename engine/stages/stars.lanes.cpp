@@ -230,6 +230,51 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
         in_doubt[lane] ? BundledStars::kInDoubt : static_cast<std::uint32_t>(sizes[lane]);
 }
 
+// ---- Agreement
+
+constexpr std::uint32_t kNone = UINT32_MAX;
+
+// Bit 2 i: corner i of the first kFewCorners is that point.
+LACUNA_INLINE std::uint32_t places_of(LocalIndex point, const StarCorner<LocalIndex>* star) {
+#if defined(__AVX512F__)
+  const __m512i point_in_all = _mm512_set1_epi32(static_cast<int>(point));
+  return _mm512_mask_cmpeq_epi32_mask(0x5555, _mm512_loadu_si512(star), point_in_all);
+#else
+  std::uint32_t places = 0;
+  for (std::uint32_t i = 0; i < kFewCorners; ++i)
+    places |= static_cast<std::uint32_t>(star[i].point == point) << 2 * i;
+  return places;
+#endif
+}
+
+// The corner of a large star after which b follows a, or a follows b.
+std::uint32_t find_in_large(const StarCorner<LocalIndex>* star, std::uint32_t size, LocalIndex a,
+                            LocalIndex b) {
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const LocalIndex here = star[i].point, next = star[i + 1 < size ? i + 1 : 0].point;
+    if ((here == a && next == b) || (here == b && next == a)) return i;
+  }
+  return kNone;
+}
+
+// The corner from which the point's triangle with a and b goes on to the next corner.
+LACUNA_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a,
+                                          LocalIndex b) {
+  const std::uint32_t begin = stars.offsets[point], size = stars.offsets[point + 1] - begin;
+  const StarCorner<LocalIndex>* const star = stars.corners + begin;
+  std::uint32_t place = kNone;
+  if (size <= kFewCorners) {
+    const std::uint32_t all = (1U << 2 * size) - 1;
+    const std::uint32_t at_a = places_of(a, star) & all, at_b = places_of(b, star) & all;
+    const auto next = [&](std::uint32_t at) { return at << 2 | at >> ((2 * size - 2) & 31); };
+    const std::uint32_t at = (next(at_a) & at_b) != 0 ? at_a : (next(at_b) & at_a) != 0 ? at_b : 0;
+    if (at != 0) place = static_cast<std::uint32_t>(__builtin_ctz(at)) / 2;
+  } else {
+    place = find_in_large(star, size, a, b);
+  }
+  return place != kNone && star[place].room <= 1 ? begin + place : kNone;
+}
+
 }  // namespace
 
 void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
@@ -245,6 +290,18 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
     look_around(bundle, offsets, first, views);
     views.radius = load(radii + first);
     find_part(views, first, stars);
+  }
+}
+
+void agree_on_triangles(const StarTable& stars, const AskedTriangle* asked, std::size_t count) {
+  for (const AskedTriangle* triangle = asked; triangle < asked + count; ++triangle) {
+    const auto [corner, p, a, b] = *triangle;
+    std::uint32_t in_a = corner, in_b = corner;
+    if (!stars.is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
+    if (!stars.is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
+    const Agreement agreement =
+        stars.is_border[a] || stars.is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
+    stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
   }
 }
 
