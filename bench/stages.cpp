@@ -15,10 +15,12 @@
 #include "engine/stages/order_tile.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/split.hpp"
+#include "engine/stages/stars.hpp"
 #include "engine/stages/survey.hpp"
 #include "io/file_scan.hpp"
 #include "tests/support/point_tree.hpp"
 #include "tools/synth/ply_output.hpp"
+#include "tools/synth/random.hpp"
 
 #include <algorithm>
 #include <array>
@@ -316,6 +318,42 @@ void eligible_edges(benchmark::State& state) {
   time_per(state, "per_eligible_edge", edges);
 }
 BENCHMARK(eligible_edges);
+
+// The sample with every point moved up or down, by up to about this many spacings.
+struct NoisySample {
+  explicit NoisySample(double noise) {
+    const synth::Random random(7, 1);
+    const double most = noise * 1.5 * std::numbers::ln2 / std::sqrt(1.1 * kPoints);
+    PointBatch moved = batch(SampleOrder::kScanline);
+    for (std::size_t i = 0; i < moved.size(); ++i) moved.positions[i].z() += random.uniform(i, -most, most);
+    points = sample_tile(moved);
+    rows = lacuna::find_neighbourhoods(points, kNeighbours, 0);
+    evaluations = lacuna::evaluate(points, rows, {}, kConfig.normals, kConfig.criteria);
+    for (LocalIndex p = 0; p < points.owned; ++p)
+      seats.push_back(seat_of(points.positions[p], points.ids[p], evaluations[p]));
+    is_border.resize(points.owned);
+  }
+
+  TilePoints points;
+  Rows rows;
+  std::vector<Evaluation> evaluations;
+  std::vector<Seat> seats;
+  std::vector<std::uint8_t> is_border;
+};
+
+void find_stars(benchmark::State& state, double noise) {
+  const NoisySample sample(noise);
+  std::size_t corners = 0;
+  for (auto _ : state) {
+    const Stars<LocalIndex> stars =
+        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seats, sample.is_border);
+    corners = stars.corners.size();
+  }
+  time_per(state, "per_point", kPoints);
+  time_per(state, "per_corner", corners);
+}
+BENCHMARK_CAPTURE(find_stars, plain, 0.0);
+BENCHMARK_CAPTURE(find_stars, noisy, 0.5);
 
 // ---- the global stage
 

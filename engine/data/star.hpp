@@ -4,14 +4,11 @@
 #include "engine/data/ids.hpp"
 
 #include <cstdint>
-#include <vector>
-
-#include <Eigen/Core>
 
 namespace lacuna {
 
 // Where a point stands on the surface: what the stars of its neighbours need to know of it.
-struct Seat {
+struct alignas(64) Seat {
   double position[3];
   double shift[3];       // to the plane through its neighbours: takes noise out
   double mean_distance;  // r

@@ -49,9 +49,9 @@ class Seats {
     RunReader<Seat> reader(column);
     for (const Row row : rows_) seats_.push_back(reader[value(row)]);
   }
-  const Seat& operator[](Row row) const {
-    return seats_[static_cast<std::size_t>(std::lower_bound(rows_.begin(), rows_.end(), row) -
-                                           rows_.begin())];
+  std::span<const Seat> all() const { return seats_; }
+  LocalIndex place(Row row) const {
+    return static_cast<LocalIndex>(std::lower_bound(rows_.begin(), rows_.end(), row) - rows_.begin());
   }
 
  private:
@@ -86,23 +86,34 @@ void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, S
   for (const BorderNeighbour& n : neighbours) rows.push_back(n.neighbour.row);
   const Seats seats(scan.seats, std::move(rows));
 
-  StarFinder finder;
-  std::vector<Seat> around;
+  std::vector<LocalIndex> places;
+  for (const BorderNeighbour& n : neighbours) places.push_back(seats.place(n.neighbour.row));
+  StarFinder finder(seats.all());
+  std::vector<StarQuery> queries;
   std::vector<StoredCorner> stars;
-  auto next = neighbours.begin();
-  for (const BorderPoint& p : border) {
-    const auto first = next;
-    around.clear();
-    for (; next != neighbours.end() && next->owned == p.owned; ++next)
-      around.push_back(seats[next->neighbour.row]);
-    const Eigen::Vector3d normal(p.normal[0], p.normal[1], p.normal[2]);
-    const std::size_t begin = stars.size();
-    for (const auto& corner : finder.find(seats[here.row(p.owned)], normal, around)) {
-      const Vertex& to = first[corner.point].neighbour;
-      stars.push_back(
-          {p.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen, to, corner.room});
+  std::size_t next = 0;
+  for (std::size_t first = 0; first < border.size(); first += kStarBundle) {
+    const auto bundle = std::span(border).subspan(first, std::min(kStarBundle, border.size() - first));
+    queries.clear();
+    for (const BorderPoint& p : bundle) {
+      const std::size_t begin = next;
+      while (next < neighbours.size() && neighbours[next].owned == p.owned) ++next;
+      queries.push_back({seats.place(here.row(p.owned)),
+                         {p.normal[0], p.normal[1], p.normal[2]},
+                         std::span(places).subspan(begin, next - begin)});
     }
-    tell({p.id, here.row(p.owned)}, std::span(stars).subspan(begin), here, tiling, claims);
+    finder.find(queries);
+    for (std::size_t i = 0; i < bundle.size(); ++i) {
+      const BorderPoint& p = bundle[i];
+      const BorderNeighbour* const around = &neighbours[queries[i].neighbours.data() - places.data()];
+      const std::size_t begin = stars.size();
+      for (std::size_t c = 0; c < finder[i].size(); ++c) {
+        const StarCorner<LocalIndex>& corner = finder[i][c];
+        stars.push_back({p.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
+                         around[corner.point].neighbour, corner.room});
+      }
+      tell({p.id, here.row(p.owned)}, std::span(stars).subspan(begin), here, tiling, claims);
+    }
   }
   scan.stars.append(t, stars);
 }

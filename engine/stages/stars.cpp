@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace lacuna {
 namespace {
-
-// Larger ones say no more: there is room.
-constexpr double kMostRoom = 8;
 
 // In units of r^2: far above rounding, far below what a scanner can tell.
 constexpr double kWeights = 1e-4;
@@ -22,12 +17,98 @@ double scatter(PointId id) {
   return static_cast<double>(mixed >> 40) * 0x1p-24;
 }
 
-double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
+Vector<double> vector(const double (&components)[3]) {
+  return {components[0], components[1], components[2]};
 }
 
-Eigen::Vector3d vector(const double (&components)[3]) {
-  return {components[0], components[1], components[2]};
+// Where a point sees a neighbour, inverted.
+struct View {
+  double x, y;
+  LocalIndex neighbour;
+};
+
+struct Views {
+  std::vector<View> all;
+  double radius;  // of the ball
+};
+
+Views look_around(std::span<const Seat> seats, const StarQuery& query) {
+  const Seat& at = seats[query.point];
+  const Frame<double> frame = frame_of(Vector<double>{query.normal.x(), query.normal.y(), query.normal.z()});
+  Views views;
+  double sum = at.mean_distance;
+  for (LocalIndex i = 0; i < query.neighbours.size(); ++i) {
+    const Seat& q = seats[query.neighbours[i]];
+    sum += q.mean_distance;
+    const Vector<double> d =
+        (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
+    // The weights make it a ball orthogonal to small balls around the points: any two views of four points
+    // on one circle then agree on how it falls into triangles.
+    const double power = dot(d, d) + (at.weight - q.weight);
+    const double inverse = 1 / power;
+    const View view{dot(d, frame.u) * inverse, dot(d, frame.v) * inverse, i};
+    if (power > 0 && std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
+  }
+  views.radius = kBall * sum / static_cast<double>(query.neighbours.size() + 1);
+  return views;
+}
+
+// The convex hull, by Andrew's monotone chain; the last is the first again.
+std::vector<View> hull_of(std::vector<View> views) {
+  std::sort(views.begin(), views.end(), [](const View& a, const View& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.neighbour < b.neighbour;
+  });
+  const auto turns_left = [](const View& a, const View& b, const View& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+  };
+  std::vector<View> hull;
+  const auto add = [&](const View& next, std::size_t least) {
+    while (hull.size() > least && !turns_left(hull[hull.size() - 2], hull.back(), next)) hull.pop_back();
+    hull.push_back(next);
+  };
+  for (const View& next : views) add(next, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t i = views.size(); i-- > 1;) add(views[i - 1], lower);
+  return hull;
+}
+
+// The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
+// branch: which corner asks cannot be foretold.
+std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border, LocalIndex first,
+                LocalIndex last, AskedTriangle* asked) {
+  const auto asks_before = [&](LocalIndex p, LocalIndex q) { return (q < p) & !is_border[q]; };
+  std::size_t count = 0;
+  for (LocalIndex p = first; p < last; ++p) {
+    const std::uint32_t begin = stars.offsets[p], end = stars.offsets[p + 1];
+    if (begin == end) continue;
+    const StarCorner<LocalIndex>* a = &stars.corners[end - 1];
+    bool is_told = asks_before(p, a->point);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const StarCorner<LocalIndex>* const b = &stars.corners[i];
+      const bool is_told_by_b = asks_before(p, b->point);
+      asked[count] = {static_cast<std::uint32_t>(a - stars.corners.data()), p, a->point, b->point};
+      count += !(is_told | is_told_by_b) & (a->room <= 1);
+      a = b;
+      is_told = is_told_by_b;
+    }
+  }
+  return count;
+}
+
+void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
+  stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
+  const StarTable table{stars.offsets.data(), stars.corners.data(), is_border.data(),
+                        stars.agreements.data()};
+  constexpr LocalIndex kRun = 64;
+  std::vector<AskedTriangle> asked;
+  const auto points = static_cast<LocalIndex>(stars.size());
+  for (LocalIndex first = 0; first < points; first += kRun) {
+    const LocalIndex last = std::min(first + kRun, points);
+    const std::size_t most = stars.offsets[last] - stars.offsets[first] + 1;
+    if (asked.size() < most) asked.resize(2 * most);
+    const std::size_t count = ask(stars, is_border, first, last, asked.data());
+    fastest::agree_on_triangles(table, asked.data(), count);
+  }
 }
 
 }  // namespace
@@ -43,49 +124,51 @@ Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
           kWeights * scatter(id) * r * r};
 }
 
-std::span<const StarCorner<LocalIndex>> StarFinder::find(const Seat& at, const Eigen::Vector3d& normal,
-                                                         std::span<const Seat> neighbours) {
-  star_.clear();
-  if (!normal.allFinite()) return star_;
-  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Eigen::Vector3d position = vector(at.position), shift = vector(at.shift);
-  double sum = at.mean_distance;
-  seen_.clear();
-  for (LocalIndex i = 0; i < neighbours.size(); ++i) {
-    const Seat& q = neighbours[i];
-    sum += q.mean_distance;
-    const Eigen::Vector3d d = (vector(q.position) - position) + (vector(q.shift) - shift);
-    // The weights make it a ball orthogonal to small balls around the points: any two views of four points
-    // on one circle then agree on how it falls into triangles.
-    const double power = d.squaredNorm() + (at.weight - q.weight);
-    if (power > 0) seen_.push_back({d.dot(u) / power, d.dot(v) / power, i});
-  }
-  const double radius = kBall * sum / static_cast<double>(neighbours.size() + 1);
-
-  // The convex hull, by Andrew's monotone chain.
-  std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.neighbour < b.neighbour;
-  });
-  const auto turns_left = [](const Seen& a, const Seen& b, const Seen& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> seats, const StarQuery& query) {
+  std::vector<StarCorner<LocalIndex>> star;
+  if (!query.normal.allFinite()) return star;
+  Views views = look_around(seats, query);
+  if (views.all.size() < 3) return star;
+  std::vector<View> hull = hull_of(std::move(views.all));
+  if (hull.size() < 4) return star;
+  hull.pop_back();
+  const auto nearer = [](const View& a, const View& b) {
+    const double squared_a = a.x * a.x + a.y * a.y, squared_b = b.x * b.x + b.y * b.y;
+    return squared_a != squared_b ? squared_a < squared_b : a.neighbour > b.neighbour;
   };
-  hull_.clear();
-  const auto add = [&](const Seen& next, std::size_t least) {
-    while (hull_.size() > least && !turns_left(hull_[hull_.size() - 2], hull_.back(), next)) hull_.pop_back();
-    hull_.push_back(next);
-  };
-  for (const Seen& next : seen_) add(next, 1);
-  const std::size_t lower = hull_.size();
-  for (std::size_t i = seen_.size(); i-- > 1;) add(seen_[i - 1], lower);
-  if (hull_.size() < 4) return star_;  // the last is the first again
-
-  for (std::size_t i = 0; i + 1 < hull_.size(); ++i) {
-    const Seen &a = hull_[i], &b = hull_[i + 1];
-    const double height = (a.x * b.y - a.y * b.x) / length(b.x - a.x, b.y - a.y);
-    const double room = height > 0 ? std::min(1 / (2 * height * radius), kMostRoom) : kMostRoom;
-    star_.push_back({a.neighbour, static_cast<float>(room)});
+  std::rotate(hull.begin(), std::max_element(hull.begin(), hull.end(), nearer), hull.end());
+  double x = hull[0].x, y = hull[0].y;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
+    const double dx = next.x - x, dy = next.y - y;
+    star.push_back({hull[i].neighbour, room_at(x, y, dx, dy, views.radius)});
+    x += dx;  // rounded as in a bundle
+    y += dy;
   }
-  return star_;
+  return star;
+}
+
+void StarFinder::find(std::span<const StarQuery> queries) {
+  StarBundle bundle{.seats = seats_.data()};
+  for (std::size_t lane = 0; lane < kStarBundle; ++lane) {
+    const StarQuery& query = queries[std::min(lane, queries.size() - 1)];
+    const bool fits = lane < queries.size() && query.neighbours.size() <= kMostSeen;
+    bundle.points[lane] = query.point;
+    bundle.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
+    bundle.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
+    for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][lane] = query.normal[axis];
+  }
+  fastest::find_bundled_stars(bundle, bundled_);
+
+  for (std::size_t lane = 0; lane < queries.size(); ++lane) {
+    const std::uint32_t size = bundled_.sizes[lane];
+    if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
+      careful_[lane] = find_star_carefully(seats_, queries[lane]);
+      stars_[lane] = {careful_[lane].data(), 1, careful_[lane].size()};
+    } else {
+      stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size};
+    }
+  }
 }
 
 Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhoods,
@@ -93,33 +176,29 @@ Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhood
                              std::span<const std::uint8_t> is_border) {
   Stars<LocalIndex> stars;
   stars.offsets.reserve(points.owned + 1);
-  stars.corners.reserve(std::size_t{8} * points.owned);
-  StarFinder finder;
-  std::vector<Seat> around;
-  for (LocalIndex p = 0; p < points.owned; ++p) {
-    if (!is_border[p]) {
-      const auto neighbours = neighbourhoods[p];
-      around.clear();
-      for (const LocalIndex q : neighbours) around.push_back(seats[q]);
-      for (const auto& corner : finder.find(seats[p], evaluations[p].normal, around))
-        stars.corners.push_back({neighbours[corner.point], corner.room});
+  StarFinder finder(seats);
+  std::vector<StarQuery> queries;
+  for (LocalIndex first = 0; first < points.owned; first += kStarBundle) {
+    const LocalIndex end = std::min<LocalIndex>(first + kStarBundle, points.owned);
+    queries.clear();
+    for (LocalIndex p = first; p < end; ++p) {
+      queries.push_back(
+          {p, evaluations[p].normal, is_border[p] ? std::span<const LocalIndex>() : neighbourhoods[p]});
     }
-    stars.offsets.push_back(static_cast<std::uint32_t>(stars.corners.size()));
-  }
-
-  stars.agreements.resize(stars.corners.size(), Agreement::kRefused);
-  for (LocalIndex p = 0; p < points.owned; ++p) {
-    const auto star = stars[p];
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star[i].room > 1) continue;
-      const LocalIndex a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
-      if ((!is_border[a] && !has_triangle(stars[a], p, b)) ||
-          (!is_border[b] && !has_triangle(stars[b], p, a)))
-        continue;
-      stars.agreements[stars.offsets[p] + i] =
-          is_border[a] || is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
+    finder.find(queries);
+    std::uint32_t end_of_star = stars.offsets.back();
+    for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
+    if (stars.corners.size() < end_of_star + kFewCorners)
+      stars.corners.resize(2 * end_of_star + 8 * points.owned);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
+      for (std::size_t c = 0; c < finder[i].size(); ++c)
+        *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
+      stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
     }
   }
+  agree(stars, is_border);
+  stars.corners.resize(stars.offsets.back());
   return stars;
 }
 

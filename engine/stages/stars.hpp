@@ -17,35 +17,59 @@
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
 #include "engine/data/star.hpp"
+#include "engine/stages/star_bundle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace lacuna {
 
-// Radius of the ball over the mean of r over p and its neighbours: about 1.2 spacings.
-inline constexpr double kBall = 0.8;
-
 Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation);
 
-// Finds stars, one after the other: keeps its memory.
-class StarFinder {
+// A point whose star is looked for, and its neighbours, by their places among the seats.
+struct StarQuery {
+  LocalIndex point;
+  Eigen::Vector3d normal;
+  std::span<const LocalIndex> neighbours;
+};
+
+// Corners in counterclockwise order about the normal, from the one that is seen farthest when inverted, by
+// their number among the neighbours; none where the normal is undefined or fewer than three directions are
+// seen. Deterministic: the order of the neighbours decides between points in one place.
+std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> seats, const StarQuery& query);
+
+// Corners as above.
+class FoundStar {
  public:
-  // Corners in counterclockwise order about the normal, by their number among the neighbours; none where the
-  // normal is undefined or fewer than three directions are seen. Deterministic: the order of the neighbours
-  // decides between points in one place.
-  std::span<const StarCorner<LocalIndex>> find(const Seat& at, const Eigen::Vector3d& normal,
-                                               std::span<const Seat> neighbours);
+  FoundStar() = default;
+  FoundStar(const StarCorner<LocalIndex>* first, std::size_t stride, std::size_t size)
+      : first_(first), stride_(stride), size_(size) {}
+
+  std::size_t size() const { return size_; }
+  const StarCorner<LocalIndex>& operator[](std::size_t i) const { return first_[i * stride_]; }
 
  private:
-  struct Seen {
-    double x, y;
-    LocalIndex neighbour;
-  };
-  std::vector<Seen> seen_, hull_;
-  std::vector<StarCorner<LocalIndex>> star_;
+  const StarCorner<LocalIndex>* first_ = nullptr;
+  std::size_t stride_ = 1, size_ = 0;
+};
+
+// Finds the same stars, those of a bundle side by side: keeps its memory.
+class StarFinder {
+ public:
+  explicit StarFinder(std::span<const Seat> seats) : seats_(seats) {}
+
+  // At most kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
+  void find(std::span<const StarQuery> queries);
+  const FoundStar& operator[](std::size_t i) const { return stars_[i]; }
+
+ private:
+  std::span<const Seat> seats_;
+  BundledStars bundled_;
+  std::array<std::vector<StarCorner<LocalIndex>>, kStarBundle> careful_;
+  std::array<FoundStar, kStarBundle> stars_;
 };
 
 // Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.

@@ -1,0 +1,120 @@
+// Stars of eight points at once (stages/stars): plain arrays in, plain arrays out, so that the arithmetic can
+// be compiled for each instruction set.
+#pragma once
+
+#include "engine/core/dispatch.hpp"
+#include "engine/core/vector.hpp"
+#include "engine/data/star.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lacuna {
+
+inline constexpr std::size_t kStarBundle = 8;  // points side by side
+inline constexpr std::size_t kMostSeen = 64;   // neighbours of one of them
+
+// Radius of the ball over the mean of r over p and its neighbours: about 1.2 spacings.
+inline constexpr double kBall = 0.8;
+
+// Larger ones say no more: there is room.
+inline constexpr double kMostRoom = 8;
+
+struct StarBundle {
+  const Seat* seats;  // of all points
+  LocalIndex points[kStarBundle];
+  const LocalIndex* neighbours[kStarBundle];
+  std::uint32_t counts[kStarBundle];  // of neighbours; 0: no star
+  double normals[3][kStarBundle];     // unit; NaN: no star
+};
+
+struct BundledStars {
+  static constexpr std::uint32_t kInDoubt = UINT32_MAX;
+
+  StarCorner<LocalIndex> corners[kMostSeen][kStarBundle];  // by their numbers among the neighbours
+  std::uint32_t sizes[kStarBundle];  // in doubt: corners are so near to a line that rounding decides
+};
+
+using FindBundledStars = void(const StarBundle&, BundledStars&);
+LACUNA_DISPATCH(FindBundledStars, find_bundled_stars)
+
+// Stars that are compared in one step have no more corners; as many are readable beyond the last star.
+inline constexpr std::uint32_t kFewCorners = 8;
+
+// Stars by point, as in `Stars`, and what becomes of their triangles.
+struct StarTable {
+  const std::uint32_t* offsets;
+  const StarCorner<LocalIndex>* corners;
+  const std::uint8_t* is_border;  // points whose stars are not known
+  Agreement* agreements;
+};
+
+// A triangle that one of its corners, the first one whose star is known, asks the others for.
+struct AskedTriangle {
+  std::uint32_t corner;  // of the asking star
+  LocalIndex point, a, b;
+};
+
+using AgreeOnTriangles = void(const StarTable&, const AskedTriangle* asked, std::size_t count);
+LACUNA_DISPATCH(AgreeOnTriangles, agree_on_triangles)
+
+// ---- Formulas for one point or several
+
+inline namespace LACUNA_LANES {
+
+using SingleLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+LACUNA_INLINE float root(float x) {
+  return __builtin_sqrtf(x);
+}
+LACUNA_INLINE SingleLanes root(SingleLanes x) {
+  SingleLanes roots;
+  for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrtf(x[i]);
+  return roots;
+}
+LACUNA_INLINE float select(bool mask, float a, float b) {
+  return mask ? a : b;
+}
+template <class Mask>
+LACUNA_INLINE SingleLanes select(Mask mask, SingleLanes a, SingleLanes b) {
+  return mask ? a : b;
+}
+
+// Two directions in the tangent plane, counterclockwise about the normal.
+template <class Real>
+struct Frame {
+  Vector<Real> u, v;
+};
+
+// Duff et al., Building an Orthonormal Basis, Revisited (2017).
+template <class Real>
+LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
+  const Real sign = select(normal.z < 0.0, Real{} - 1.0, Real{} + 1.0);
+  const Real s = -1.0 / (sign + normal.z), t = normal.x * normal.y * s;
+  return {{1.0 + sign * normal.x * normal.x * s, sign * t, -sign * normal.x},
+          {t, sign + normal.y * normal.y * s, -normal.y}};
+}
+
+// Single precision, which is what is kept, from here on: its roots and quotients take a quarter of the time.
+LACUNA_INLINE float single(double x) {
+  return static_cast<float>(x);
+}
+LACUNA_INLINE SingleLanes single(Lanes x) {
+  return __builtin_convertvector(x, SingleLanes);
+}
+
+// Of a ball that rests on p and two neighbours, in units of `radius`. (x, y): where p sees one of them,
+// inverted; (dx, dy): from there to where it sees the other.
+template <class Real>
+LACUNA_INLINE auto room_at(Real x, Real y, Real dx, Real dy, Real radius) {
+  // Both without a unit.
+  const Real unit = radius * radius;
+  const auto squared_length = single((dx * dx + dy * dy) * unit);
+  const auto height = single((x * dy - y * dx) * (2.0 * unit));  // times the length
+  const auto room = root(squared_length) / height;
+  const auto most = decltype(room){} + static_cast<float>(kMostRoom);
+  return select(height > 0.0F, smaller(room, most), most);
+}
+
+}  // namespace LACUNA_LANES
+}  // namespace lacuna

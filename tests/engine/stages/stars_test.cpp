@@ -1,0 +1,263 @@
+// Stars found side by side are those found with care, from every instruction set and beside whatever others.
+#include "engine/stages/stars.hpp"
+
+#include "engine/stages/evaluate.hpp"
+#include "engine/stages/neighbourhoods.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using Star = std::vector<StarCorner<LocalIndex>>;
+
+// A point among some others.
+struct Neighbourhood {
+  Seat at;
+  Eigen::Vector3d normal;
+  std::vector<Seat> around;
+};
+
+Seat drawn_seat(Random& random, double x, double y, double z) {
+  return {{x, y, z}, {0, 0, random.uniform(-0.05, 0.05)}, random.uniform(0.5, 1), random.uniform(0, 1e-4)};
+}
+
+// Noise around a plane, a half plane, a flat lattice with and without weights, points that project onto few
+// places, three neighbours or fewer, more than fit side by side, a cluster at the point, no normal.
+Neighbourhood drawn_neighbourhood(Random& random) {
+  const std::int64_t kind = random.whole(0, 9);
+  const auto count = std::size_t(kind == 5 ? random.whole(0, 3) : random.whole(3, kind == 6 ? 90 : 30));
+  Neighbourhood drawn{drawn_seat(random, 0, 0, 0), {0, 0, 1}, {}};
+  if (kind == 7) drawn.normal = random.direction();
+  if (kind == 9) drawn.normal.setConstant(std::nan(""));
+  while (drawn.around.size() < count) {
+    Eigen::Vector3d q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.3, 0.3));
+    if (kind == 1) q.x() = std::abs(q.x());
+    if (kind == 2 || kind == 3) q = {std::round(3 * q.x()), std::round(3 * q.y()), 0};
+    if (kind == 4) q = {std::round(q.x()), std::round(q.y()), q.z()};
+    if (kind == 8 && random.chance(0.2)) q *= 1e-7;
+    if (q.norm() == 0) continue;
+    drawn.around.push_back(drawn_seat(random, q.x(), q.y(), q.z()));
+    if (kind == 3) drawn.around.back().weight = drawn.at.weight;
+    if (kind == 2 || kind == 3) drawn.around.back().shift[2] = drawn.at.shift[2];
+  }
+  return drawn;
+}
+
+std::vector<Neighbourhood> drawn_neighbourhoods(Random& random) {
+  std::vector<Neighbourhood> drawn;
+  for (std::size_t i = 0; i < kStarBundle; ++i) drawn.push_back(drawn_neighbourhood(random));
+  return drawn;
+}
+
+// The seats of several neighbourhoods, and what is asked of them.
+struct Queries {
+  std::vector<Seat> seats;
+  std::vector<std::vector<LocalIndex>> neighbours;
+  std::vector<StarQuery> all;
+
+  explicit Queries(const std::vector<Neighbourhood>& neighbourhoods) {
+    for (const Neighbourhood& n : neighbourhoods) {
+      const auto at = static_cast<LocalIndex>(seats.size());
+      seats.push_back(n.at);
+      std::vector<LocalIndex>& row = neighbours.emplace_back();
+      for (const Seat& seat : n.around) {
+        row.push_back(static_cast<LocalIndex>(seats.size()));
+        seats.push_back(seat);
+      }
+      all.push_back({at, n.normal, {}});
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].neighbours = neighbours[i];
+  }
+};
+
+std::vector<Star> found_side_by_side(const Queries& queries) {
+  StarFinder finder(queries.seats);
+  finder.find(queries.all);
+  std::vector<Star> stars(queries.all.size());
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    for (std::size_t c = 0; c < finder[i].size(); ++c) stars[i].push_back(finder[i][c]);
+  }
+  return stars;
+}
+
+bool same_bits(const Star& a, const Star& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+}
+
+StarBundle bundle_of(const Queries& queries) {
+  StarBundle bundle{.seats = queries.seats.data()};
+  for (std::size_t i = 0; i < kStarBundle; ++i) {
+    const StarQuery& query = queries.all[i];
+    bundle.points[i] = query.point;
+    bundle.neighbours[i] = query.neighbours.data();
+    bundle.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
+    for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][i] = query.normal[axis];
+  }
+  return bundle;
+}
+
+std::vector<FindBundledStars*> available_sets() {
+  std::vector<FindBundledStars*> sets{plain::find_bundled_stars};
+#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
+  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::find_bundled_stars);
+  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::find_bundled_stars);
+#endif
+  return sets;
+}
+
+std::vector<Seat> seats_of(const TilePoints& points, std::span<const Evaluation> evaluations) {
+  std::vector<Seat> seats;
+  for (LocalIndex p = 0; p < points.owned; ++p)
+    seats.push_back(seat_of(points.positions[p], points.ids[p], evaluations[p]));
+  return seats;
+}
+
+// A point with neighbours at these places of its tangent plane, all on the unit length.
+Star star_among(const std::vector<Eigen::Vector2d>& places) {
+  Neighbourhood drawn{{{0, 0, 0}, {0, 0, 0}, 1, 0}, {0, 0, 1}, {}};
+  for (const Eigen::Vector2d& q : places) drawn.around.push_back({{q.x(), q.y(), 0}, {0, 0, 0}, 1, 0});
+  return found_side_by_side(Queries({drawn}))[0];
+}
+
+std::vector<LocalIndex> names(const Star& star) {
+  std::vector<LocalIndex> names;
+  for (const auto& corner : star) names.push_back(corner.point);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a star's corners are the neighbours that a ball can rest on, counterclockwise from the nearest") {
+  const Star star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
+  CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
+  // The circle through (0, 0), (-1.2, 0) and (0, 1.2), in units of kBall times the mean of r.
+  CHECK(star[1].room == Approx(0.6 * std::sqrt(2.0) / kBall));
+}
+
+TEST_CASE("where all neighbours are on one side, the star is closed by an edge with all the room") {
+  const Star star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
+  CHECK(names(star).size() == 3);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& c) { return c.room == kMostRoom; }) == 1);
+}
+
+TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
+  CHECK(star_among({}).empty());
+  CHECK(star_among({{1, 0}, {0, 1}}).empty());
+  CHECK(star_among({{1, 0}, {2, 0}, {-1, 0}, {3, 0}}).empty());
+}
+
+TEST_CASE("stars found side by side are those found with care, bit for bit") {
+  Random random(21);
+  std::size_t different = 0, corners = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const Queries queries(drawn_neighbourhoods(random));
+    const std::vector<Star> found = found_side_by_side(queries);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      different += !same_bits(found[i], find_star_carefully(queries.seats, queries.all[i]));
+      corners += found[i].size();
+    }
+  }
+  CHECK(different == 0);
+  CHECK(corners > 3000);
+}
+
+TEST_CASE("nearly every star is decided side by side, from every instruction set with the same bits") {
+  Random random(22);
+  std::size_t different = 0, unlike_care = 0, plain_ones = 0, in_doubt = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const Queries queries(drawn_neighbourhoods(random));
+    const StarBundle bundle = bundle_of(queries);
+    BundledStars expected, found;
+    plain::find_bundled_stars(bundle, expected);
+    for (FindBundledStars* const find : available_sets()) {
+      find(bundle, found);
+      for (std::size_t i = 0; i < kStarBundle; ++i) {
+        different += found.sizes[i] != expected.sizes[i];
+        if (found.sizes[i] == BundledStars::kInDoubt || found.sizes[i] != expected.sizes[i]) continue;
+        for (std::uint32_t c = 0; c < found.sizes[i]; ++c)
+          different +=
+              std::memcmp(&found.corners[c][i], &expected.corners[c][i], sizeof found.corners[0][0]) != 0;
+      }
+    }
+    for (std::size_t i = 0; i < kStarBundle; ++i) {
+      if (queries.all[i].neighbours.size() > kMostSeen) continue;
+      const Star careful = find_star_carefully(queries.seats, queries.all[i]);
+      if (expected.sizes[i] == BundledStars::kInDoubt) {
+        ++in_doubt;
+        continue;
+      }
+      ++plain_ones;
+      Star star;
+      for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.corners[c][i]);
+      unlike_care += !same_bits(star, careful);
+    }
+  }
+  CHECK(different == 0);
+  CHECK(unlike_care == 0);
+  CHECK(in_doubt > 0);  // lattices without weights
+  CHECK(plain_ones > 3 * in_doubt);
+}
+
+TEST_CASE("a star is the same wherever its point stands in a bundle, and whatever stands beside it") {
+  Random random(23);
+  std::size_t different = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Neighbourhood drawn = drawn_neighbourhood(random);
+    const Star alone = found_side_by_side(Queries({drawn}))[0];
+    for (std::size_t place = 0; place < kStarBundle; ++place) {
+      std::vector<Neighbourhood> others = drawn_neighbourhoods(random);
+      others[place] = drawn;
+      different += !same_bits(found_side_by_side(Queries(others))[place], alone);
+    }
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("a triangle is agreed where all three stars have it, open where one of them is not known") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Cloud cloud = seed == 1 ? plane(40) : seed == 2 ? hard_cloud(5) : random_cloud(3000 + seed);
+    const TilePoints points = whole_tile(cloud);
+    const Rows rows = find_neighbourhoods(points, 15, 0);
+    const Config config;
+    const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
+    const std::vector<Seat> seats = seats_of(points, evaluations);
+    Random random(seed);
+    std::vector<std::uint8_t> is_border(points.owned);
+    for (auto& border : is_border) border = random.chance(0.05);
+
+    const Stars<LocalIndex> stars = find_stars(points, rows, evaluations, seats, is_border);
+    std::size_t wrong_stars = 0, wrong_agreements = 0;
+    REQUIRE(stars.size() == points.owned);
+    REQUIRE(stars.corners.size() == stars.offsets.back());
+    REQUIRE(stars.agreements.size() == stars.corners.size());
+    for (LocalIndex p = 0; p < points.owned; ++p) {
+      Star expected;
+      if (!is_border[p]) expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]});
+      for (auto& corner : expected) corner.point = rows[p][corner.point];
+      const auto star = stars[p];
+      wrong_stars += !same_bits({star.begin(), star.end()}, expected);
+      for (std::size_t i = 0; i < star.size(); ++i) {
+        const LocalIndex a = star[i].point, b = star[(i + 1) % star.size()].point;
+        const bool refused = star[i].room > 1 || (!is_border[a] && !has_triangle(stars[a], p, b)) ||
+                             (!is_border[b] && !has_triangle(stars[b], p, a));
+        const Agreement agreement = refused                        ? Agreement::kRefused
+                                    : is_border[a] || is_border[b] ? Agreement::kOpen
+                                                                   : Agreement::kAgreed;
+        wrong_agreements += stars.agreements[stars.offsets[p] + i] != agreement;
+      }
+    }
+    INFO("seed " << seed);
+    CHECK(wrong_stars == 0);
+    CHECK(wrong_agreements == 0);
+  }
+}
+
+}  // namespace lacuna
