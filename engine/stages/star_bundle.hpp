@@ -23,9 +23,9 @@ inline constexpr double kMostRoom = 8;
 struct StarBundle {
   const Seat* seats;  // of all points
   LocalIndex points[kStarBundle];
-  const LocalIndex* neighbours[kStarBundle];
-  std::uint32_t counts[kStarBundle];  // of neighbours; 0: no star
-  double normals[3][kStarBundle];     // unit; NaN: no star
+  const LocalIndex* neighbours[kStarBundle];  // where there are none: of any one point
+  std::uint32_t counts[kStarBundle];          // of neighbours; 0: no star
+  double normals[3][kStarBundle];             // unit; NaN: no star
 };
 
 struct BundledStars {

@@ -61,7 +61,7 @@ class StarFinder {
  public:
   explicit StarFinder(std::span<const Seat> seats) : seats_(seats) {}
 
-  // At most kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
+  // One to kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
   void find(std::span<const StarQuery> queries);
   const FoundStar& operator[](std::size_t i) const { return stars_[i]; }
 

@@ -14,14 +14,13 @@ constexpr double kRounding = 1e-13;
 
 // Comparisons of rows depend on one another: as many at a time do not.
 constexpr std::size_t kChains = 4;
-static_assert(kMostSeen % kChains == 0);
 
 // Where points see their neighbours, inverted, by row. NaN: not at all.
 struct Views {
   struct Row {
     Lanes x, y;
   } at[kMostSeen];
-  std::size_t rows;  // a multiple of kChains
+  std::size_t rows;  // an even number
   Lanes radius;      // of the ball
 };
 
@@ -56,7 +55,9 @@ LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& off
 
 // What is loaded of a seat: its eight numbers are position, shift, mean distance and weight.
 struct LoadedSeat {
-  Four position, shift, weight;  // and sx; mean distance; before it sy, sz and mean distance
+  Four position;  // and the shift's x
+  Four shift;     // and the mean distance
+  Four weight;    // the last; before it what the others have
 };
 static_assert(sizeof(Seat) == 8 * sizeof(double));
 
@@ -64,7 +65,8 @@ LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
   return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
 }
 
-// Offsets of neighbours of kAbreast points from `first` on, and the radii of the points' balls.
+// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and the radii of the
+// points' balls.
 void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets, double* radii) {
   LoadedSeat at[kAbreast];
   Four sums[kAbreast];

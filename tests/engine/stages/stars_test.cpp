@@ -97,7 +97,7 @@ StarBundle bundle_of(const Queries& queries) {
   for (std::size_t i = 0; i < kStarBundle; ++i) {
     const StarQuery& query = queries.all[i];
     bundle.points[i] = query.point;
-    bundle.neighbours[i] = query.neighbours.data();
+    bundle.neighbours[i] = query.neighbours.empty() ? &query.point : query.neighbours.data();
     bundle.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
     for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][i] = query.normal[axis];
   }
