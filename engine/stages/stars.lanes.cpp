@@ -5,8 +5,8 @@ namespace {
 
 constexpr double kUndefined = __builtin_nan("");
 
-// A corner to the right of an edge by less than this is on it, in units of the edge's |x| + |y| times the
-// distance of the farthest corner: 500 times what rounding can do.
+// A view beside an edge by no more than this is on it, in units of the edge's |x| + |y| times the distance of
+// the farthest view: 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 
 // What rounding can do at most, by a hundred times, in units of the square of that distance.
