@@ -219,21 +219,39 @@ class TileRecorder {
 
   // What the stars of points with foreign neighbours need, here and in other tiles.
   void record_border(std::span<const Seat> seats) {
+    std::vector<std::uint8_t> is_seen(points_.size());
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!is_border_[p]) continue;
+      is_seen[p] = 1;
+      for (const LocalIndex q : neighbourhoods_[p]) is_seen[q] = 1;
+    }
+    std::vector<LocalIndex> seen;
+    for (LocalIndex p = 0; p < points_.size(); ++p) {
+      if (is_seen[p]) seen.push_back(p);
+    }
+    std::sort(seen.begin(), seen.end(),
+              [&](LocalIndex a, LocalIndex b) { return points_.rows[a] < points_.rows[b]; });
+    std::vector<LocalIndex> place(points_.size());
+    std::vector<Vertex> in_sight;
+    for (const LocalIndex p : seen) {
+      place[p] = static_cast<LocalIndex>(in_sight.size());
+      in_sight.push_back(vertex(p));
+    }
+
     std::vector<BorderPoint> border;
-    std::vector<BorderNeighbour> neighbours;
-    std::vector<std::uint8_t> is_wanted = is_border_;
+    std::vector<LocalIndex> neighbours;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (!is_border_[p]) continue;
       const Eigen::Vector3d& normal = evaluations_[p].normal;
-      border.push_back({points_.ids[p], p, 0, {normal.x(), normal.y(), normal.z()}});
-      for (const LocalIndex q : neighbourhoods_[p]) {
-        neighbours.push_back({p, 0, vertex(q)});
-        if (points_.is_owned(q)) is_wanted[q] = 1;
-      }
+      const auto around = neighbourhoods_[p];
+      border.push_back(
+          {p, place[p], static_cast<std::uint32_t>(around.size()), 0, {normal.x(), normal.y(), normal.z()}});
+      for (const LocalIndex q : around) neighbours.push_back(place[q]);
     }
     scan_.border.append(tile_, border);
     scan_.border_neighbours.append(tile_, neighbours);
-    record_runs(scan_.seats, is_wanted, [&](LocalIndex p) { return seats[p]; });
+    scan_.border_sight.append(tile_, in_sight);
+    record_runs(scan_.seats, std::span(is_seen).first(points_.owned), [&](LocalIndex p) { return seats[p]; });
   }
 
   // Points that may end up on a loop.
@@ -358,7 +376,8 @@ EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks
     : edges(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 12),
       crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 12),
       border(job.file("border"), store.tiling().tiles.size(), job.memory.spills / 16),
-      border_neighbours(job.file("border-neighbours"), store.tiling().tiles.size(), job.memory.spills / 8),
+      border_neighbours(job.file("border-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
+      border_sight(job.file("border-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       stars(job.file("stars"), store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),

@@ -56,17 +56,11 @@ struct OrientationCrossing {
 
 // A point with neighbours in other tiles, whose star waits for their seats.
 struct BorderPoint {
-  PointId id;
   LocalIndex owned;
+  LocalIndex place;  // in sight
+  std::uint32_t neighbours;
   std::uint32_t padding = 0;
   double normal[3];
-};
-
-// One of its neighbours, in the order of the neighbourhood.
-struct BorderNeighbour {
-  LocalIndex owned;
-  std::uint32_t padding = 0;
-  Vertex neighbour;
 };
 
 // A corner of a star that is not settled within its tile, and the agreement on the triangle that begins
@@ -97,10 +91,11 @@ struct EvaluatedScan {
 
   Spill<TileEdge> edges;  // eligible, inside the tile
   Spill<StoredCrossing> crossings;
-  Spill<BorderPoint> border;                 // in ascending owned index
-  Spill<BorderNeighbour> border_neighbours;  // in the same order
-  Column<Seat> seats;                        // by row, of border points and their neighbours
-  Spill<StoredCorner> stars;                 // open ones, each in one piece
+  Spill<BorderPoint> border;            // in ascending owned index
+  Spill<LocalIndex> border_neighbours;  // of one after the other, in neighbour order: places in sight
+  Spill<Vertex> border_sight;           // these points and their neighbours, in ascending row
+  Column<Seat> seats;                   // by row, of border points and their neighbours
+  Spill<StoredCorner> stars;            // open ones, each in one piece
   Spill<Gap<Vertex>> gaps;
   Spill<StoredVertex> vertices;        // in ascending owned index
   Spill<StoredCandidate> candidates;   // in ascending row

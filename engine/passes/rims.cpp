@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <tuple>
 
@@ -40,82 +41,74 @@ class Here {
 
 // ---- stars of points with neighbours in other tiles
 
-// Seats of some rows, each read once.
-class Seats {
+// Claims on their way, gathered by the tile that they are for.
+class Letters {
  public:
-  Seats(const Column<Seat>& column, std::vector<Row> rows) : rows_(std::move(rows)) {
-    std::sort(rows_.begin(), rows_.end());
-    rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
-    RunReader<Seat> reader(column);
-    for (const Row row : rows_) seats_.push_back(reader[value(row)]);
+  explicit Letters(const Tiling& tiling) : tiling_(tiling) {}
+
+  // Tells the tiles of a star's foreign corners of the triangles that it has with them.
+  void tell(const Vertex& point, std::span<const StoredCorner> star, const Here& here) {
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (star[i].room > 1) continue;
+      const Vertex &a = star[i].corner, &b = star[i + 1 < star.size() ? i + 1 : 0].corner;
+      if (!here.owns(a)) tell_one(point, a, b);
+      if (!here.owns(b)) tell_one(point, b, a);
+    }
   }
-  std::span<const Seat> all() const { return seats_; }
-  LocalIndex place(Row row) const {
-    return static_cast<LocalIndex>(std::lower_bound(rows_.begin(), rows_.end(), row) - rows_.begin());
+
+  void send(Spill<Claim>& claims) const {
+    for (const auto& [tile, letter] : letters_) claims.append(tile, letter);
   }
 
  private:
-  std::vector<Row> rows_;
-  std::vector<Seat> seats_;
-};
-
-// Tells the tiles of a star's foreign corners of the triangles that it has with them.
-void tell(const Vertex& point, std::span<const StoredCorner> star, const Here& here, const Tiling& tiling,
-          Spill<Claim>& claims) {
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    if (star[i].room > 1) continue;
-    const Vertex &a = star[i].corner, &b = star[i + 1 < star.size() ? i + 1 : 0].corner;
-    const auto tell_one = [&](const Vertex& to, const Vertex& other) {
-      if (here.owns(to)) return;
-      const TileIndex tile = tiling.tile_of_row(to.row);
-      claims.append(tile, {Here(tiling, tile).local(to), 0, point.row, other.row});
-    };
-    tell_one(a, b);
-    tell_one(b, a);
+  void tell_one(const Vertex& point, const Vertex& to, const Vertex& other) {
+    const TileIndex tile = tiling_.tile_of_row(to.row);
+    letters_[tile].push_back({Here(tiling_, tile).local(to), 0, point.row, other.row});
   }
-}
+
+  const Tiling& tiling_;
+  std::map<TileIndex, std::vector<Claim>> letters_;
+};
 
 void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<Claim>& claims) {
   const Here here(tiling, t);
   const std::vector<BorderPoint> border = scan.border.read(t);
-  const std::vector<BorderNeighbour> neighbours = scan.border_neighbours.read(t);
+  const std::vector<LocalIndex> neighbours = scan.border_neighbours.read(t);
+  const std::vector<Vertex> in_sight = scan.border_sight.read(t);
   scan.border.drop(t);
   scan.border_neighbours.drop(t);
-  std::vector<Row> rows;
-  for (const BorderPoint& p : border) rows.push_back(here.row(p.owned));
-  for (const BorderNeighbour& n : neighbours) rows.push_back(n.neighbour.row);
-  const Seats seats(scan.seats, std::move(rows));
+  scan.border_sight.drop(t);
+  std::vector<Seat> seats;
+  RunReader<Seat> reader(scan.seats);
+  for (const Vertex& v : in_sight) seats.push_back(reader[value(v.row)]);
 
-  std::vector<LocalIndex> places;
-  for (const BorderNeighbour& n : neighbours) places.push_back(seats.place(n.neighbour.row));
-  StarFinder finder(seats.all());
+  StarFinder finder(seats);
   std::vector<StarQuery> queries;
   std::vector<StoredCorner> stars;
-  std::size_t next = 0;
+  Letters letters(tiling);
+  std::span<const LocalIndex> left = neighbours;
   for (std::size_t first = 0; first < border.size(); first += kStarBundle) {
     const auto bundle = std::span(border).subspan(first, std::min(kStarBundle, border.size() - first));
     queries.clear();
     for (const BorderPoint& p : bundle) {
-      const std::size_t begin = next;
-      while (next < neighbours.size() && neighbours[next].owned == p.owned) ++next;
-      queries.push_back({seats.place(here.row(p.owned)),
-                         {p.normal[0], p.normal[1], p.normal[2]},
-                         std::span(places).subspan(begin, next - begin)});
+      queries.push_back({p.place, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
+      left = left.subspan(p.neighbours);
     }
     finder.find(queries);
     for (std::size_t i = 0; i < bundle.size(); ++i) {
       const BorderPoint& p = bundle[i];
-      const BorderNeighbour* const around = &neighbours[queries[i].neighbours.data() - places.data()];
+      const Vertex& point = in_sight[p.place];
       const std::size_t begin = stars.size();
       for (std::size_t c = 0; c < finder[i].size(); ++c) {
         const StarCorner<LocalIndex>& corner = finder[i][c];
-        stars.push_back({p.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
-                         around[corner.point].neighbour, corner.room});
+        stars.push_back({point.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
+                         in_sight[queries[i].neighbours[corner.point]], corner.room});
       }
-      tell({p.id, here.row(p.owned)}, std::span(stars).subspan(begin), here, tiling, claims);
+      letters.tell(point, std::span(stars).subspan(begin), here);
     }
   }
   scan.stars.append(t, stars);
+  letters.send(claims);
 }
 
 // ---- what all corners agree on
