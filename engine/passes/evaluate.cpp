@@ -198,14 +198,17 @@ class TileRecorder {
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       const auto star = stars[p];
       const auto agreements = std::span(stars.agreements).subspan(stars.offsets[p], star.size());
-      const auto any = [&](Agreement agreement) {
-        return std::find(agreements.begin(), agreements.end(), agreement) != agreements.end();
-      };
-      if (any(Agreement::kOpen)) {
+      bool is_open = false, is_whole = true;
+      for (const Agreement agreement : agreements) {
+        is_open |= agreement == Agreement::kOpen;
+        is_whole &= agreement == Agreement::kAgreed;
+      }
+      if (is_whole) continue;
+      if (is_open) {
         for (std::size_t i = 0; i < star.size(); ++i)
           open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room});
         is_vertex[p] = 1;
-      } else if (any(Agreement::kRefused)) {
+      } else {
         for_each_gap(p, star, agreements, [&](const Gap<LocalIndex>& gap) {
           gaps.push_back({vertex(gap.point), vertex(gap.from), vertex(gap.to), gap.room});
           is_vertex[p] = 1;
