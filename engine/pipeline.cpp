@@ -82,7 +82,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   const bool by_stars = config.loops.method == LoopMethod::kStars;
   std::optional<RowSet> coherent;
   if (!by_stars) coherent = make_coherent(evaluated, store, job);
-  const std::int64_t e = minimum_loop(config.spanning, evaluated.mean_neighbours());
+  const std::int64_t e = by_stars ? 0 : minimum_loop(config.spanning, evaluated.mean_neighbours());
   const TracedLoops traced =
       by_stars ? TracedLoops{trace_rims(evaluated, store, job)} : trace_loops(evaluated, store, e, job);
   if (by_stars) coherent = find_beside_loops(traced.loops, evaluated, store, job);

@@ -47,15 +47,17 @@ std::string print_findings(const Summary& summary) {
   std::vector<std::vector<std::string>> rows = {
       {"boundary points", print_count(counts.boundary_points)},
       {"candidates, of them coherent", print_count(counts.candidates) + ", " + print_count(counts.coherent)},
-      {"eligible edges, components",
-       print_count(counts.eligible_edges) + ", " + print_count(counts.components)},
       {"loops before selection", print_count(counts.raw_loops)},
       {"mean neighbours, mean edge length",
        print_measure(summary.mean_neighbours) + ", " + print_measure(summary.mean_edge_length)},
-      {"shortest loop (e)", "more than " + std::to_string(summary.e) + " edges"},
       {"tiles, points per tile at most",
        print_count(summary.tiles) + ", " + print_count(summary.tile_points)},
   };
+  if (summary.e > 0) {  // the method of the paper
+    rows.push_back({"eligible edges, components",
+                    print_count(counts.eligible_edges) + ", " + print_count(counts.components)});
+    rows.push_back({"shortest loop (e)", "more than " + std::to_string(summary.e) + " edges"});
+  }
   if (counts.undefined_normals > 0) {
     rows.push_back({"points without a normal", print_count(counts.undefined_normals)});
   }
@@ -83,12 +85,12 @@ std::string print_loops(const Detection& detection) {
   });
 
   std::vector<std::vector<std::string>> rows = {{"kind", "points", "perimeter", "area", "diameter",
-                                                 "planarity", "probability", "centroid", "first id"}};
+                                                 "planarity", "confidence", "centroid", "first id"}};
   for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
     const LoopMeasures& loop = loops[order[i]];
     rows.push_back({loop.kind == LoopKind::kHole ? "hole" : "rim", print_count(loop.points),
                     print_measure(loop.perimeter), print_measure(loop.area), print_measure(loop.diameter),
-                    print_share(loop.planarity), print_share(loop.mean_probability),
+                    print_share(loop.planarity), print_share(loop.confidence),
                     print_position(loop.centroid),
                     std::to_string(value(detection.read_loop(order[i]).points.front().id))});
   }

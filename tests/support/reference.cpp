@@ -769,9 +769,9 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
   find_neighbours(positions, config.neighbourhood, result);
   for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
   if (config.normals.orient) orient_normals(positions, result);
-  result.e =
-      config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
   if (config.loops.method == LoopMethod::kPaper) {
+    result.e =
+        config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
     find_coherent(config.coherence, result);
     find_eligible(positions, config.spanning, result);
     find_loops(span(config.spanning, result), result);
