@@ -43,18 +43,37 @@ Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_
   return summary;
 }
 
-void add_findings(const EvaluatedScan& evaluated, const TracedLoops& traced, double eps, std::int64_t e,
-                  Summary& summary) {
+struct Boundary {
+  TracedLoops traced;
+  RowSet coherent;
+  std::int64_t e = 0;
+};
+
+// Along the rims of the surface that the points agree on (engine/README.md).
+Boundary find_by_stars(EvaluatedScan& scan, const TileStore& store, Job& job) {
+  RawLoops rims = trace_rims(scan, store, job);
+  RowSet beside = find_beside_loops(rims, scan, store, job);
+  return {{std::move(rims)}, std::move(beside)};
+}
+
+// Coherence, spanning graph and breadth first search (paper, 5.1 and 5.2).
+Boundary find_by_paper(EvaluatedScan& scan, const TileStore& store, Job& job) {
+  RowSet coherent = make_coherent(scan, store, job);
+  const std::int64_t e = minimum_loop(job.config.spanning, scan.mean_neighbours());
+  return {trace_loops(scan, store, e, job), std::move(coherent), e};
+}
+
+void add_findings(const EvaluatedScan& evaluated, const Boundary& boundary, double eps, Summary& summary) {
   Counts& counts = summary.counts;
   counts.duplicates = counts.points - counts.dropped - evaluated.totals.points;
   counts.candidates = evaluated.totals.candidates;
   counts.undefined_normals = evaluated.totals.undefined_normals;
-  counts.eligible_edges = traced.eligible_edges;
-  counts.components = traced.components;
+  counts.eligible_edges = boundary.traced.eligible_edges;
+  counts.components = boundary.traced.components;
   summary.mean_neighbours = evaluated.mean_neighbours();
   summary.mean_edge_length = evaluated.mean_edge_length();
   summary.eps = eps;
-  summary.e = e;
+  summary.e = boundary.e;
 }
 
 }  // namespace
@@ -77,22 +96,17 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   Spill<Link> links = link_tiles(store, job);
   EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
 
-  // Loops and boundary points: along the rims of the surface that the points agree on, or by the paper
-  // (5.1, 5.2).
-  const bool by_stars = config.loops.method == LoopMethod::kStars;
-  std::optional<RowSet> coherent;
-  if (!by_stars) coherent = make_coherent(evaluated, store, job);
-  const std::int64_t e = by_stars ? 0 : minimum_loop(config.spanning, evaluated.mean_neighbours());
-  const TracedLoops traced =
-      by_stars ? TracedLoops{trace_rims(evaluated, store, job)} : trace_loops(evaluated, store, e, job);
-  if (by_stars) coherent = find_beside_loops(traced.loops, evaluated, store, job);
-  MeasuredLoops loops = measure_loops(traced.loops, evaluated, store, evaluated.mean_edge_length(), job);
+  // Loops, and the boundary points beside them.
+  const Boundary boundary = config.loops.method == LoopMethod::kStars ? find_by_stars(evaluated, store, job)
+                                                                      : find_by_paper(evaluated, store, job);
+  const RawLoops& raw_loops = boundary.traced.loops;
+  MeasuredLoops loops = measure_loops(raw_loops, evaluated, store, evaluated.mean_edge_length(), job);
 
   // Back into the order of the input.
   std::optional<RowSet> turned;
   if (config.normals.orient) turned = orient_normals(evaluated, store, job);
-  add_findings(evaluated, traced, eps, e, summary);
-  return publish(std::move(evaluated), store, *coherent, std::move(loops), std::move(turned),
+  add_findings(evaluated, boundary, eps, summary);
+  return publish(std::move(evaluated), store, boundary.coherent, std::move(loops), std::move(turned),
                  std::move(summary), job);
 }
 
