@@ -38,6 +38,8 @@ using Lanes = double __attribute__((vector_size(kLaneBytes)));
 using LaneBits =
     std::int64_t __attribute__((vector_size(kLaneBytes)));  // as a mask: all bits of a lane or none
 
+using SingleLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
 LACUNA_INLINE Lanes load(const double* from) {
   Lanes lanes;
   __builtin_memcpy(&lanes, from, sizeof lanes);
@@ -68,6 +70,20 @@ LACUNA_INLINE double select(bool mask, double a, double b) {
 LACUNA_INLINE Lanes select(LaneBits mask, Lanes a, Lanes b) {
   return mask ? a : b;
 }
+LACUNA_INLINE float select(bool mask, float a, float b) {
+  return mask ? a : b;
+}
+template <class Mask>
+LACUNA_INLINE SingleLanes select(Mask mask, SingleLanes a, SingleLanes b) {
+  return mask ? a : b;
+}
+
+LACUNA_INLINE float single(double x) {
+  return static_cast<float>(x);
+}
+LACUNA_INLINE SingleLanes single(Lanes x) {
+  return __builtin_convertvector(x, SingleLanes);
+}
 
 template <class Real>
 LACUNA_INLINE Real smaller(Real a, Real b) {
@@ -84,6 +100,14 @@ LACUNA_INLINE double root(double x) {
 LACUNA_INLINE Lanes root(Lanes x) {
   Lanes roots;
   for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrt(x[i]);
+  return roots;
+}
+LACUNA_INLINE float root(float x) {
+  return __builtin_sqrtf(x);
+}
+LACUNA_INLINE SingleLanes root(SingleLanes x) {
+  SingleLanes roots;
+  for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrtf(x[i]);
   return roots;
 }
 

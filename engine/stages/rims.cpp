@@ -118,7 +118,7 @@ double confidence(std::span<const RimPoint> rim) {
         std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
     return static_cast<double>(wide) / (static_cast<double>(rim.size()) + kDoubt);
   };
-  return std::min({1.0, share(1.25f), 1.25 * share(1.6f)});
+  return std::min(share(1.25f), 1.25 * share(1.6f));
 }
 
 }  // namespace lacuna

@@ -62,24 +62,6 @@ LACUNA_DISPATCH(AgreeOnTriangles, agree_on_triangles)
 
 inline namespace LACUNA_LANES {
 
-using SingleLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-
-LACUNA_INLINE float root(float x) {
-  return __builtin_sqrtf(x);
-}
-LACUNA_INLINE SingleLanes root(SingleLanes x) {
-  SingleLanes roots;
-  for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrtf(x[i]);
-  return roots;
-}
-LACUNA_INLINE float select(bool mask, float a, float b) {
-  return mask ? a : b;
-}
-template <class Mask>
-LACUNA_INLINE SingleLanes select(Mask mask, SingleLanes a, SingleLanes b) {
-  return mask ? a : b;
-}
-
 // Two directions in the tangent plane, counterclockwise about the normal.
 template <class Real>
 struct Frame {
@@ -95,19 +77,12 @@ LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
           {t, sign + normal.y * normal.y * s, -normal.y}};
 }
 
-// Single precision, which is what is kept, from here on: its roots and quotients take a quarter of the time.
-LACUNA_INLINE float single(double x) {
-  return static_cast<float>(x);
-}
-LACUNA_INLINE SingleLanes single(Lanes x) {
-  return __builtin_convertvector(x, SingleLanes);
-}
-
 // Of a ball that rests on p and two neighbours, in units of `radius`. (x, y): where p sees one of them,
 // inverted; (dx, dy): from there to where it sees the other.
 template <class Real>
 LACUNA_INLINE auto room_at(Real x, Real y, Real dx, Real dy, Real radius) {
-  // Both without a unit.
+  // Both without a unit. From here on in single precision, which is what is kept: roots and quotients take a
+  // quarter of the time.
   const Real unit = radius * radius;
   const auto squared_length = single((dx * dx + dy * dy) * unit);
   const auto height = single((x * dy - y * dx) * (2.0 * unit));  // times the length
