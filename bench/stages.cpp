@@ -331,14 +331,14 @@ struct NoisySample {
     evaluations = lacuna::evaluate(points, rows, {}, kConfig.normals, kConfig.criteria);
     for (LocalIndex p = 0; p < points.owned; ++p)
       seats.push_back(seat_of(points.positions[p], points.ids[p], evaluations[p]));
-    is_border.resize(points.owned);
+    standings.resize(points.owned, Standing::kRough);
   }
 
   TilePoints points;
   Rows rows;
   std::vector<Evaluation> evaluations;
   std::vector<Seat> seats;
-  std::vector<std::uint8_t> is_border;
+  std::vector<Standing> standings;
 };
 
 void find_stars(benchmark::State& state, double noise) {
@@ -346,7 +346,7 @@ void find_stars(benchmark::State& state, double noise) {
   std::size_t corners = 0;
   for (auto _ : state) {
     const Stars<LocalIndex> stars =
-        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seats, sample.is_border);
+        lacuna::find_stars(sample.rows, sample.evaluations, sample.seats, sample.standings);
     corners = stars.corners.size();
   }
   time_per(state, "per_point", kPoints);

@@ -15,6 +15,17 @@ struct alignas(64) Seat {
   double weight;         // decides ties among points on one circle, alike for all of them
 };
 
+// Whether a point's star is looked for.
+enum class Standing : std::uint8_t {
+  kRough,   // yes: it or a neighbour is a suspect
+  kInner,   // no: it agrees to every triangle
+  kBorder,  // not yet: it has neighbours in other tiles
+};
+
+// A suspect has more than this Pi. Some of the points of a rim may have less, but then they have neighbours
+// with more.
+inline constexpr double kSuspicion = 0.2;
+
 // One corner of a star, and the ball that rests on the star's point, this corner and the next one around.
 template <class Name>
 struct StarCorner {
@@ -22,7 +33,7 @@ struct StarCorner {
   float room;  // the ball's radius in units of the radius that a triangle may have; at most 1: a triangle
 };
 
-// What is known of a triangle of a star: all three corners must have it in their stars.
+// What is known of a triangle of a star: all its corners that are not inner must have it in their stars.
 enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
 
 // A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,

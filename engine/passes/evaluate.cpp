@@ -4,10 +4,12 @@
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
 #include "engine/stages/reach.hpp"
+#include "engine/stages/rims.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
 namespace lacuna {
@@ -185,13 +187,17 @@ class TileRecorder {
   }
 
   void record_stars() {
-    std::vector<Seat> seats;
-    seats.reserve(points_.owned);
-    for (LocalIndex p = 0; p < points_.owned; ++p)
-      seats.push_back(seat_of(points_.positions[p], points_.ids[p], evaluations_[p]));
-    record_border(seats);
+    const std::vector<Standing> standings = find_standings(neighbourhoods_, evaluations_, is_border_);
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (is_suspect(evaluations_[p])) scan_.suspects.insert(points_.rows[p]);
+      if (standings[p] == Standing::kRough) scan_.rough.insert(points_.rows[p]);
+    }
+    record_border();
 
-    const Stars<LocalIndex> stars = find_stars(points_, neighbourhoods_, evaluations_, seats, is_border_);
+    const std::unique_ptr<const Seat[]> seats = find_seats(standings);
+    const Stars<LocalIndex> stars =
+        find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
+    const auto end = [&](LocalIndex p) { return standings[p] == Standing::kInner ? kInnerEnd : vertex(p); };
     std::vector<std::uint8_t> is_vertex = is_border_;
     std::vector<StoredCorner> open;
     std::vector<Gap<Vertex>> gaps;
@@ -210,7 +216,7 @@ class TileRecorder {
         is_vertex[p] = 1;
       } else {
         for_each_gap(p, star, agreements, [&](const Gap<LocalIndex>& gap) {
-          gaps.push_back({vertex(gap.point), vertex(gap.from), vertex(gap.to), gap.room});
+          gaps.push_back({vertex(gap.point), end(gap.from), end(gap.to), gap.room});
           is_vertex[p] = 1;
         });
       }
@@ -220,8 +226,26 @@ class TileRecorder {
     record_vertices(is_vertex);
   }
 
+  Seat seat(LocalIndex p) const { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); }
+
+  // Those of rough points and their neighbours; the others are left as they are.
+  std::unique_ptr<const Seat[]> find_seats(std::span<const Standing> standings) const {
+    std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
+    std::vector<std::uint8_t> is_taken(points_.owned);
+    const auto take = [&](LocalIndex p) {
+      if (!is_taken[p]) seats[p] = seat(p);
+      is_taken[p] = 1;
+    };
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (standings[p] != Standing::kRough) continue;
+      take(p);
+      for (const LocalIndex q : neighbourhoods_[p]) take(q);
+    }
+    return seats;
+  }
+
   // What the stars of points with foreign neighbours need, here and in other tiles.
-  void record_border(std::span<const Seat> seats) {
+  void record_border() {
     std::vector<std::uint8_t> is_seen(points_.size());
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (!is_border_[p]) continue;
@@ -248,13 +272,13 @@ class TileRecorder {
       const Eigen::Vector3d& normal = evaluations_[p].normal;
       const auto around = neighbourhoods_[p];
       border.push_back(
-          {p, place[p], static_cast<std::uint32_t>(around.size()), 0, {normal.x(), normal.y(), normal.z()}});
+          {place[p], static_cast<std::uint32_t>(around.size()), {normal.x(), normal.y(), normal.z()}});
       for (const LocalIndex q : around) neighbours.push_back(place[q]);
     }
     scan_.border.append(tile_, border);
     scan_.border_neighbours.append(tile_, neighbours);
     scan_.border_sight.append(tile_, in_sight);
-    record_runs(scan_.seats, std::span(is_seen).first(points_.owned), [&](LocalIndex p) { return seats[p]; });
+    record_runs(scan_.seats, std::span(is_seen).first(points_.owned), [&](LocalIndex p) { return seat(p); });
   }
 
   // Points that may end up on a loop.
@@ -382,6 +406,8 @@ EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks
       border_neighbours(job.file("border-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       border_sight(job.file("border-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
+      suspects(store.tiling().row_count()),
+      rough(store.tiling().row_count()),
       stars(job.file("stars"), store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       vertices(job.file("vertices"), store.tiling().tiles.size(), job.memory.spills / 12),

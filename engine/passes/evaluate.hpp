@@ -56,10 +56,8 @@ struct OrientationCrossing {
 
 // A point with neighbours in other tiles, whose star waits for their seats.
 struct BorderPoint {
-  LocalIndex owned;
   LocalIndex place;  // in sight
   std::uint32_t neighbours;
-  std::uint32_t padding = 0;
   double normal[3];
 };
 
@@ -95,6 +93,7 @@ struct EvaluatedScan {
   Spill<LocalIndex> border_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<Vertex> border_sight;           // these points and their neighbours, in ascending row
   Column<Seat> seats;                   // by row, of border points and their neighbours
+  RowSet suspects, rough;               // of the latter border points only once their stars are found
   Spill<StoredCorner> stars;            // open ones, each in one piece
   Spill<Gap<Vertex>> gaps;
   Spill<StoredVertex> vertices;        // in ascending owned index

@@ -70,6 +70,36 @@ class Letters {
   std::map<TileIndex, std::vector<Claim>> letters_;
 };
 
+// Points with neighbours in other tiles that are rough, now that all suspects are known.
+std::vector<StarQuery> rough_ones(std::span<const BorderPoint> border, std::span<const LocalIndex> neighbours,
+                                  std::span<const Vertex> in_sight, const RowSet& suspects) {
+  const auto is_suspect = [&](LocalIndex place) { return suspects.contains(in_sight[place].row); };
+  std::vector<StarQuery> rough;
+  for (const BorderPoint& p : border) {
+    const auto around = neighbours.first(p.neighbours);
+    neighbours = neighbours.subspan(p.neighbours);
+    if (is_suspect(p.place) || std::any_of(around.begin(), around.end(), is_suspect))
+      rough.push_back({p.place, {p.normal[0], p.normal[1], p.normal[2]}, around});
+  }
+  return rough;
+}
+
+// Of the points that ask and of their neighbours; none of the others.
+std::vector<Seat> read_seats(std::span<const StarQuery> queries, std::span<const Vertex> in_sight,
+                             const Column<Seat>& stored) {
+  std::vector<std::uint8_t> is_needed(in_sight.size());
+  for (const StarQuery& query : queries) {
+    is_needed[query.point] = 1;
+    for (const LocalIndex q : query.neighbours) is_needed[q] = 1;
+  }
+  std::vector<Seat> seats(in_sight.size());
+  RunReader<Seat> reader(stored);
+  for (std::size_t i = 0; i < in_sight.size(); ++i) {
+    if (is_needed[i]) seats[i] = reader[value(in_sight[i].row)];
+  }
+  return seats;
+}
+
 void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<Claim>& claims) {
   const Here here(tiling, t);
   const std::vector<BorderPoint> border = scan.border.read(t);
@@ -78,31 +108,24 @@ void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, S
   scan.border.drop(t);
   scan.border_neighbours.drop(t);
   scan.border_sight.drop(t);
-  std::vector<Seat> seats;
-  RunReader<Seat> reader(scan.seats);
-  for (const Vertex& v : in_sight) seats.push_back(reader[value(v.row)]);
+  const std::vector<StarQuery> queries = rough_ones(border, neighbours, in_sight, scan.suspects);
+  const std::vector<Seat> seats = read_seats(queries, in_sight, scan.seats);
 
   StarFinder finder(seats);
-  std::vector<StarQuery> queries;
   std::vector<StoredCorner> stars;
   Letters letters(tiling);
-  std::span<const LocalIndex> left = neighbours;
-  for (std::size_t first = 0; first < border.size(); first += kStarBundle) {
-    const auto bundle = std::span(border).subspan(first, std::min(kStarBundle, border.size() - first));
-    queries.clear();
-    for (const BorderPoint& p : bundle) {
-      queries.push_back({p.place, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
-      left = left.subspan(p.neighbours);
-    }
-    finder.find(queries);
+  for (std::size_t first = 0; first < queries.size(); first += kStarBundle) {
+    const auto bundle = std::span(queries).subspan(first, std::min(kStarBundle, queries.size() - first));
+    finder.find(bundle);
     for (std::size_t i = 0; i < bundle.size(); ++i) {
-      const BorderPoint& p = bundle[i];
-      const Vertex& point = in_sight[p.place];
+      const Vertex& point = in_sight[bundle[i].point];
+      scan.rough.insert(point.row);
       const std::size_t begin = stars.size();
       for (std::size_t c = 0; c < finder[i].size(); ++c) {
         const StarCorner<LocalIndex>& corner = finder[i][c];
-        stars.push_back({point.id, p.owned, corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
-                         in_sight[queries[i].neighbours[corner.point]], corner.room});
+        stars.push_back({point.id, here.local(point),
+                         corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
+                         in_sight[bundle[i].neighbours[corner.point]], corner.room});
       }
       letters.tell(point, std::span(stars).subspan(begin), here);
     }
@@ -167,6 +190,7 @@ void agree(EvaluatedScan& scan, const TileStore& store, TileIndex t, Spill<Claim
     const auto agreements = stars.agreements(s);
     const Vertex point = stars.vertex(s);
     const auto agrees = [&](const Vertex& corner, const Vertex& other) {
+      if (!scan.rough.contains(corner.row)) return true;
       if (here.owns(corner)) return stars.agrees(here.local(corner), point, other);
       return std::binary_search(told.begin(), told.end(), Claim{p, 0, corner.row, other.row});
     };
@@ -175,8 +199,10 @@ void agree(EvaluatedScan& scan, const TileStore& store, TileIndex t, Spill<Claim
       const Vertex &a = star[i].point, &b = star[i + 1 < star.size() ? i + 1 : 0].point;
       agreements[i] = agrees(a, b) && agrees(b, a) ? Agreement::kAgreed : Agreement::kRefused;
     }
-    for_each_gap(point, star, std::span<const Agreement>(agreements),
-                 [&](const Gap<Vertex>& gap) { gaps.push_back(gap); });
+    const auto end = [&](const Vertex& v) { return scan.rough.contains(v.row) ? v : kInnerEnd; };
+    for_each_gap(point, star, std::span<const Agreement>(agreements), [&](const Gap<Vertex>& gap) {
+      gaps.push_back({gap.point, end(gap.from), end(gap.to), gap.room});
+    });
   }
   scan.gaps.append(t, gaps);
 }
@@ -201,26 +227,21 @@ class OpenRims {
   // visit(points): each closed rim.
   template <class Visit>
   void for_each_rim(Visit&& visit) {
-    // The two ends of parts that meet at an edge.
-    std::sort(ends_.begin(), ends_.end());
-    std::vector<Side> partner(2 * parts_.size());
-    for (std::size_t i = 0; i + 1 < ends_.size(); i += 2) {
-      partner[ends_[i].side] = ends_[i + 1].side;
-      partner[ends_[i + 1].side] = ends_[i].side;
-    }
+    const std::vector<Side> partners = find_partners();
     std::vector<bool> is_done(parts_.size());
+    std::vector<Side> entries;  // of the parts of a rim, in their order
     for (std::uint32_t start = 0; start < parts_.size(); ++start) {
       if (is_done[start]) continue;
-      std::vector<RimPoint> rim;
+      entries.clear();
       Side enter = 2 * start;
       do {
-        const std::uint32_t part = enter / 2;
-        is_done[part] = true;
-        std::vector<RimPoint> points = points_.read(parts_[part].offset, parts_[part].count);
-        if (enter % 2 == 1) std::reverse(points.begin(), points.end());
-        rim.insert(rim.end(), points.begin(), points.end());
-        enter = partner[enter ^ 1];
-      } while (enter / 2 != start);
+        entries.push_back(enter);
+        is_done[enter / 2] = true;
+        enter = partners[enter ^ 1];
+      } while (enter != kNone && !is_done[enter / 2]);
+      if (enter != entries.front()) continue;  // a crack
+      std::vector<RimPoint> rim;
+      for (const Side entry : entries) append(entry, rim);
       visit(rim);
     }
   }
@@ -240,8 +261,30 @@ class OpenRims {
       return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
     }
   };
+  static constexpr Side kNone = UINT32_MAX;
+
   static End end_of(const Vertex& a, const Vertex& b, std::uint32_t part, Side side) {
     return {std::min(a.row, b.row), std::max(a.row, b.row), 2 * part + side};
+  }
+
+  // Of each side that of the other part at the same edge; none where that one is a crack.
+  std::vector<Side> find_partners() {
+    std::sort(ends_.begin(), ends_.end());
+    std::vector<Side> partners(2 * parts_.size(), kNone);
+    for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+      const End &a = ends_[i], &b = ends_[i + 1];
+      if (a.low != b.low || a.high != b.high) continue;
+      partners[a.side] = b.side;
+      partners[b.side] = a.side;
+    }
+    return partners;
+  }
+
+  void append(Side entry, std::vector<RimPoint>& rim) const {
+    const Part& part = parts_[entry / 2];
+    std::vector<RimPoint> points = points_.read(part.offset, part.count);
+    if (entry % 2 == 1) std::reverse(points.begin(), points.end());
+    rim.insert(rim.end(), points.begin(), points.end());
   }
 
   Column<RimPoint> points_;
@@ -280,8 +323,10 @@ RawLoops trace_rims(EvaluatedScan& scan, const TileStore& store, Job& job) {
     std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
       return std::tie(a.point.row, a.from.row) < std::tie(b.point.row, b.from.row);
     });
-    follow_rims(gaps, here.first(), here.last(),
-                [&](RimPart& part) { part.is_closed ? report(part.points, loops) : open.add(part); });
+    follow_rims(gaps, here.first(), here.last(), [&](RimPart& part) {
+      if (part.is_closed) report(part.points, loops);
+      if (!part.is_closed && !part.is_crack()) open.add(part);
+    });
   });
   open.for_each_rim([&](std::vector<RimPoint>& rim) { report(rim, loops); });
   loops.sort();

@@ -4,11 +4,16 @@
 #include "engine/data/component.hpp"
 #include "engine/data/star.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
 namespace lacuna {
+
+// Where a gap ends at an inner point: a rim that comes there is a crack between points that lie amid their
+// neighbours, and leads nowhere.
+inline constexpr Vertex kInnerEnd{PointId{UINT64_MAX}, Row{UINT64_MAX}};
 
 // A point of a rim. A point with several gaps is on several rims, or several times on one.
 struct RimPoint {
@@ -21,7 +26,9 @@ struct RimPoint {
 struct RimPart {
   std::vector<RimPoint> points;
   bool is_closed = false;
-  Vertex before{}, after{};  // of a part: points of other tiles that the rim comes from and goes to
+  Vertex before{}, after{};  // of a part: points of other tiles that the rim comes from and goes to, or none
+
+  bool is_crack() const { return !is_closed && (before == kInnerEnd || after == kInnerEnd); }
 };
 
 // `gaps`: of points with rows in [first, last), in ascending row of the point. Every gap that a rim goes on

@@ -45,11 +45,11 @@ inline constexpr std::uint32_t kFewCorners = 8;
 struct StarTable {
   const std::uint32_t* offsets;
   const StarCorner<LocalIndex>* corners;
-  const std::uint8_t* is_border;  // points whose stars are not known
+  const Standing* standings;
   Agreement* agreements;
 };
 
-// A triangle that one of its corners, the first one whose star is known, asks the others for.
+// A triangle that one of its corners, the first one that has a star, asks the others for.
 struct AskedTriangle {
   std::uint32_t corner;  // of the asking star
   LocalIndex point, a, b;

@@ -74,9 +74,11 @@ std::vector<View> hull_of(std::vector<View> views) {
 
 // The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
 // branch: which corner asks cannot be foretold.
-std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border, LocalIndex first,
+std::size_t ask(const Stars<LocalIndex>& stars, std::span<const Standing> standings, LocalIndex first,
                 LocalIndex last, AskedTriangle* asked) {
-  const auto asks_before = [&](LocalIndex p, LocalIndex q) { return (q < p) & !is_border[q]; };
+  const auto asks_before = [&](LocalIndex p, LocalIndex q) {
+    return (q < p) & (standings[q] == Standing::kRough);
+  };
   std::size_t count = 0;
   for (LocalIndex p = first; p < last; ++p) {
     const std::uint32_t begin = stars.offsets[p], end = stars.offsets[p + 1];
@@ -95,9 +97,9 @@ std::size_t ask(const Stars<LocalIndex>& stars, std::span<const std::uint8_t> is
   return count;
 }
 
-void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
+void agree(Stars<LocalIndex>& stars, std::span<const Standing> standings) {
   stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
-  const StarTable table{stars.offsets.data(), stars.corners.data(), is_border.data(),
+  const StarTable table{stars.offsets.data(), stars.corners.data(), standings.data(),
                         stars.agreements.data()};
   constexpr LocalIndex kRun = 64;
   std::vector<AskedTriangle> asked;
@@ -106,7 +108,7 @@ void agree(Stars<LocalIndex>& stars, std::span<const std::uint8_t> is_border) {
     const LocalIndex last = std::min(first + kRun, points);
     const std::size_t most = stars.offsets[last] - stars.offsets[first] + 1;
     if (asked.size() < most) asked.resize(2 * most);
-    const std::size_t count = ask(stars, is_border, first, last, asked.data());
+    const std::size_t count = ask(stars, standings, first, last, asked.data());
     fastest::agree_on_triangles(table, asked.data(), count);
   }
 }
@@ -171,33 +173,50 @@ void StarFinder::find(std::span<const StarQuery> queries) {
   }
 }
 
-Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhoods,
-                             std::span<const Evaluation> evaluations, std::span<const Seat> seats,
-                             std::span<const std::uint8_t> is_border) {
+std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                                     std::span<const std::uint8_t> is_border) {
+  std::vector<Standing> standings(is_border.size(), Standing::kInner);
+  const auto add = [&](LocalIndex p) {
+    if (p < standings.size()) standings[p] = is_border[p] ? Standing::kBorder : Standing::kRough;
+  };
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
+    if (is_border[p]) standings[p] = Standing::kBorder;
+    if (!is_suspect(evaluations[p])) continue;
+    add(p);
+    for (const LocalIndex q : neighbourhoods[p]) add(q);
+  }
+  return standings;
+}
+
+Stars<LocalIndex> find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                             std::span<const Seat> seats, std::span<const Standing> standings) {
+  std::vector<LocalIndex> rough;
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
+    if (standings[p] == Standing::kRough) rough.push_back(p);
+  }
   Stars<LocalIndex> stars;
-  stars.offsets.reserve(points.owned + 1);
+  stars.offsets.reserve(standings.size() + 1);
   StarFinder finder(seats);
   std::vector<StarQuery> queries;
-  for (LocalIndex first = 0; first < points.owned; first += kStarBundle) {
-    const LocalIndex end = std::min<LocalIndex>(first + kStarBundle, points.owned);
+  for (std::size_t first = 0; first < rough.size(); first += kStarBundle) {
+    const auto bundle = std::span(rough).subspan(first, std::min(kStarBundle, rough.size() - first));
     queries.clear();
-    for (LocalIndex p = first; p < end; ++p) {
-      queries.push_back(
-          {p, evaluations[p].normal, is_border[p] ? std::span<const LocalIndex>() : neighbourhoods[p]});
-    }
+    for (const LocalIndex p : bundle) queries.push_back({p, evaluations[p].normal, neighbourhoods[p]});
     finder.find(queries);
     std::uint32_t end_of_star = stars.offsets.back();
     for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
     if (stars.corners.size() < end_of_star + kFewCorners)
-      stars.corners.resize(2 * end_of_star + 8 * points.owned);
+      stars.corners.resize(2 * end_of_star + 8 * rough.size());
     for (std::size_t i = 0; i < queries.size(); ++i) {
+      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // inner ones before it have none
       StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
       for (std::size_t c = 0; c < finder[i].size(); ++c)
         *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
       stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
     }
   }
-  agree(stars, is_border);
+  stars.offsets.resize(standings.size() + 1, stars.offsets.back());
+  agree(stars, standings);
   stars.corners.resize(stars.offsets.back());
   return stars;
 }

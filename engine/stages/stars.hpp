@@ -85,11 +85,18 @@ struct Stars {
   }
 };
 
-// Stars of the tile's owned points whose neighbours are all owned (`is_border` is 0), with a agreement on
-// each triangle: open where a corner is a border point, whose star is not known yet.
-Stars<LocalIndex> find_stars(const TilePoints& points, const Rows& neighbourhoods,
-                             std::span<const Evaluation> evaluations, std::span<const Seat> seats,
-                             std::span<const std::uint8_t> is_border);
+inline bool is_suspect(const Evaluation& evaluation) {
+  return evaluation.probability > kSuspicion;
+}
+
+// Of a tile's owned points. `is_border`: has foreign neighbours.
+std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                                     std::span<const std::uint8_t> is_border);
+
+// Stars of the rough ones among a tile's owned points, with an agreement on each triangle: open where a
+// corner is a border point. `seats`: at least of rough points and their neighbours.
+Stars<LocalIndex> find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                             std::span<const Seat> seats, std::span<const Standing> standings);
 
 // The star has the triangle of its point with a and b.
 template <class Name>

@@ -298,11 +298,12 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
 void agree_on_triangles(const StarTable& stars, const AskedTriangle* asked, std::size_t count) {
   for (const AskedTriangle* triangle = asked; triangle < asked + count; ++triangle) {
     const auto [corner, p, a, b] = *triangle;
+    const Standing of_a = stars.standings[a], of_b = stars.standings[b];
     std::uint32_t in_a = corner, in_b = corner;
-    if (!stars.is_border[a] && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
-    if (!stars.is_border[b] && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-    const Agreement agreement =
-        stars.is_border[a] || stars.is_border[b] ? Agreement::kOpen : Agreement::kAgreed;
+    if (of_a == Standing::kRough && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
+    if (of_b == Standing::kRough && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
+    const bool is_open = of_a == Standing::kBorder || of_b == Standing::kBorder;
+    const Agreement agreement = is_open ? Agreement::kOpen : Agreement::kAgreed;
     stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
   }
 }

@@ -672,12 +672,26 @@ std::vector<Corner> star_of(const Positions& positions, const Detection& result,
   return star;
 }
 
-std::vector<Gap> gaps_of(PointId p, const std::vector<Corner>& star,
-                         const std::map<Triangle, int>& stars_with) {
+// Points that have more than Pi = 0.2 or a neighbour that has.
+std::set<PointId> rough_points(const Detection& result) {
+  std::set<PointId> rough;
+  for (const PointId p : result.distinct) {
+    const Point& point = result.points[value(p)];
+    if (!(point.probability > 0.2)) continue;
+    rough.insert(p);
+    rough.insert(point.neighbours.begin(), point.neighbours.end());
+  }
+  return rough;
+}
+
+std::vector<Gap> gaps_of(PointId p, const std::vector<Corner>& star, const std::set<PointId>& rough,
+                         const std::map<Triangle, std::size_t>& stars_with) {
   const std::size_t count = star.size();
   const auto is_agreed = [&](std::size_t i) {
-    const auto found = stars_with.find(triangle(p, star[i % count].point, star[(i + 1) % count].point));
-    return star[i % count].room <= 1 && found != stars_with.end() && found->second == 3;
+    const Triangle corners = triangle(p, star[i % count].point, star[(i + 1) % count].point);
+    const auto asked =
+        std::count_if(corners.begin(), corners.end(), [&](PointId q) { return rough.contains(q); });
+    return star[i % count].room <= 1 && stars_with.at(corners) == static_cast<std::size_t>(asked);
   };
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
@@ -706,8 +720,9 @@ std::vector<PointId> first_way(std::vector<PointId> rim) {
 
 void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
   std::vector<std::vector<Corner>> stars(positions.size());
-  std::map<Triangle, int> stars_with;
-  for (const PointId p : result.distinct) {
+  std::map<Triangle, std::size_t> stars_with;
+  const std::set<PointId> rough = rough_points(result);
+  for (const PointId p : rough) {
     const std::vector<Corner>& star = stars[value(p)] = star_of(positions, result, p);
     for (std::size_t i = 0; i < star.size(); ++i) {
       if (star[i].room <= 1) ++stars_with[triangle(p, star[i].point, star[(i + 1) % star.size()].point)];
@@ -715,8 +730,8 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
   }
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
-  for (const PointId p : result.distinct) {
-    for (const Gap& gap : gaps_of(p, stars[value(p)], stars_with)) {
+  for (const PointId p : rough) {
+    for (const Gap& gap : gaps_of(p, stars[value(p)], rough, stars_with)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
       gaps.push_back(gap);
     }
@@ -727,19 +742,21 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
     if (is_done[start]) continue;
     std::vector<PointId> rim;
     double wide = 0, wider = 0;
-    PointId next = gaps[start].to;
+    PointId next{};
     std::size_t g = start;
+    bool goes_on = true;
     do {
+      const PointId before = rim.empty() ? gaps[g].from : rim.back();
+      next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back(gaps[g].point);
       wide += gaps[g].room >= 1.25;
       wider += gaps[g].room >= 1.6;
-      const PointId here = gaps[g].point;
-      g = at.at({next, here});
-      next = gaps[g].from == here ? gaps[g].to : gaps[g].from;
-    } while (g != start);
+      goes_on = rough.contains(next);
+      if (goes_on) g = at.at({next, rim.back()});
+    } while (goes_on && g != start);
     const double count = static_cast<double>(rim.size()) + 4;
-    if (rim.size() >= 8)
+    if (goes_on && rim.size() >= 8)
       rims.emplace_back(first_way(rim), std::min({1.0, wide / count, 1.25 * (wider / count)}));
   }
   std::sort(rims.begin(), rims.end());

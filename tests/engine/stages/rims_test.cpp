@@ -59,6 +59,24 @@ std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
 
 }  // namespace
 
+TEST_CASE("a rim that comes to an inner point is a crack, from whichever gap it is followed") {
+  std::vector<Gap<Vertex>> gaps = ring({3, 9, 4, 8, 1, 7});
+  CHECK_FALSE(follow(gaps, 0, 20)[0].is_crack());
+  std::erase_if(gaps, [](const auto& gap) { return value(gap.point.row) == 9; });
+  for (Gap<Vertex>& gap : gaps) {
+    for (Vertex* const end : {&gap.from, &gap.to}) {
+      if (value(end->row) == 9) *end = kInnerEnd;
+    }
+  }
+  REQUIRE(follow(gaps, 0, 20).size() == 1);
+  CHECK(follow(gaps, 0, 20)[0].is_crack());
+  CHECK(follow(gaps, 0, 20)[0].points.size() == 5);
+  // Across tiles each part knows by itself only of its own ends.
+  REQUIRE(follow(gaps, 2, 20).size() == 2);
+  CHECK(follow(gaps, 2, 20)[0].is_crack());
+  CHECK(follow(gaps, 2, 20)[1].is_crack());
+}
+
 TEST_CASE("a rim within the rows is closed, through a point that it passes twice too") {
   std::vector<Gap<Vertex>> gaps = ring({3, 9, 4, 8, 1, 7});
   const std::vector<RimPart> one = follow(gaps, 0, 20);

@@ -221,7 +221,35 @@ TEST_CASE("a star is the same wherever its point stands in a bundle, and whateve
   CHECK(different == 0);
 }
 
-TEST_CASE("a triangle is agreed where all three stars have it, open where one of them is not known") {
+TEST_CASE("points with a suspect in sight are rough, the others inner, and those of the border wait") {
+  std::size_t rough = 0, inner = 0, wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Cloud cloud = seed == 1 ? plane(40) : random_cloud(3100 + seed);
+    const TilePoints points = whole_tile(cloud);
+    const Rows rows = find_neighbourhoods(points, 15, 0);
+    const Config config;
+    const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
+    Random random(seed);
+    std::vector<std::uint8_t> is_border(points.owned);
+    for (auto& border : is_border) border = random.chance(0.05);
+    const std::vector<Standing> standings = find_standings(rows, evaluations, is_border);
+    REQUIRE(standings.size() == points.owned);
+    for (LocalIndex p = 0; p < points.owned; ++p) {
+      bool sees_suspect = evaluations[p].probability > kSuspicion;
+      for (const LocalIndex q : rows[p]) sees_suspect |= evaluations[q].probability > kSuspicion;
+      wrong += standings[p] != (is_border[p]   ? Standing::kBorder
+                                : sees_suspect ? Standing::kRough
+                                               : Standing::kInner);
+      rough += standings[p] == Standing::kRough;
+      inner += standings[p] == Standing::kInner;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(rough > 100);
+  CHECK(inner > 100);
+}
+
+TEST_CASE("a triangle is agreed where the stars of all its rough corners have it, open where one waits") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloud cloud = seed == 1 ? plane(40) : seed == 2 ? hard_cloud(5) : random_cloud(3000 + seed);
     const TilePoints points = whole_tile(cloud);
@@ -230,27 +258,33 @@ TEST_CASE("a triangle is agreed where all three stars have it, open where one of
     const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
     const std::vector<Seat> seats = seats_of(points, evaluations);
     Random random(seed);
-    std::vector<std::uint8_t> is_border(points.owned);
-    for (auto& border : is_border) border = random.chance(0.05);
+    std::vector<Standing> standings(points.owned, Standing::kRough);
+    for (Standing& standing : standings) {
+      if (random.chance(0.05)) standing = Standing::kBorder;
+      if (random.chance(0.1)) standing = Standing::kInner;
+    }
 
-    const Stars<LocalIndex> stars = find_stars(points, rows, evaluations, seats, is_border);
+    const Stars<LocalIndex> stars = find_stars(rows, evaluations, seats, standings);
     std::size_t wrong_stars = 0, wrong_agreements = 0;
     REQUIRE(stars.size() == points.owned);
     REQUIRE(stars.corners.size() == stars.offsets.back());
     REQUIRE(stars.agreements.size() == stars.corners.size());
     for (LocalIndex p = 0; p < points.owned; ++p) {
       Star expected;
-      if (!is_border[p]) expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]});
+      if (standings[p] == Standing::kRough)
+        expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]});
       for (auto& corner : expected) corner.point = rows[p][corner.point];
       const auto star = stars[p];
       wrong_stars += !same_bits({star.begin(), star.end()}, expected);
       for (std::size_t i = 0; i < star.size(); ++i) {
         const LocalIndex a = star[i].point, b = star[(i + 1) % star.size()].point;
-        const bool refused = star[i].room > 1 || (!is_border[a] && !has_triangle(stars[a], p, b)) ||
-                             (!is_border[b] && !has_triangle(stars[b], p, a));
-        const Agreement agreement = refused                        ? Agreement::kRefused
-                                    : is_border[a] || is_border[b] ? Agreement::kOpen
-                                                                   : Agreement::kAgreed;
+        const auto is = [&](LocalIndex q, Standing standing) { return standings[q] == standing; };
+        const bool refused = star[i].room > 1 || (is(a, Standing::kRough) && !has_triangle(stars[a], p, b)) ||
+                             (is(b, Standing::kRough) && !has_triangle(stars[b], p, a));
+        const bool open = is(a, Standing::kBorder) || is(b, Standing::kBorder);
+        const Agreement agreement = refused ? Agreement::kRefused
+                                    : open  ? Agreement::kOpen
+                                            : Agreement::kAgreed;
         wrong_agreements += stars.agreements[stars.offsets[p] + i] != agreement;
       }
     }
