@@ -188,11 +188,7 @@ class TileRecorder {
 
   void record_stars() {
     const std::vector<Standing> standings = find_standings(neighbourhoods_, evaluations_, is_border_);
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (is_suspect(evaluations_[p])) scan_.suspects.insert(points_.rows[p]);
-      if (standings[p] == Standing::kRough) scan_.rough.insert(points_.rows[p]);
-    }
-    record_border();
+    record_border(standings);
 
     const std::unique_ptr<const Seat[]> seats = find_seats(standings);
     const Stars<LocalIndex> stars =
@@ -211,8 +207,10 @@ class TileRecorder {
       }
       if (is_whole) continue;
       if (is_open) {
-        for (std::size_t i = 0; i < star.size(); ++i)
+        for (std::size_t i = 0; i < star.size(); ++i) {
           open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room});
+          tell_if_rough(star[i].point, standings);
+        }
         is_vertex[p] = 1;
       } else {
         for_each_gap(p, star, agreements, [&](const Gap<LocalIndex>& gap) {
@@ -244,8 +242,13 @@ class TileRecorder {
     return seats;
   }
 
+  // For the stars that are settled later. Border points are told of when they are known.
+  void tell_if_rough(LocalIndex p, std::span<const Standing> standings) {
+    if (points_.is_owned(p) && standings[p] == Standing::kRough) scan_.rough.insert(points_.rows[p]);
+  }
+
   // What the stars of points with foreign neighbours need, here and in other tiles.
-  void record_border() {
+  void record_border(std::span<const Standing> standings) {
     std::vector<std::uint8_t> is_seen(points_.size());
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (!is_border_[p]) continue;
@@ -263,6 +266,8 @@ class TileRecorder {
     for (const LocalIndex p : seen) {
       place[p] = static_cast<LocalIndex>(in_sight.size());
       in_sight.push_back(vertex(p));
+      tell_if_rough(p, standings);
+      if (points_.is_owned(p) && is_suspect(evaluations_[p])) scan_.suspects.insert(points_.rows[p]);
     }
 
     std::vector<BorderPoint> border;

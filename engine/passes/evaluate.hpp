@@ -93,7 +93,8 @@ struct EvaluatedScan {
   Spill<LocalIndex> border_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<Vertex> border_sight;           // these points and their neighbours, in ascending row
   Column<Seat> seats;                   // by row, of border points and their neighbours
-  RowSet suspects, rough;               // of the latter border points only once their stars are found
+  RowSet suspects;                      // among these
+  RowSet rough;                         // among these and corners of open stars
   Spill<StoredCorner> stars;            // open ones, each in one piece
   Spill<Gap<Vertex>> gaps;
   Spill<StoredVertex> vertices;        // in ascending owned index

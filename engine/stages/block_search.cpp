@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -62,6 +63,19 @@ struct BlockSearch::Boxes {
       highs[axis] = high[axis].data() + group * kFan;
     }
     fastest::box_gaps(from_low, from_high, lows, highs, squared);
+  }
+
+  // A bit for each box of a group that is within the radius of a box.
+  std::uint32_t within(std::size_t group, const Box& from, double squared_radius) const {
+    const double *lows[3], *highs[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      lows[axis] = low[axis].data() + group * kFan;
+      highs[axis] = high[axis].data() + group * kFan;
+    }
+    const std::size_t there =
+        std::min(kFan, count - group * kFan);  // where distances overflow, so does padding
+    return fastest::boxes_within(from.low.data(), from.high.data(), lows, highs, squared_radius) &
+           ((1U << there) - 1);
   }
 };
 
@@ -298,21 +312,18 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
   while (depth > 0) {
     const auto [level, group] = stack[--depth];
     const Boxes& boxes = levels_[level];
-    double gaps[kFan];
-    boxes.gaps(group, run.low.data(), run.high.data(), gaps);
-    const std::size_t first = group * kFan;
-    for (std::size_t i = std::min(kFan, boxes.count - first); i-- > 0;) {
-      if (!(gaps[i] <= squared_radius)) continue;
+    for (std::uint32_t within = boxes.within(group, run, squared_radius); within != 0; within &= within - 1) {
+      const std::size_t index = group * kFan + static_cast<std::size_t>(std::countr_zero(within));
       if (level > 0) {
-        stack[depth++] = {level - 1, first + i};
+        stack[depth++] = {level - 1, index};
         continue;
       }
       if (sight_.count == kMostBlocks) return false;
       for (int axis = 0; axis < 3; ++axis) {
-        sight_.low[axis][sight_.count] = boxes.low[axis][first + i];
-        sight_.high[axis][sight_.count] = boxes.high[axis][first + i];
+        sight_.low[axis][sight_.count] = boxes.low[axis][index];
+        sight_.high[axis][sight_.count] = boxes.high[axis][index];
       }
-      sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(first + i);
+      sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(index);
     }
   }
   in_sight_ = radius;

@@ -20,6 +20,11 @@ using BoxGaps = void(const double* low, const double* high, const double* const 
                      const double* const highs[3], double* gaps);
 LACUNA_DISPATCH(BoxGaps, box_gaps)
 
+// Those boxes of a group, a bit for each, that are within the radius of a box.
+using BoxesWithin = std::uint32_t(const double* low, const double* high, const double* const lows[3],
+                                  const double* const highs[3], double squared_radius);
+LACUNA_DISPATCH(BoxesWithin, boxes_within)
+
 // Sixteen points; beyond the last one: infinite.
 struct alignas(64) Block {
   double coordinates[3][kBlock];

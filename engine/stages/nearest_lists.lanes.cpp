@@ -9,6 +9,13 @@ namespace {
 using Points = std::uint32_t __attribute__((vector_size(kLaneBytes)));
 
 LACUNA_INLINE bool holds(const ListLine* lines, std::size_t count, std::uint32_t point) {
+#if defined(__AVX512F__)
+  static_assert(sizeof(ListLine) == sizeof(__m512i));
+  __mmask16 matches{};
+  for (const ListLine* line = lines; line < lines + count; ++line)
+    matches |= _mm512_cmpeq_epi32_mask(_mm512_load_si512(line), _mm512_set1_epi32(static_cast<int>(point)));
+  return matches != 0;
+#else
   Points matches{};
   for (const ListLine* line = lines; line < lines + count; ++line) {
     for (std::size_t i = 0; i < kListLine; i += kLaneBytes / sizeof(point)) {
@@ -18,6 +25,7 @@ LACUNA_INLINE bool holds(const ListLine* lines, std::size_t count, std::uint32_t
     }
   }
   return any(reinterpret_cast<LaneBits>(matches));
+#endif
 }
 
 }  // namespace
