@@ -91,7 +91,7 @@ void print_scores(const EvaluateArguments& arguments, const Truth& truth, const 
   if (!evaluation.boundary) return;
   std::cout << "  boundary    " << print_count(evaluation.boundary->flagged) << " points flagged, "
             << print_count(evaluation.boundary->truth) << " true\n    same id   "
-            << print_points(evaluation.boundary->by_id) << "\n    1 spacing "
+            << print_points(evaluation.boundary->by_id) << "\n    tolerance "
             << print_points(evaluation.boundary->within_radius) << "\n";
 }
 
@@ -149,7 +149,7 @@ void print_json(const EvaluateArguments& arguments, const Result& result, const 
     root["boundary"] = {{"flagged", boundary->flagged},
                         {"true", boundary->truth},
                         {"by_id", points_json(boundary->by_id)},
-                        {"within_spacing", points_json(boundary->within_radius)}};
+                        {"within_tolerance", points_json(boundary->within_radius)}};
   }
   root["true_loops"] = Json::array();
   for (std::size_t i = 0; i < truth.loops.size(); ++i) {

@@ -166,7 +166,7 @@ def evaluate(arguments, case, method, folder):
     row = {"group": case.group, "set": case.name, "method": method, "min_vertices": case.min_vertices}
     row |= {key: told[key] for key in ("points", "true", "found", "false", "repeated", "loops", "confidence_auc")}
     points = told["boundary"]
-    row |= {"flagged": points["flagged"], "boundary": points["true"]} | points["within_spacing"]
+    row |= {"flagged": points["flagged"], "boundary": points["true"]} | points["within_tolerance"]
     return row | {f"{key}_by_id": value for key, value in points["by_id"].items()}
 
 

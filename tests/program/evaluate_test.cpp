@@ -64,14 +64,14 @@ TEST_CASE("a made surface is evaluated against the truth beside it") {
   CHECK(report.at("false") == 0);
   CHECK(report.at("recall") == 1);
   CHECK(report.at("precision") == 1);
-  CHECK(report.at("boundary").at("within_spacing").at("f1") > 0.9);
+  CHECK(report.at("boundary").at("within_tolerance").at("f1") > 0.9);
   CHECK(report.at("spacing") == Approx(0.01).epsilon(0.1));
   CHECK(report.at("true_loops").size() == 4);
 
   const ProgramResult text = run_program({"evaluate", made.out, made.truth});
   CHECK(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("\n  found       4\n") && Contains("recall      1.000") &&
-                           Contains("1 spacing precision"));
+                           Contains("tolerance precision"));
 }
 
 TEST_CASE("the truth is itself found, from either kind of file, without boundary points") {

@@ -161,13 +161,13 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   }
   for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
   Evaluation evaluation;
-  evaluation.loops =
-      match_loops(result.loops, truth.loops, truth.positions,
-                  {.tolerance = rule.tolerance * truth.spacing, .min_vertices = rule.min_vertices});
+  const double tolerance = rule.tolerance * truth.spacing;
+  evaluation.loops = match_loops(result.loops, truth.loops, truth.positions,
+                                 {.tolerance = tolerance, .min_vertices = rule.min_vertices});
   if (result.boundary) {
     check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
     evaluation.boundary =
-        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, truth.spacing);
+        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, tolerance);
   }
   if (!result.confidence.empty()) {
     evaluation.confidence = area_under_roc(evaluation.loops.loops, result.confidence);

@@ -42,7 +42,7 @@ struct EvaluationRule {
 
 struct Evaluation {
   LoopAccuracy loops;
-  std::optional<PointAccuracy> boundary;  // radius: one spacing
+  std::optional<PointAccuracy> boundary;  // radius: the tolerance
   std::optional<double> confidence;       // area under the ROC curve
 };
 
