@@ -18,9 +18,18 @@ struct alignas(64) Seat {
 // Whether a point's star is looked for.
 enum class Standing : std::uint8_t {
   kRough,   // yes: it or a neighbour is a suspect
+  kBeside,  // likewise, but it has neighbours that wait: which of its balls are triangles is told later
   kInner,   // no: it agrees to every triangle
   kBorder,  // not yet: it has neighbours in other tiles
 };
+
+// Its star is found within its tile.
+inline bool has_star(Standing standing) {
+  return standing == Standing::kRough || standing == Standing::kBeside;
+}
+inline bool waits(Standing standing) {
+  return standing == Standing::kBeside || standing == Standing::kBorder;
+}
 
 // A suspect has more than this Pi. Some of the points of a rim may have less, but then they have neighbours
 // with more.
@@ -30,7 +39,22 @@ inline constexpr double kSuspicion = 0.2;
 template <class Name>
 struct StarCorner {
   Name point;
-  float room;  // the ball's radius in units of the radius that a triangle may have; at most 1: a triangle
+  // Of a star as it is found, the ball's radius in units of `Sampling::distance`; of a measured one, how much
+  // larger it is than a triangle may be, in units of `BallSize`: at most 0, and it is a triangle.
+  float room;
+};
+
+// How points lie around one.
+struct Sampling {
+  double distance = 0;  // mean of r over the point and its neighbours; 0: it has no star
+  double circle = 0;    // of the radii of its balls the median,
+  double scatter = 0;   // and how far the least is below
+};
+
+// What a ball may be to make a triangle.
+struct BallSize {
+  double radius;
+  double unit;  // of the room beyond
 };
 
 // What is known of a triangle of a star: all its corners that are not inner must have it in their stars.

@@ -188,11 +188,11 @@ class TileRecorder {
 
   void record_stars() {
     const std::vector<Standing> standings = find_standings(neighbourhoods_, evaluations_, is_border_);
-    record_border(standings);
-
     const std::unique_ptr<const Seat[]> seats = find_seats(standings);
-    const Stars<LocalIndex> stars =
+    const auto [stars, samplings] =
         find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
+    record_waiting(standings, samplings);
+
     const auto end = [&](LocalIndex p) { return standings[p] == Standing::kInner ? kInnerEnd : vertex(p); };
     std::vector<std::uint8_t> is_vertex = is_border_;
     std::vector<StoredCorner> open;
@@ -226,7 +226,7 @@ class TileRecorder {
 
   Seat seat(LocalIndex p) const { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); }
 
-  // Those of rough points and their neighbours; the others are left as they are.
+  // Those that the stars to be found here ask for; the others are left as they are.
   std::unique_ptr<const Seat[]> find_seats(std::span<const Standing> standings) const {
     std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
     std::vector<std::uint8_t> is_taken(points_.owned);
@@ -235,7 +235,7 @@ class TileRecorder {
       is_taken[p] = 1;
     };
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (standings[p] != Standing::kRough) continue;
+      if (!has_star(standings[p])) continue;
       take(p);
       for (const LocalIndex q : neighbourhoods_[p]) take(q);
     }
@@ -244,16 +244,19 @@ class TileRecorder {
 
   // For the stars that are settled later. Border points are told of when they are known.
   void tell_if_rough(LocalIndex p, std::span<const Standing> standings) {
-    if (points_.is_owned(p) && standings[p] == Standing::kRough) scan_.rough.insert(points_.rows[p]);
+    if (points_.is_owned(p) && has_star(standings[p])) scan_.rough.insert(points_.rows[p]);
   }
 
-  // What the stars of points with foreign neighbours need, here and in other tiles.
-  void record_border(std::span<const Standing> standings) {
-    std::vector<std::uint8_t> is_seen(points_.size());
+  // What the stars of waiting points need, here and in other tiles.
+  void record_waiting(std::span<const Standing> standings, std::span<const Sampling> samplings) {
+    std::vector<std::uint8_t> is_seen(points_.size()), is_seated(points_.size());
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!is_border_[p]) continue;
+      if (!waits(standings[p])) continue;
       is_seen[p] = 1;
       for (const LocalIndex q : neighbourhoods_[p]) is_seen[q] = 1;
+      if (standings[p] != Standing::kBorder) continue;
+      is_seated[p] = 1;
+      for (const LocalIndex q : neighbourhoods_[p]) is_seated[q] = 1;
     }
     std::vector<LocalIndex> seen;
     for (LocalIndex p = 0; p < points_.size(); ++p) {
@@ -262,28 +265,31 @@ class TileRecorder {
     std::sort(seen.begin(), seen.end(),
               [&](LocalIndex a, LocalIndex b) { return points_.rows[a] < points_.rows[b]; });
     std::vector<LocalIndex> place(points_.size());
-    std::vector<Vertex> in_sight;
+    std::vector<SeenPoint> in_sight;
     for (const LocalIndex p : seen) {
       place[p] = static_cast<LocalIndex>(in_sight.size());
-      in_sight.push_back(vertex(p));
+      in_sight.push_back({vertex(p), points_.is_owned(p) ? samplings[p] : Sampling{}});
       tell_if_rough(p, standings);
       if (points_.is_owned(p) && is_suspect(evaluations_[p])) scan_.suspects.insert(points_.rows[p]);
     }
 
-    std::vector<BorderPoint> border;
+    std::vector<WaitingPoint> waiting;
     std::vector<LocalIndex> neighbours;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!is_border_[p]) continue;
+      if (!waits(standings[p])) continue;
       const Eigen::Vector3d& normal = evaluations_[p].normal;
       const auto around = neighbourhoods_[p];
-      border.push_back(
-          {place[p], static_cast<std::uint32_t>(around.size()), {normal.x(), normal.y(), normal.z()}});
+      waiting.push_back({place[p],
+                         static_cast<std::uint32_t>(around.size()),
+                         standings[p],
+                         {normal.x(), normal.y(), normal.z()}});
       for (const LocalIndex q : around) neighbours.push_back(place[q]);
     }
-    scan_.border.append(tile_, border);
-    scan_.border_neighbours.append(tile_, neighbours);
-    scan_.border_sight.append(tile_, in_sight);
-    record_runs(scan_.seats, std::span(is_seen).first(points_.owned), [&](LocalIndex p) { return seat(p); });
+    scan_.waiting.append(tile_, waiting);
+    scan_.waiting_neighbours.append(tile_, neighbours);
+    scan_.waiting_sight.append(tile_, in_sight);
+    record_runs(scan_.seats, std::span(is_seated).first(points_.owned),
+                [&](LocalIndex p) { return seat(p); });
   }
 
   // Points that may end up on a loop.
@@ -407,9 +413,9 @@ std::uint64_t blocks(std::uint64_t ids, const Job& job) {
 EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
     : edges(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 12),
       crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 12),
-      border(job.file("border"), store.tiling().tiles.size(), job.memory.spills / 16),
-      border_neighbours(job.file("border-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
-      border_sight(job.file("border-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
+      waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
+      waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
+      waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       suspects(store.tiling().row_count()),
       rough(store.tiling().row_count()),

@@ -54,11 +54,19 @@ struct OrientationCrossing {
 
 // ---- stars
 
-// A point with neighbours in other tiles, whose star waits for their seats.
-struct BorderPoint {
+// A point with neighbours in other tiles, whose star waits for their seats, or a rough one beside such, whose
+// star waits to be measured.
+struct WaitingPoint {
   LocalIndex place;  // in sight
   std::uint32_t neighbours;
+  Standing standing;
   double normal[3];
+};
+
+// A point that a waiting one sees.
+struct SeenPoint {
+  Vertex vertex;
+  Sampling sampling;  // none of border points: theirs come later
 };
 
 // A corner of a star that is not settled within its tile, and the agreement on the triangle that begins
@@ -89,9 +97,9 @@ struct EvaluatedScan {
 
   Spill<TileEdge> edges;  // eligible, inside the tile
   Spill<StoredCrossing> crossings;
-  Spill<BorderPoint> border;            // in ascending owned index
-  Spill<LocalIndex> border_neighbours;  // of one after the other, in neighbour order: places in sight
-  Spill<Vertex> border_sight;           // these points and their neighbours, in ascending row
+  Spill<WaitingPoint> waiting;           // in ascending owned index
+  Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
+  Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   Column<Seat> seats;                   // by row, of border points and their neighbours
   RowSet suspects;                      // among these
   RowSet rough;                         // among these and corners of open stars

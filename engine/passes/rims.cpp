@@ -41,96 +41,171 @@ class Here {
 
 // ---- stars of points with neighbours in other tiles
 
-// Claims on their way, gathered by the tile that they are for.
+// Records on their way, gathered by the tile that they are for.
+template <class Record>
 class Letters {
  public:
-  explicit Letters(const Tiling& tiling) : tiling_(tiling) {}
-
-  // Tells the tiles of a star's foreign corners of the triangles that it has with them.
-  void tell(const Vertex& point, std::span<const StoredCorner> star, const Here& here) {
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star[i].room > 1) continue;
-      const Vertex &a = star[i].corner, &b = star[i + 1 < star.size() ? i + 1 : 0].corner;
-      if (!here.owns(a)) tell_one(point, a, b);
-      if (!here.owns(b)) tell_one(point, b, a);
-    }
-  }
-
-  void send(Spill<Claim>& claims) const {
-    for (const auto& [tile, letter] : letters_) claims.append(tile, letter);
+  void add(TileIndex tile, const Record& record) { letters_[tile].push_back(record); }
+  void send(Spill<Record>& post) const {
+    for (const auto& [tile, letter] : letters_) post.append(tile, letter);
   }
 
  private:
-  void tell_one(const Vertex& point, const Vertex& to, const Vertex& other) {
-    const TileIndex tile = tiling_.tile_of_row(to.row);
-    letters_[tile].push_back({Here(tiling_, tile).local(to), 0, point.row, other.row});
-  }
-
-  const Tiling& tiling_;
-  std::map<TileIndex, std::vector<Claim>> letters_;
+  std::map<TileIndex, std::vector<Record>> letters_;
 };
 
-// Points with neighbours in other tiles that are rough, now that all suspects are known.
-std::vector<StarQuery> rough_ones(std::span<const BorderPoint> border, std::span<const LocalIndex> neighbours,
-                                  std::span<const Vertex> in_sight, const RowSet& suspects) {
-  const auto is_suspect = [&](LocalIndex place) { return suspects.contains(in_sight[place].row); };
+// Of a border point; told to its own tile and to those of its neighbours.
+struct ToldSampling {
+  Row row;
+  Sampling sampling;
+};
+
+// The points of a tile that wait, and what they see.
+struct Waiting {
+  struct Point {
+    LocalIndex place;  // in sight
+    Standing standing;
+    Eigen::Vector3d normal;
+    std::span<const LocalIndex> neighbours;  // places in sight
+  };
+  std::vector<SeenPoint> in_sight;
+  std::vector<LocalIndex> all_neighbours;
+  std::vector<Point> points;
+
+  Waiting(const EvaluatedScan& scan, TileIndex t)
+      : in_sight(scan.waiting_sight.read(t)), all_neighbours(scan.waiting_neighbours.read(t)) {
+    std::span<const LocalIndex> left = all_neighbours;
+    for (const WaitingPoint& p : scan.waiting.read(t)) {
+      points.push_back(
+          {p.place, p.standing, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
+      left = left.subspan(p.neighbours);
+    }
+  }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  Row row(LocalIndex place) const { return in_sight[place].vertex.row; }
+};
+
+// Border points that are rough, now that all suspects are known.
+std::vector<StarQuery> rough_ones(const Waiting& waiting, const RowSet& suspects) {
+  const auto is_suspect = [&](LocalIndex place) { return suspects.contains(waiting.row(place)); };
   std::vector<StarQuery> rough;
-  for (const BorderPoint& p : border) {
-    const auto around = neighbours.first(p.neighbours);
-    neighbours = neighbours.subspan(p.neighbours);
-    if (is_suspect(p.place) || std::any_of(around.begin(), around.end(), is_suspect))
-      rough.push_back({p.place, {p.normal[0], p.normal[1], p.normal[2]}, around});
+  for (const Waiting::Point& p : waiting.points) {
+    if (p.standing != Standing::kBorder) continue;
+    if (is_suspect(p.place) || std::any_of(p.neighbours.begin(), p.neighbours.end(), is_suspect))
+      rough.push_back({p.place, p.normal, p.neighbours});
   }
   return rough;
 }
 
 // Of the points that ask and of their neighbours; none of the others.
-std::vector<Seat> read_seats(std::span<const StarQuery> queries, std::span<const Vertex> in_sight,
+std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& waiting,
                              const Column<Seat>& stored) {
-  std::vector<std::uint8_t> is_needed(in_sight.size());
+  std::vector<std::uint8_t> is_needed(waiting.in_sight.size());
   for (const StarQuery& query : queries) {
     is_needed[query.point] = 1;
     for (const LocalIndex q : query.neighbours) is_needed[q] = 1;
   }
-  std::vector<Seat> seats(in_sight.size());
+  std::vector<Seat> seats(waiting.in_sight.size());
   RunReader<Seat> reader(stored);
-  for (std::size_t i = 0; i < in_sight.size(); ++i) {
-    if (is_needed[i]) seats[i] = reader[value(in_sight[i].row)];
+  for (LocalIndex i = 0; i < seats.size(); ++i) {
+    if (is_needed[i]) seats[i] = reader[value(waiting.row(i))];
   }
   return seats;
 }
 
-void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<Claim>& claims) {
+void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post) {
   const Here here(tiling, t);
-  const std::vector<BorderPoint> border = scan.border.read(t);
-  const std::vector<LocalIndex> neighbours = scan.border_neighbours.read(t);
-  const std::vector<Vertex> in_sight = scan.border_sight.read(t);
-  scan.border.drop(t);
-  scan.border_neighbours.drop(t);
-  scan.border_sight.drop(t);
-  const std::vector<StarQuery> queries = rough_ones(border, neighbours, in_sight, scan.suspects);
-  const std::vector<Seat> seats = read_seats(queries, in_sight, scan.seats);
+  const Waiting waiting(scan, t);
+  const std::vector<StarQuery> queries = rough_ones(waiting, scan.suspects);
+  const std::vector<Seat> seats = read_seats(queries, waiting, scan.seats);
 
   StarFinder finder(seats);
   std::vector<StoredCorner> stars;
-  Letters letters(tiling);
+  Letters<ToldSampling> letters;
+  std::vector<TileIndex> tiles;
   for (std::size_t first = 0; first < queries.size(); first += kStarBundle) {
     const auto bundle = std::span(queries).subspan(first, std::min(kStarBundle, queries.size() - first));
     finder.find(bundle);
     for (std::size_t i = 0; i < bundle.size(); ++i) {
-      const Vertex& point = in_sight[bundle[i].point];
+      const Vertex& point = waiting.in_sight[bundle[i].point].vertex;
       scan.rough.insert(point.row);
-      const std::size_t begin = stars.size();
       for (std::size_t c = 0; c < finder[i].size(); ++c) {
-        const StarCorner<LocalIndex>& corner = finder[i][c];
-        stars.push_back({point.id, here.local(point),
-                         corner.room > 1 ? Agreement::kRefused : Agreement::kOpen,
-                         in_sight[bundle[i].neighbours[corner.point]], corner.room});
+        const LocalIndex corner = bundle[i].neighbours[finder[i][c].point];
+        stars.push_back({point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex,
+                         finder[i][c].room});
       }
-      letters.tell(point, std::span(stars).subspan(begin), here);
+      tiles.assign(1, t);
+      for (const LocalIndex q : bundle[i].neighbours) {
+        if (!here.owns(waiting.in_sight[q].vertex)) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
+      }
+      std::sort(tiles.begin(), tiles.end());
+      tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+      const Sampling sampling = sampling_of(finder[i]);
+      for (const TileIndex tile : tiles) letters.add(tile, {point.row, sampling});
     }
   }
   scan.stars.append(t, stars);
+  letters.send(post);
+}
+
+// Fills in what border points have told.
+void take_in(std::vector<ToldSampling> told, std::span<SeenPoint> in_sight) {
+  std::sort(told.begin(), told.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+  auto seen = in_sight.begin();
+  for (const ToldSampling& news : told) {
+    while (seen->vertex.row < news.row) ++seen;
+    seen->sampling = news.sampling;
+  }
+}
+
+// Measures the stars of points that waited, and tells the tiles of foreign corners of their triangles.
+void measure_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post,
+                   Spill<Claim>& claims) {
+  const Here here(tiling, t);
+  Waiting waiting(scan, t);
+  scan.waiting.drop(t);
+  scan.waiting_neighbours.drop(t);
+  scan.waiting_sight.drop(t);
+  take_in(post.read(t), waiting.in_sight);
+  post.drop(t);
+
+  std::vector<StoredCorner> corners = scan.stars.read(t);
+  scan.stars.drop(t);
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const auto& a, const auto& b) { return a.owned < b.owned; });
+  Letters<Claim> letters;
+  const auto tell = [&](const Vertex& point, const Vertex& to, const Vertex& other) {
+    if (here.owns(to)) return;
+    const TileIndex tile = tiling.tile_of_row(to.row);
+    letters.add(tile, {Here(tiling, tile).local(to), 0, point.row, other.row});
+  };
+  auto next = corners.begin();
+  std::vector<Sampling> around;
+  for (const Waiting::Point& p : waiting.points) {
+    const Vertex& point = waiting.in_sight[p.place].vertex;
+    while (next != corners.end() && next->owned < here.local(point)) ++next;
+    const auto begin = next;
+    while (next != corners.end() && next->owned == here.local(point)) ++next;
+    if (begin == next) continue;  // no star
+
+    const Sampling& own = waiting.in_sight[p.place].sampling;
+    around.assign(1, own);
+    for (const LocalIndex q : p.neighbours) around.push_back(waiting.in_sight[q].sampling);
+    const BallSize size = ball_size(own, around);
+    for (auto corner = begin; corner != next; ++corner) {
+      corner->room = room_beyond(size, own, corner->room);
+      if (corner->room > 0) {
+        corner->agreement = Agreement::kRefused;
+        continue;
+      }
+      const Vertex &a = corner->corner, &b = (corner + 1 == next ? begin : corner + 1)->corner;
+      tell(point, a, b);
+      tell(point, b, a);
+    }
+  }
+  scan.stars.append(t, corners);
   letters.send(claims);
 }
 
@@ -309,9 +384,13 @@ RawLoops trace_rims(EvaluatedScan& scan, const TileStore& store, Job& job) {
   Phase phase(job, "loops", 0);
   const Tiling& tiling = store.tiling();
   const std::size_t tiles = tiling.tiles.size();
-  Spill<Claim> claims(job.file("claims"), tiles, job.memory.spills / 4);
+  Spill<ToldSampling> samplings(job.file("samplings"), tiles, job.memory.spills / 8);
   job.crew.for_each(
-      tiles, [&](std::size_t t) { find_border_stars(scan, tiling, static_cast<TileIndex>(t), claims); });
+      tiles, [&](std::size_t t) { find_border_stars(scan, tiling, static_cast<TileIndex>(t), samplings); });
+  Spill<Claim> claims(job.file("claims"), tiles, job.memory.spills / 8);
+  job.crew.for_each(tiles, [&](std::size_t t) {
+    measure_stars(scan, tiling, static_cast<TileIndex>(t), samplings, claims);
+  });
   job.crew.for_each(tiles, [&](std::size_t t) { agree(scan, store, static_cast<TileIndex>(t), claims); });
 
   RawLoops loops(job.file("raw-loops"));

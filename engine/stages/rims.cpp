@@ -8,7 +8,7 @@ namespace lacuna {
 namespace {
 
 // Points without room that are added to every rim: shares of a few points say little.
-constexpr double kDoubt = 4;
+constexpr double kDoubt = 6;
 
 // Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
 class Follower {
@@ -118,7 +118,7 @@ double confidence(std::span<const RimPoint> rim) {
         std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
     return static_cast<double>(wide) / (static_cast<double>(rim.size()) + kDoubt);
   };
-  return std::min(share(1.25f), 1.25 * share(1.6f));
+  return std::min(share(1.5f), 1.25 * share(2.5f));
 }
 
 }  // namespace lacuna

@@ -14,11 +14,8 @@ namespace lacuna {
 inline constexpr std::size_t kStarBundle = 8;  // points side by side
 inline constexpr std::size_t kMostSeen = 64;   // neighbours of one of them
 
-// Radius of the ball over the mean of r over p and its neighbours: about 1.2 spacings.
-inline constexpr double kBall = 0.8;
-
-// Larger ones say no more: there is room.
-inline constexpr double kMostRoom = 8;
+// Larger balls say no more, in units of `Sampling::distance`.
+inline constexpr double kLargestBall = 8;
 
 struct StarBundle {
   const Seat* seats;  // of all points
@@ -33,6 +30,7 @@ struct BundledStars {
 
   StarCorner<LocalIndex> corners[kMostSeen][kStarBundle];  // by their numbers among the neighbours
   std::uint32_t sizes[kStarBundle];  // in doubt: corners are so near to a line that rounding decides
+  double distances[kStarBundle];     // `Sampling::distance`
 };
 
 using FindBundledStars = void(const StarBundle&, BundledStars&);
@@ -77,18 +75,18 @@ LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
           {t, sign + normal.y * normal.y * s, -normal.y}};
 }
 
-// Of a ball that rests on p and two neighbours, in units of `radius`. (x, y): where p sees one of them,
-// inverted; (dx, dy): from there to where it sees the other.
+// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one of
+// them, inverted; (dx, dy): from there to where it sees the other.
 template <class Real>
-LACUNA_INLINE auto room_at(Real x, Real y, Real dx, Real dy, Real radius) {
+LACUNA_INLINE auto ball_at(Real x, Real y, Real dx, Real dy, Real distance) {
   // Both without a unit. From here on in single precision, which is what is kept: roots and quotients take a
   // quarter of the time.
-  const Real unit = radius * radius;
+  const Real unit = distance * distance;
   const auto squared_length = single((dx * dx + dy * dy) * unit);
   const auto height = single((x * dy - y * dx) * (2.0 * unit));  // times the length
-  const auto room = root(squared_length) / height;
-  const auto most = decltype(room){} + static_cast<float>(kMostRoom);
-  return select(height > 0.0F, smaller(room, most), most);
+  const auto ball = root(squared_length) / height;
+  const auto largest = decltype(ball){} + static_cast<float>(kLargestBall);
+  return select(height > 0.0F, smaller(ball, largest), largest);
 }
 
 }  // namespace LACUNA_LANES

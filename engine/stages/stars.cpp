@@ -29,7 +29,7 @@ struct View {
 
 struct Views {
   std::vector<View> all;
-  double radius;  // of the ball
+  double distance;  // mean of r
 };
 
 Views look_around(std::span<const Seat> seats, const StarQuery& query) {
@@ -49,7 +49,7 @@ Views look_around(std::span<const Seat> seats, const StarQuery& query) {
     const View view{dot(d, frame.u) * inverse, dot(d, frame.v) * inverse, i};
     if (power > 0 && std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
   }
-  views.radius = kBall * sum / static_cast<double>(query.neighbours.size() + 1);
+  views.distance = sum / static_cast<double>(query.neighbours.size() + 1);
   return views;
 }
 
@@ -82,14 +82,14 @@ std::size_t ask(const Stars<LocalIndex>& stars, std::span<const Standing> standi
   std::size_t count = 0;
   for (LocalIndex p = first; p < last; ++p) {
     const std::uint32_t begin = stars.offsets[p], end = stars.offsets[p + 1];
-    if (begin == end) continue;
+    if (begin == end || standings[p] != Standing::kRough) continue;
     const StarCorner<LocalIndex>* a = &stars.corners[end - 1];
     bool is_told = asks_before(p, a->point);
     for (std::uint32_t i = begin; i < end; ++i) {
       const StarCorner<LocalIndex>* const b = &stars.corners[i];
       const bool is_told_by_b = asks_before(p, b->point);
       asked[count] = {static_cast<std::uint32_t>(a - stars.corners.data()), p, a->point, b->point};
-      count += !(is_told | is_told_by_b) & (a->room <= 1);
+      count += !(is_told | is_told_by_b) & (a->room <= 0);
       a = b;
       is_told = is_told_by_b;
     }
@@ -126,10 +126,11 @@ Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
           kWeights * scatter(id) * r * r};
 }
 
-std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> seats, const StarQuery& query) {
-  std::vector<StarCorner<LocalIndex>> star;
+CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& query) {
+  CarefulStar star;
   if (!query.normal.allFinite()) return star;
   Views views = look_around(seats, query);
+  star.distance = views.distance;
   if (views.all.size() < 3) return star;
   std::vector<View> hull = hull_of(std::move(views.all));
   if (hull.size() < 4) return star;
@@ -143,7 +144,7 @@ std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> se
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
     const double dx = next.x - x, dy = next.y - y;
-    star.push_back({hull[i].neighbour, room_at(x, y, dx, dy, views.radius)});
+    star.corners.push_back({hull[i].neighbour, ball_at(x, y, dx, dy, views.distance)});
     x += dx;  // rounded as in a bundle
     y += dy;
   }
@@ -166,59 +167,130 @@ void StarFinder::find(std::span<const StarQuery> queries) {
     const std::uint32_t size = bundled_.sizes[lane];
     if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
       careful_[lane] = find_star_carefully(seats_, queries[lane]);
-      stars_[lane] = {careful_[lane].data(), 1, careful_[lane].size()};
+      stars_[lane] = {careful_[lane].corners.data(), 1, careful_[lane].corners.size(), careful_[lane].distance};
     } else {
-      stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size};
+      stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size, bundled_.distances[lane]};
     }
   }
+}
+
+Sampling sampling_of(const FoundStar& star) {
+  if (star.size() == 0) return {};
+  std::array<float, kMostSeen> few;
+  std::vector<float> many;
+  if (star.size() > few.size()) many.resize(star.size());
+  float* const balls = many.empty() ? few.data() : many.data();
+  for (std::size_t i = 0; i < star.size(); ++i) balls[i] = star[i].room;
+  std::sort(balls, balls + star.size());
+  const double median = balls[star.size() / 2];
+  return {star.distance(), median * star.distance(), (median - balls[0]) * star.distance()};
+}
+
+BallSize ball_size(const Sampling& own, std::span<const Sampling> around) {
+  std::vector<double> circles, scatters;
+  for (const Sampling& sampling : around) {
+    if (sampling.distance == 0) continue;
+    circles.push_back(sampling.circle);
+    scatters.push_back(sampling.scatter);
+  }
+  const auto median = [&](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return std::min(*middle, kMostCircle * own.distance);
+  };
+  const double circle = median(circles), scatter = median(scatters);
+  return {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter};
+}
+
+float room_beyond(const BallSize& size, const Sampling& own, float ball) {
+  return static_cast<float>((ball * own.distance - size.radius) / size.unit);
 }
 
 std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                                      std::span<const std::uint8_t> is_border) {
   std::vector<Standing> standings(is_border.size(), Standing::kInner);
-  const auto add = [&](LocalIndex p) {
-    if (p < standings.size()) standings[p] = is_border[p] ? Standing::kBorder : Standing::kRough;
+  const auto roughen = [&](LocalIndex p) {
+    if (p < standings.size() && standings[p] == Standing::kInner) standings[p] = Standing::kRough;
   };
   for (LocalIndex p = 0; p < standings.size(); ++p) {
     if (is_border[p]) standings[p] = Standing::kBorder;
     if (!is_suspect(evaluations[p])) continue;
-    add(p);
-    for (const LocalIndex q : neighbourhoods[p]) add(q);
+    roughen(p);
+    for (const LocalIndex q : neighbourhoods[p]) roughen(q);
+  }
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
+    if (!is_border[p]) continue;
+    standings[p] = Standing::kBorder;
+    for (const LocalIndex q : neighbourhoods[p]) {
+      if (q < standings.size() && standings[q] == Standing::kRough) standings[q] = Standing::kBeside;
+    }
   }
   return standings;
 }
 
-Stars<LocalIndex> find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                             std::span<const Seat> seats, std::span<const Standing> standings) {
-  std::vector<LocalIndex> rough;
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (standings[p] == Standing::kRough) rough.push_back(p);
-  }
-  Stars<LocalIndex> stars;
-  stars.offsets.reserve(standings.size() + 1);
+namespace {
+
+// The stars of the points listed, with balls instead of room.
+void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluations, std::span<const Seat> seats,
+               std::span<const LocalIndex> points, TileStars& found) {
+  Stars<LocalIndex>& stars = found.stars;
   StarFinder finder(seats);
   std::vector<StarQuery> queries;
-  for (std::size_t first = 0; first < rough.size(); first += kStarBundle) {
-    const auto bundle = std::span(rough).subspan(first, std::min(kStarBundle, rough.size() - first));
+  for (std::size_t first = 0; first < points.size(); first += kStarBundle) {
+    const auto bundle = points.subspan(first, std::min(kStarBundle, points.size() - first));
     queries.clear();
     for (const LocalIndex p : bundle) queries.push_back({p, evaluations[p].normal, neighbourhoods[p]});
     finder.find(queries);
     std::uint32_t end_of_star = stars.offsets.back();
     for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
     if (stars.corners.size() < end_of_star + kFewCorners)
-      stars.corners.resize(2 * end_of_star + 8 * rough.size());
+      stars.corners.resize(2 * end_of_star + 8 * points.size());
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // inner ones before it have none
+      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // those before it have none
       StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
       for (std::size_t c = 0; c < finder[i].size(); ++c)
         *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
       stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
+      found.samplings[bundle[i]] = sampling_of(finder[i]);
     }
   }
-  stars.offsets.resize(standings.size() + 1, stars.offsets.back());
-  agree(stars, standings);
-  stars.corners.resize(stars.offsets.back());
-  return stars;
+  stars.offsets.resize(found.samplings.size() + 1, stars.offsets.back());
+}
+
+// Balls to room.
+void measure(const Rows& neighbourhoods, LocalIndex point, TileStars& found, std::vector<Sampling>& around) {
+  const Sampling& own = found.samplings[point];
+  around.assign(1, own);
+  for (const LocalIndex q : neighbourhoods[point]) around.push_back(found.samplings[q]);
+  const BallSize size = ball_size(own, around);
+  for (std::uint32_t i = found.stars.offsets[point]; i < found.stars.offsets[point + 1]; ++i)
+    found.stars.corners[i].room = room_beyond(size, own, found.stars.corners[i].room);
+}
+
+}  // namespace
+
+TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                     std::span<const Seat> seats, std::span<const Standing> standings) {
+  std::vector<LocalIndex> points;
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
+    if (has_star(standings[p])) points.push_back(p);
+  }
+  TileStars found;
+  found.samplings.resize(standings.size());
+  find_each(neighbourhoods, evaluations, seats, points, found);
+  std::vector<Sampling> around;
+  for (const LocalIndex p : points) {
+    if (standings[p] == Standing::kRough && found.samplings[p].distance > 0)
+      measure(neighbourhoods, p, found, around);
+  }
+  agree(found.stars, standings);
+  for (const LocalIndex p : points) {
+    if (standings[p] != Standing::kBeside) continue;
+    std::fill(found.stars.agreements.begin() + found.stars.offsets[p],
+              found.stars.agreements.begin() + found.stars.offsets[p + 1], Agreement::kOpen);
+  }
+  found.stars.corners.resize(found.stars.offsets.back());
+  return found;
 }
 
 }  // namespace lacuna

@@ -39,21 +39,27 @@ struct StarQuery {
 // Corners in counterclockwise order about the normal, from the one that is seen farthest when inverted, by
 // their number among the neighbours; none where the normal is undefined or fewer than three directions are
 // seen. Deterministic: the order of the neighbours decides between points in one place.
-std::vector<StarCorner<LocalIndex>> find_star_carefully(std::span<const Seat> seats, const StarQuery& query);
+struct CarefulStar {
+  std::vector<StarCorner<LocalIndex>> corners;
+  double distance = 0;  // `Sampling::distance`
+};
+CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& query);
 
 // Corners as above.
 class FoundStar {
  public:
   FoundStar() = default;
-  FoundStar(const StarCorner<LocalIndex>* first, std::size_t stride, std::size_t size)
-      : first_(first), stride_(stride), size_(size) {}
+  FoundStar(const StarCorner<LocalIndex>* first, std::size_t stride, std::size_t size, double distance)
+      : first_(first), stride_(stride), size_(size), distance_(distance) {}
 
   std::size_t size() const { return size_; }
+  double distance() const { return distance_; }  // `Sampling::distance`
   const StarCorner<LocalIndex>& operator[](std::size_t i) const { return first_[i * stride_]; }
 
  private:
   const StarCorner<LocalIndex>* first_ = nullptr;
   std::size_t stride_ = 1, size_ = 0;
+  double distance_ = 0;
 };
 
 // Finds the same stars, those of a bundle side by side: keeps its memory.
@@ -68,9 +74,18 @@ class StarFinder {
  private:
   std::span<const Seat> seats_;
   BundledStars bundled_;
-  std::array<std::vector<StarCorner<LocalIndex>>, kStarBundle> careful_;
+  std::array<CarefulStar, kStarBundle> careful_;
   std::array<FoundStar, kStarBundle> stars_;
 };
+
+// What a star as it is found tells of how points lie.
+Sampling sampling_of(const FoundStar& star);
+
+// `around`: those of the point itself and of its neighbours.
+BallSize ball_size(const Sampling& own, std::span<const Sampling> around);
+
+// The room of a ball in units of `own.distance`.
+float room_beyond(const BallSize& size, const Sampling& own, float ball);
 
 // Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.
 template <class Name>
@@ -85,6 +100,11 @@ struct Stars {
   }
 };
 
+// A triangle's ball may have the radius 1.45 M + 0.8 S, with M the median of the circles around a point and S
+// that of their scatter; the unit of room is S + 0.05 M. Of open rims half the balls say nothing: M and S are
+// at most half of the mean distance.
+inline constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.05, kMostCircle = 0.5;
+
 inline bool is_suspect(const Evaluation& evaluation) {
   return evaluation.probability > kSuspicion;
 }
@@ -93,10 +113,14 @@ inline bool is_suspect(const Evaluation& evaluation) {
 std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                                      std::span<const std::uint8_t> is_border);
 
-// Stars of the rough ones among a tile's owned points, with an agreement on each triangle: open where a
-// corner is a border point. `seats`: at least of rough points and their neighbours.
-Stars<LocalIndex> find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                             std::span<const Seat> seats, std::span<const Standing> standings);
+// Stars of a tile's owned points: those of rough ones measured, with an agreement on each triangle, open where
+// a corner waits; those beside the border as found, and open. `seats`: at least of these and their neighbours.
+struct TileStars {
+  Stars<LocalIndex> stars;
+  std::vector<Sampling> samplings;  // by point
+};
+TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+                     std::span<const Seat> seats, std::span<const Standing> standings);
 
 // The star has the triangle of its point with a and b.
 template <class Name>
@@ -104,7 +128,7 @@ bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {
   for (std::size_t i = 0; i < star.size(); ++i) {
     const std::size_t next = i + 1 < star.size() ? i + 1 : 0;
     if ((star[i].point == a && star[next].point == b) || (star[i].point == b && star[next].point == a)) {
-      if (star[i].room <= 1) return true;
+      if (star[i].room <= 0) return true;
     }
   }
   return false;

@@ -21,7 +21,7 @@ struct Views {
     Lanes x, y;
   } at[kMostSeen];
   std::size_t rows;  // an even number
-  Lanes radius;      // of the ball
+  Lanes distance;    // mean of r
 };
 
 // Points whose neighbours are read side by side.
@@ -65,9 +65,9 @@ LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
   return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
 }
 
-// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and the radii of the
-// points' balls.
-void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets, double* radii) {
+// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and means of r.
+void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets,
+            double* distances) {
   LoadedSeat at[kAbreast];
   Four sums[kAbreast];
   std::size_t common = rows;
@@ -102,7 +102,7 @@ void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offse
     store_transposed(around, offsets[row], first);
   }
   for (std::size_t i = 0; i < kAbreast; ++i)
-    radii[first + i] = kBall * sums[i][3] / static_cast<double>(bundle.counts[first + i] + 1);
+    distances[first + i] = sums[i][3] / static_cast<double>(bundle.counts[first + i] + 1);
 }
 
 void look_around(const StarBundle& bundle, const Offsets* offsets, std::size_t first, Views& views) {
@@ -184,10 +184,10 @@ LACUNA_INLINE Edge next_edge(const Views& views, const Corner& at, const Edge& b
   return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
 }
 
-// Eight bytes each: a corner's row, and the room beyond it.
-LACUNA_INLINE LaneBits pack(LaneBits row, SingleLanes room) {
+// Eight bytes each: a corner's row, and the ball beyond it.
+LACUNA_INLINE LaneBits pack(LaneBits row, SingleLanes ball) {
   using SingleBits = std::uint32_t __attribute__((vector_size(sizeof(SingleLanes))));
-  return __builtin_convertvector(reinterpret_cast<SingleBits>(room), LaneBits) << 32 | row;
+  return __builtin_convertvector(reinterpret_cast<SingleBits>(ball), LaneBits) << 32 | row;
 }
 
 // Gift wrapping: the convex hull from corner to corner, counterclockwise.
@@ -218,7 +218,7 @@ void find_part(const Views& views, std::size_t first, BundledStars& stars) {
       in_doubt |= is_open;
       break;
     }
-    const LaneBits corners = pack(at.row, room_at(at.x, at.y, next.x, next.y, views.radius));
+    const LaneBits corners = pack(at.row, ball_at(at.x, at.y, next.x, next.y, views.distance));
     __builtin_memcpy(&stars.corners[step][first], &corners, sizeof corners);
     margin = scale * (magnitude(next.x) + magnitude(next.y));
     back = {-next.x, -next.y};
@@ -274,7 +274,7 @@ LACUNA_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex poi
   } else {
     place = find_in_large(star, size, a, b);
   }
-  return place != kNone && star[place].room <= 1 ? begin + place : kNone;
+  return place != kNone && star[place].room <= 0 ? begin + place : kNone;
 }
 
 }  // namespace
@@ -285,12 +285,11 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
   Views views;
   views.rows = (most + 1) / 2 * 2;
   Offsets offsets[kMostSeen];
-  alignas(64) double radii[kStarBundle];
   for (std::size_t first = 0; first < kStarBundle; first += kAbreast)
-    gather(bundle, first, views.rows, offsets, radii);
+    gather(bundle, first, views.rows, offsets, stars.distances);
   for (std::size_t first = 0; first < kStarBundle; first += kLanes) {
     look_around(bundle, offsets, first, views);
-    views.radius = load(radii + first);
+    views.distance = load(stars.distances + first);
     find_part(views, first, stars);
   }
 }
@@ -302,7 +301,7 @@ void agree_on_triangles(const StarTable& stars, const AskedTriangle* asked, std:
     std::uint32_t in_a = corner, in_b = corner;
     if (of_a == Standing::kRough && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
     if (of_b == Standing::kRough && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-    const bool is_open = of_a == Standing::kBorder || of_b == Standing::kBorder;
+    const bool is_open = waits(of_a) || waits(of_b);
     const Agreement agreement = is_open ? Agreement::kOpen : Agreement::kAgreed;
     stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
   }
