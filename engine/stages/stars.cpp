@@ -49,7 +49,7 @@ Views look_around(std::span<const Seat> seats, const StarQuery& query) {
     const View view{dot(d, frame.u) * inverse, dot(d, frame.v) * inverse, i};
     if (power > 0 && std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
   }
-  views.distance = sum / static_cast<double>(query.neighbours.size() + 1);
+  views.distance = static_cast<double>(query.neighbours.size() + 1) / sum;
   return views;
 }
 
@@ -122,7 +122,7 @@ Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
     shift = evaluation.normal * evaluation.normal.dot(evaluation.mean_offset);
   return {{position.x(), position.y(), position.z()},
           {shift.x(), shift.y(), shift.z()},
-          r,
+          1 / r,
           kWeights * scatter(id) * r * r};
 }
 

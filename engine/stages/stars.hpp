@@ -103,7 +103,7 @@ struct Stars {
 // A triangle's ball may have the radius 1.45 M + 0.8 S, with M the median of the circles around a point and S
 // that of their scatter; the unit of room is S + 0.05 M. Of open rims half the balls say nothing: M and S are
 // at most half of the mean distance.
-inline constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.05, kMostCircle = 0.5;
+inline constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.1, kMostCircle = 0.5;
 
 inline bool is_suspect(const Evaluation& evaluation) {
   return evaluation.probability > kSuspicion;

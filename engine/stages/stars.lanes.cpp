@@ -102,7 +102,7 @@ void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offse
     store_transposed(around, offsets[row], first);
   }
   for (std::size_t i = 0; i < kAbreast; ++i)
-    distances[first + i] = sums[i][3] / static_cast<double>(bundle.counts[first + i] + 1);
+    distances[first + i] = static_cast<double>(bundle.counts[first + i] + 1) / sums[i][3];
 }
 
 void look_around(const StarBundle& bundle, const Offsets* offsets, std::size_t first, Views& views) {
