@@ -10,9 +10,9 @@ namespace lacuna {
 // Where a point stands on the surface: what the stars of its neighbours need to know of it.
 struct alignas(64) Seat {
   double position[3];
-  double shift[3];       // to the plane through its neighbours: takes noise out
-  double mean_distance;  // r
-  double weight;         // decides ties among points on one circle, alike for all of them
+  double shift[3];   // to the plane through its neighbours: takes noise out
+  double closeness;  // 1 / r
+  double weight;     // decides ties among points on one circle, alike for all of them
 };
 
 // Whether a point's star is looked for.
@@ -46,7 +46,8 @@ struct StarCorner {
 
 // How points lie around one.
 struct Sampling {
-  double distance = 0;  // mean of r over the point and its neighbours; 0: it has no star
+  double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from
+                        // each other, say little); 0: it has no star
   double circle = 0;    // of the radii of its balls the median,
   double scatter = 0;   // and how far the least is below
 };

@@ -100,10 +100,10 @@ struct EvaluatedScan {
   Spill<WaitingPoint> waiting;           // in ascending owned index
   Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
-  Column<Seat> seats;                   // by row, of border points and their neighbours
-  RowSet suspects;                      // among these
-  RowSet rough;                         // among these and corners of open stars
-  Spill<StoredCorner> stars;            // open ones, each in one piece
+  Column<Seat> seats;                    // by row, of border points and their neighbours
+  RowSet suspects;                       // among these
+  RowSet rough;                          // among these and corners of open stars
+  Spill<StoredCorner> stars;             // open ones, each in one piece
   Spill<Gap<Vertex>> gaps;
   Spill<StoredVertex> vertices;        // in ascending owned index
   Spill<StoredCandidate> candidates;   // in ascending row

@@ -1,5 +1,6 @@
 #include "engine/passes/rims.hpp"
 
+#include "engine/stages/ball_sizes.hpp"
 #include "engine/stages/rims.hpp"
 #include "engine/stages/stars.hpp"
 
@@ -150,59 +151,92 @@ void find_border_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, S
   letters.send(post);
 }
 
-// Fills in what border points have told.
-void take_in(std::vector<ToldSampling> told, std::span<SeenPoint> in_sight) {
+// Of all points in sight: what their own tile knew, and what border points have told since.
+std::vector<Sampling> all_samplings(std::span<const SeenPoint> in_sight, std::vector<ToldSampling> told) {
+  std::vector<Sampling> samplings;
+  for (const SeenPoint& p : in_sight) samplings.push_back(p.sampling);
   std::sort(told.begin(), told.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-  auto seen = in_sight.begin();
+  std::size_t i = 0;
   for (const ToldSampling& news : told) {
-    while (seen->vertex.row < news.row) ++seen;
-    seen->sampling = news.sampling;
+    while (in_sight[i].vertex.row < news.row) ++i;
+    samplings[i] = news.sampling;
   }
+  return samplings;
 }
 
-// Measures the stars of points that waited, and tells the tiles of foreign corners of their triangles.
-void measure_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post,
-                   Spill<Claim>& claims) {
-  const Here here(tiling, t);
-  Waiting waiting(scan, t);
-  scan.waiting.drop(t);
-  scan.waiting_neighbours.drop(t);
-  scan.waiting_sight.drop(t);
-  take_in(post.read(t), waiting.in_sight);
-  post.drop(t);
-
-  std::vector<StoredCorner> corners = scan.stars.read(t);
-  scan.stars.drop(t);
+// Corners by star.
+void sort_by_star(std::vector<StoredCorner>& corners) {
   std::stable_sort(corners.begin(), corners.end(),
                    [](const auto& a, const auto& b) { return a.owned < b.owned; });
-  Letters<Claim> letters;
-  const auto tell = [&](const Vertex& point, const Vertex& to, const Vertex& other) {
+}
+
+// A star that waited to be measured.
+struct WaitingStar {
+  Surroundings seen;  // by their places in sight
+  std::span<StoredCorner> corners;
+};
+
+// The stars of waiting points. `corners`: of these and of other points, by star.
+std::vector<WaitingStar> waiting_stars(const Waiting& waiting, const Here& here,
+                                       std::span<StoredCorner> corners) {
+  std::vector<WaitingStar> stars;
+  for (const Waiting::Point& p : waiting.points) {
+    const LocalIndex owned = here.local(waiting.in_sight[p.place].vertex);
+    const auto is_before = [&](const StoredCorner& c) { return c.owned < owned; };
+    corners = corners.subspan(static_cast<std::size_t>(
+        std::find_if_not(corners.begin(), corners.end(), is_before) - corners.begin()));
+    std::size_t count = 0;
+    while (count < corners.size() && corners[count].owned == owned) ++count;
+    if (count > 0) stars.push_back({{p.place, p.neighbours}, corners.first(count)});
+  }
+  return stars;
+}
+
+// Tells the tiles of a star's foreign corners of the triangles that it has with them.
+void tell_triangles(const Vertex& point, std::span<const StoredCorner> star, const Tiling& tiling,
+                    const Here& here, Letters<Claim>& letters) {
+  const auto tell = [&](const Vertex& to, const Vertex& other) {
     if (here.owns(to)) return;
     const TileIndex tile = tiling.tile_of_row(to.row);
     letters.add(tile, {Here(tiling, tile).local(to), 0, point.row, other.row});
   };
-  auto next = corners.begin();
-  std::vector<Sampling> around;
-  for (const Waiting::Point& p : waiting.points) {
-    const Vertex& point = waiting.in_sight[p.place].vertex;
-    while (next != corners.end() && next->owned < here.local(point)) ++next;
-    const auto begin = next;
-    while (next != corners.end() && next->owned == here.local(point)) ++next;
-    if (begin == next) continue;  // no star
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    if (star[i].room > 0) continue;
+    const Vertex &a = star[i].corner, &b = star[i + 1 < star.size() ? i + 1 : 0].corner;
+    tell(a, b);
+    tell(b, a);
+  }
+}
 
-    const Sampling& own = waiting.in_sight[p.place].sampling;
-    around.assign(1, own);
-    for (const LocalIndex q : p.neighbours) around.push_back(waiting.in_sight[q].sampling);
-    const BallSize size = ball_size(own, around);
-    for (auto corner = begin; corner != next; ++corner) {
-      corner->room = room_beyond(size, own, corner->room);
-      if (corner->room > 0) {
-        corner->agreement = Agreement::kRefused;
-        continue;
+void measure_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post,
+                   Spill<Claim>& claims) {
+  const Here here(tiling, t);
+  const Waiting waiting(scan, t);
+  scan.waiting.drop(t);
+  scan.waiting_neighbours.drop(t);
+  scan.waiting_sight.drop(t);
+  const std::vector<Sampling> samplings = all_samplings(waiting.in_sight, post.read(t));
+  post.drop(t);
+  std::vector<StoredCorner> corners = scan.stars.read(t);
+  scan.stars.drop(t);
+  sort_by_star(corners);
+  const std::vector<WaitingStar> stars = waiting_stars(waiting, here, corners);
+
+  BallSizer sizer(samplings);
+  std::vector<Surroundings> surroundings;
+  Letters<Claim> letters;
+  for (std::size_t first = 0; first < stars.size(); first += kQueries) {
+    const auto bundle = std::span(stars).subspan(first, std::min(kQueries, stars.size() - first));
+    surroundings.clear();
+    for (const WaitingStar& star : bundle) surroundings.push_back(star.seen);
+    sizer.find(surroundings);
+    for (std::size_t i = 0; i < bundle.size(); ++i) {
+      const auto [point, neighbours] = bundle[i].seen;
+      for (StoredCorner& corner : bundle[i].corners) {
+        corner.room = room_beyond(sizer[i], samplings[point], corner.room);
+        if (corner.room > 0) corner.agreement = Agreement::kRefused;
       }
-      const Vertex &a = corner->corner, &b = (corner + 1 == next ? begin : corner + 1)->corner;
-      tell(point, a, b);
-      tell(point, b, a);
+      tell_triangles(waiting.in_sight[point].vertex, bundle[i].corners, tiling, here, letters);
     }
   }
   scan.stars.append(t, corners);
@@ -215,8 +249,7 @@ void measure_stars(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, Spill
 class OpenStars {
  public:
   OpenStars(const Here& here, std::vector<StoredCorner> corners) {
-    std::stable_sort(corners.begin(), corners.end(),
-                     [](const auto& a, const auto& b) { return a.owned < b.owned; });
+    sort_by_star(corners);
     for (const StoredCorner& c : corners) {
       if (points_.empty() || points_.back() != c.owned) {
         points_.push_back(c.owned);

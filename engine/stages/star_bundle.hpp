@@ -75,8 +75,8 @@ LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
           {t, sign + normal.y * normal.y * s, -normal.y}};
 }
 
-// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one of
-// them, inverted; (dx, dy): from there to where it sees the other.
+// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one
+// of them, inverted; (dx, dy): from there to where it sees the other.
 template <class Real>
 LACUNA_INLINE auto ball_at(Real x, Real y, Real dx, Real dy, Real distance) {
   // Both without a unit. From here on in single precision, which is what is kept: roots and quotients take a

@@ -1,5 +1,7 @@
 #include "engine/stages/stars.hpp"
 
+#include "engine/stages/ball_sizes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,17 +31,17 @@ struct View {
 
 struct Views {
   std::vector<View> all;
-  double distance;  // mean of r
+  double distance;  // `Sampling::distance`
 };
 
 Views look_around(std::span<const Seat> seats, const StarQuery& query) {
   const Seat& at = seats[query.point];
   const Frame<double> frame = frame_of(Vector<double>{query.normal.x(), query.normal.y(), query.normal.z()});
   Views views;
-  double sum = at.mean_distance;
+  double sum = at.closeness;
   for (LocalIndex i = 0; i < query.neighbours.size(); ++i) {
     const Seat& q = seats[query.neighbours[i]];
-    sum += q.mean_distance;
+    sum += q.closeness;
     const Vector<double> d =
         (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
     // The weights make it a ball orthogonal to small balls around the points: any two views of four points
@@ -70,6 +72,50 @@ std::vector<View> hull_of(std::vector<View> views) {
   const std::size_t lower = hull.size();
   for (std::size_t i = views.size(); i-- > 1;) add(views[i - 1], lower);
   return hull;
+}
+
+// The stars of the points listed, with balls instead of room.
+void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
+               std::span<const Seat> seats, std::span<const LocalIndex> points, TileStars& found) {
+  Stars<LocalIndex>& stars = found.stars;
+  StarFinder finder(seats);
+  std::vector<StarQuery> queries;
+  for (std::size_t first = 0; first < points.size(); first += kStarBundle) {
+    const auto bundle = points.subspan(first, std::min(kStarBundle, points.size() - first));
+    queries.clear();
+    for (const LocalIndex p : bundle) queries.push_back({p, evaluations[p].normal, neighbourhoods[p]});
+    finder.find(queries);
+    std::uint32_t end_of_star = stars.offsets.back();
+    for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
+    if (stars.corners.size() < end_of_star + kFewCorners)
+      stars.corners.resize(2 * end_of_star + 8 * points.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // those before it have none
+      StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
+      for (std::size_t c = 0; c < finder[i].size(); ++c)
+        *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
+      stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
+      found.samplings[bundle[i]] = sampling_of(finder[i]);
+    }
+  }
+  stars.offsets.resize(found.samplings.size() + 1, stars.offsets.back());
+}
+
+// Measures the stars of the points listed.
+void measure_each(const Rows& neighbourhoods, std::span<const LocalIndex> points, TileStars& found) {
+  BallSizer sizer(found.samplings);
+  std::vector<Surroundings> surroundings;
+  for (std::size_t first = 0; first < points.size(); first += kQueries) {
+    const auto bundle = points.subspan(first, std::min(kQueries, points.size() - first));
+    surroundings.clear();
+    for (const LocalIndex p : bundle) surroundings.push_back({p, neighbourhoods[p]});
+    sizer.find(surroundings);
+    for (std::size_t i = 0; i < bundle.size(); ++i) {
+      Stars<LocalIndex>& stars = found.stars;
+      for (std::uint32_t c = stars.offsets[bundle[i]]; c < stars.offsets[bundle[i] + 1]; ++c)
+        stars.corners[c].room = room_beyond(sizer[i], found.samplings[bundle[i]], stars.corners[c].room);
+    }
+  }
 }
 
 // The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
@@ -111,6 +157,12 @@ void agree(Stars<LocalIndex>& stars, std::span<const Standing> standings) {
     const std::size_t count = ask(stars, standings, first, last, asked.data());
     fastest::agree_on_triangles(table, asked.data(), count);
   }
+  for (LocalIndex p = 0; p < points; ++p) {
+    if (standings[p] != Standing::kBeside) continue;
+    std::fill(stars.agreements.begin() + stars.offsets[p], stars.agreements.begin() + stars.offsets[p + 1],
+              Agreement::kOpen);
+  }
+  stars.corners.resize(stars.offsets.back());
 }
 
 }  // namespace
@@ -167,43 +219,12 @@ void StarFinder::find(std::span<const StarQuery> queries) {
     const std::uint32_t size = bundled_.sizes[lane];
     if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
       careful_[lane] = find_star_carefully(seats_, queries[lane]);
-      stars_[lane] = {careful_[lane].corners.data(), 1, careful_[lane].corners.size(), careful_[lane].distance};
+      stars_[lane] = {careful_[lane].corners.data(), 1, careful_[lane].corners.size(),
+                      careful_[lane].distance};
     } else {
       stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size, bundled_.distances[lane]};
     }
   }
-}
-
-Sampling sampling_of(const FoundStar& star) {
-  if (star.size() == 0) return {};
-  std::array<float, kMostSeen> few;
-  std::vector<float> many;
-  if (star.size() > few.size()) many.resize(star.size());
-  float* const balls = many.empty() ? few.data() : many.data();
-  for (std::size_t i = 0; i < star.size(); ++i) balls[i] = star[i].room;
-  std::sort(balls, balls + star.size());
-  const double median = balls[star.size() / 2];
-  return {star.distance(), median * star.distance(), (median - balls[0]) * star.distance()};
-}
-
-BallSize ball_size(const Sampling& own, std::span<const Sampling> around) {
-  std::vector<double> circles, scatters;
-  for (const Sampling& sampling : around) {
-    if (sampling.distance == 0) continue;
-    circles.push_back(sampling.circle);
-    scatters.push_back(sampling.scatter);
-  }
-  const auto median = [&](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return std::min(*middle, kMostCircle * own.distance);
-  };
-  const double circle = median(circles), scatter = median(scatters);
-  return {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter};
-}
-
-float room_beyond(const BallSize& size, const Sampling& own, float ball) {
-  return static_cast<float>((ball * own.distance - size.radius) / size.unit);
 }
 
 std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
@@ -228,68 +249,18 @@ std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const
   return standings;
 }
 
-namespace {
-
-// The stars of the points listed, with balls instead of room.
-void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluations, std::span<const Seat> seats,
-               std::span<const LocalIndex> points, TileStars& found) {
-  Stars<LocalIndex>& stars = found.stars;
-  StarFinder finder(seats);
-  std::vector<StarQuery> queries;
-  for (std::size_t first = 0; first < points.size(); first += kStarBundle) {
-    const auto bundle = points.subspan(first, std::min(kStarBundle, points.size() - first));
-    queries.clear();
-    for (const LocalIndex p : bundle) queries.push_back({p, evaluations[p].normal, neighbourhoods[p]});
-    finder.find(queries);
-    std::uint32_t end_of_star = stars.offsets.back();
-    for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
-    if (stars.corners.size() < end_of_star + kFewCorners)
-      stars.corners.resize(2 * end_of_star + 8 * points.size());
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // those before it have none
-      StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
-      for (std::size_t c = 0; c < finder[i].size(); ++c)
-        *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
-      stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
-      found.samplings[bundle[i]] = sampling_of(finder[i]);
-    }
-  }
-  stars.offsets.resize(found.samplings.size() + 1, stars.offsets.back());
-}
-
-// Balls to room.
-void measure(const Rows& neighbourhoods, LocalIndex point, TileStars& found, std::vector<Sampling>& around) {
-  const Sampling& own = found.samplings[point];
-  around.assign(1, own);
-  for (const LocalIndex q : neighbourhoods[point]) around.push_back(found.samplings[q]);
-  const BallSize size = ball_size(own, around);
-  for (std::uint32_t i = found.stars.offsets[point]; i < found.stars.offsets[point + 1]; ++i)
-    found.stars.corners[i].room = room_beyond(size, own, found.stars.corners[i].room);
-}
-
-}  // namespace
-
 TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                      std::span<const Seat> seats, std::span<const Standing> standings) {
-  std::vector<LocalIndex> points;
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (has_star(standings[p])) points.push_back(p);
-  }
+  std::vector<LocalIndex> points, measurable;
   TileStars found;
   found.samplings.resize(standings.size());
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
+    if (has_star(standings[p])) points.push_back(p);
+    if (standings[p] == Standing::kRough) measurable.push_back(p);
+  }
   find_each(neighbourhoods, evaluations, seats, points, found);
-  std::vector<Sampling> around;
-  for (const LocalIndex p : points) {
-    if (standings[p] == Standing::kRough && found.samplings[p].distance > 0)
-      measure(neighbourhoods, p, found, around);
-  }
+  measure_each(neighbourhoods, measurable, found);
   agree(found.stars, standings);
-  for (const LocalIndex p : points) {
-    if (standings[p] != Standing::kBeside) continue;
-    std::fill(found.stars.agreements.begin() + found.stars.offsets[p],
-              found.stars.agreements.begin() + found.stars.offsets[p + 1], Agreement::kOpen);
-  }
-  found.stars.corners.resize(found.stars.offsets.back());
   return found;
 }
 

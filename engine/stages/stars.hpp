@@ -78,15 +78,6 @@ class StarFinder {
   std::array<FoundStar, kStarBundle> stars_;
 };
 
-// What a star as it is found tells of how points lie.
-Sampling sampling_of(const FoundStar& star);
-
-// `around`: those of the point itself and of its neighbours.
-BallSize ball_size(const Sampling& own, std::span<const Sampling> around);
-
-// The room of a ball in units of `own.distance`.
-float room_beyond(const BallSize& size, const Sampling& own, float ball);
-
 // Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.
 template <class Name>
 struct Stars {
@@ -100,11 +91,6 @@ struct Stars {
   }
 };
 
-// A triangle's ball may have the radius 1.45 M + 0.8 S, with M the median of the circles around a point and S
-// that of their scatter; the unit of room is S + 0.05 M. Of open rims half the balls say nothing: M and S are
-// at most half of the mean distance.
-inline constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.1, kMostCircle = 0.5;
-
 inline bool is_suspect(const Evaluation& evaluation) {
   return evaluation.probability > kSuspicion;
 }
@@ -113,8 +99,9 @@ inline bool is_suspect(const Evaluation& evaluation) {
 std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                                      std::span<const std::uint8_t> is_border);
 
-// Stars of a tile's owned points: those of rough ones measured, with an agreement on each triangle, open where
-// a corner waits; those beside the border as found, and open. `seats`: at least of these and their neighbours.
+// Stars of a tile's owned points: those of rough ones measured, with an agreement on each triangle, open
+// where a corner waits; those beside the border as found, and open. `seats`: at least of these and their
+// neighbours.
 struct TileStars {
   Stars<LocalIndex> stars;
   std::vector<Sampling> samplings;  // by point

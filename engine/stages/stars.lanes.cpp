@@ -21,7 +21,7 @@ struct Views {
     Lanes x, y;
   } at[kMostSeen];
   std::size_t rows;  // an even number
-  Lanes distance;    // mean of r
+  Lanes distance;    // `Sampling::distance`
 };
 
 // Points whose neighbours are read side by side.
@@ -53,10 +53,10 @@ LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& off
   store_four(&offsets.weight[first], __builtin_shuffle(yw01, yw23, right));
 }
 
-// What is loaded of a seat: its eight numbers are position, shift, mean distance and weight.
+// What is loaded of a seat: its eight numbers are position, shift, closeness and weight.
 struct LoadedSeat {
   Four position;  // and the shift's x
-  Four shift;     // and the mean distance
+  Four shift;     // and the closeness
   Four weight;    // the last; before it what the others have
 };
 static_assert(sizeof(Seat) == 8 * sizeof(double));
@@ -65,7 +65,8 @@ LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
   return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
 }
 
-// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and means of r.
+// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and
+// `Sampling::distance`.
 void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets,
             double* distances) {
   LoadedSeat at[kAbreast];

@@ -1,0 +1,84 @@
+#include "engine/stages/ball_sizes.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace lacuna {
+namespace {
+
+constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.1, kMostCircle = 0.5;
+
+using Counts = std::array<std::size_t, kQueries>;
+
+// The first `counts[i]` numbers of each point i, half of them up to the median.
+void sort_halves(std::vector<KeyRow>& rows, const Counts& counts) {
+  const std::size_t most = *std::max_element(counts.begin(), counts.end());
+  if (most == 0) return;
+  if (most <= kMostSortedRows) {
+    const std::size_t wanted = most / 2 + 1;
+    bool tied[kQueries];
+    fastest::sort_keys(rows.data(), sorting_network(most, wanted), wanted, tied);
+    return;
+  }
+  for (std::size_t i = 0; i < kQueries; ++i) {
+    std::vector<double> numbers;
+    for (std::size_t row = 0; row < counts[i]; ++row) numbers.push_back(rows[row].at[i]);
+    std::sort(numbers.begin(), numbers.end());
+    for (std::size_t row = 0; row < counts[i]; ++row) rows[row].at[i] = numbers[row];
+  }
+}
+
+}  // namespace
+
+Sampling sampling_of(const FoundStar& star) {
+  if (star.size() == 0) return {};
+  std::array<float, 16> few;
+  std::vector<float> many(star.size() > few.size() ? star.size() : 0);
+  const std::span<float> balls(many.empty() ? few.data() : many.data(), star.size());
+  for (std::size_t i = 0; i < star.size(); ++i) balls[i] = star[i].room;
+  std::sort(balls.begin(), balls.end());
+  const double median = balls[balls.size() / 2];
+  return {star.distance(), median * star.distance(), (median - balls[0]) * star.distance()};
+}
+
+float room_beyond(const BallSize& size, const Sampling& own, float ball) {
+  return static_cast<float>((ball * own.distance - size.radius) / size.unit);
+}
+
+void BallSizer::find(std::span<const Surroundings> points) {
+  std::size_t rows = 0;
+  for (const Surroundings& p : points) rows = std::max(rows, p.neighbours.size() + 1);
+  if (circles_.size() < rows) {
+    circles_.resize(rows);
+    scatters_.resize(rows);
+  }
+  constexpr KeyRow kBeyondAll = [] {
+    KeyRow row{};
+    for (double& number : row.at) number = std::numeric_limits<double>::infinity();
+    return row;
+  }();
+  std::fill_n(circles_.begin(), rows, kBeyondAll);
+  std::fill_n(scatters_.begin(), rows, kBeyondAll);
+  Counts counts{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto look_at = [&](LocalIndex q) {
+      const Sampling& sampling = samplings_[q];
+      circles_[counts[i]].at[i] = sampling.distance > 0 ? sampling.circle : kBeyondAll.at[i];
+      scatters_[counts[i]].at[i] = sampling.distance > 0 ? sampling.scatter : kBeyondAll.at[i];
+      counts[i] += sampling.distance > 0;
+    };
+    look_at(points[i].point);
+    for (const LocalIndex q : points[i].neighbours) look_at(q);
+  }
+  sort_halves(circles_, counts);
+  sort_halves(scatters_, counts);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double most = kMostCircle * samplings_[points[i].point].distance;
+    const double circle = std::min(circles_[counts[i] / 2].at[i], most);
+    const double scatter = std::min(scatters_[counts[i] / 2].at[i], most);
+    sizes_[i] = {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter};
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,48 @@
+// ball_sizes: how large a ball may be to make a triangle, from how points lie around the star's point.
+//
+// The balls of a star show how large the empty circles of the sampling are and how much they scatter: on a
+// grid all have 0.71 spacings, among points at random there are small and large ones. A median over a point's
+// neighbours tells it from the rim of a hole as well, where some balls are large because there is nothing.
+#pragma once
+
+#include "engine/core/sorting_network.hpp"
+#include "engine/data/star.hpp"
+#include "engine/stages/candidates.hpp"
+#include "engine/stages/stars.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Of a star as it is found. None where it has no corner.
+Sampling sampling_of(const FoundStar& star);
+
+// The room of a ball in units of `own.distance`.
+float room_beyond(const BallSize& size, const Sampling& own, float ball);
+
+// A point that has a star, and its neighbours, by their places among the samplings.
+struct Surroundings {
+  LocalIndex point;
+  std::span<const LocalIndex> neighbours;
+};
+
+// With M the median of the circles of a point and its neighbours, S that of their scatters, each at most half
+// of the point's mean distance (on strips and islands most balls are large), the radius is 1.45 M + 0.8 S and
+// the unit S + 0.1 M. Those without a star say nothing. Eight points side by side: keeps its memory.
+class BallSizer {
+ public:
+  explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}
+
+  // One to kQueries points: then [i] is the size for point i. What it is depends on no other point.
+  void find(std::span<const Surroundings> points);
+  const BallSize& operator[](std::size_t i) const { return sizes_[i]; }
+
+ private:
+  std::span<const Sampling> samplings_;
+  std::vector<KeyRow> circles_, scatters_;
+  std::array<BallSize, kQueries> sizes_;
+};
+
+}  // namespace lacuna
