@@ -345,9 +345,9 @@ void find_stars(benchmark::State& state, double noise) {
   const NoisySample sample(noise);
   std::size_t corners = 0;
   for (auto _ : state) {
-    const Stars<LocalIndex> stars =
+    const TileStars found =
         lacuna::find_stars(sample.rows, sample.evaluations, sample.seats, sample.standings);
-    corners = stars.corners.size();
+    corners = found.stars.corners.size();
   }
   time_per(state, "per_point", kPoints);
   time_per(state, "per_corner", corners);

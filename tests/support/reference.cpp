@@ -598,10 +598,17 @@ void find_loops(Graph graph, Detection& result) {
 
 // ---- Stars -------------------------------------------------------------------------------------------
 
-// In the order around the point; room: of the ball on this corner and the next.
+// In the order around the point; ball: the radius of the one on this corner and the next.
 struct Corner {
   PointId point;
-  double room;
+  double ball;
+};
+
+struct Star {
+  std::vector<Corner> corners;
+  double distance = 0;  // harmonic mean of r over the point and its neighbours
+  double radius = 0;    // that a ball may have to make a triangle
+  double unit = 0;      // of the room beyond
 };
 
 struct Gap {
@@ -624,23 +631,22 @@ double weight(PointId id, double r) {
   return 1e-4 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
 }
 
-std::vector<Corner> star_of(const Positions& positions, const Detection& result, PointId id) {
+Star star_of(const Positions& positions, const Detection& result, PointId id) {
   const Point& p = result.points[value(id)];
   if (!p.normal || p.neighbours.empty()) return {};
   const Vector3d u = p.normal->unitOrthogonal(), v = p.normal->cross(u);
   const auto shift = [&](const Point& q) -> Vector3d {
     return q.normal ? Vector3d(*q.normal * q.normal->dot(q.surface)) : Vector3d(0, 0, 0);
   };
-  double radius = p.mean_distance;
+  double closeness = 1 / p.mean_distance;
   std::vector<std::pair<PointId, Eigen::Vector2d>> seen;
   for (const PointId other : p.neighbours) {
     const Point& q = result.points[value(other)];
-    radius += q.mean_distance;
+    closeness += 1 / q.mean_distance;
     const Vector3d d = (positions[value(other)] - positions[value(id)]) + (shift(q) - shift(p));
     const double power = d.squaredNorm() + weight(id, p.mean_distance) - weight(other, q.mean_distance);
     if (power > 0) seen.emplace_back(other, Eigen::Vector2d(d.dot(u), d.dot(v)) / power);
   }
-  radius *= 0.8 / static_cast<double>(p.neighbours.size() + 1);
 
   // The hull: its lower side from left to right, then its upper side back.
   const auto place = [](const auto& q) { return std::tuple(q.second.x(), q.second.y(), q.first); };
@@ -662,14 +668,39 @@ std::vector<Corner> star_of(const Positions& positions, const Detection& result,
     std::reverse(seen.begin(), seen.end());
   }
   if (hull.size() < 3) return {};
-  std::vector<Corner> star;
+  Star star{.corners = {}, .distance = static_cast<double>(p.neighbours.size() + 1) / closeness};
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Eigen::Vector2d &a = hull[i].second, &b = hull[(i + 1) % hull.size()].second;
-    const double height = cross(a, b) / (b - a).norm();
-    star.push_back(
-        {hull[i].first, height > 0 ? 1 / (2 * height * radius) : std::numeric_limits<double>::infinity()});
+    const double height = cross(a, b) / (b - a).norm(), largest = 8 * star.distance;
+    star.corners.push_back({hull[i].first, height > 0 ? std::min(1 / (2 * height), largest) : largest});
   }
   return star;
+}
+
+double median(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+// Sets the radius of triangles of each star from the balls of its own and its neighbours' stars.
+void measure(const Detection& result, std::map<PointId, Star>& stars) {
+  for (auto& [p, star] : stars) {
+    std::vector<PointId> around = result.points[value(p)].neighbours;
+    around.push_back(p);
+    std::vector<double> circles, scatters;
+    for (const PointId q : around) {
+      const auto other = stars.find(q);
+      if (other == stars.end()) continue;
+      std::vector<double> balls;
+      for (const Corner& corner : other->second.corners) balls.push_back(corner.ball);
+      circles.push_back(median(balls));
+      scatters.push_back(circles.back() - *std::min_element(balls.begin(), balls.end()));
+    }
+    const double circle = std::min(median(circles), star.distance / 2);
+    const double scatter = std::min(median(scatters), star.distance / 2);
+    star.radius = 1.45 * circle + 0.8 * scatter;
+    star.unit = scatter + 0.1 * circle;
+  }
 }
 
 // Points that have more than Pi = 0.2 or a neighbour that has.
@@ -684,22 +715,24 @@ std::set<PointId> rough_points(const Detection& result) {
   return rough;
 }
 
-std::vector<Gap> gaps_of(PointId p, const std::vector<Corner>& star, const std::set<PointId>& rough,
+std::vector<Gap> gaps_of(PointId p, const Star& star, const std::set<PointId>& rough,
                          const std::map<Triangle, std::size_t>& stars_with) {
-  const std::size_t count = star.size();
+  const std::size_t count = star.corners.size();
+  const auto corner = [&](std::size_t i) -> const Corner& { return star.corners[i % count]; };
   const auto is_agreed = [&](std::size_t i) {
-    const Triangle corners = triangle(p, star[i % count].point, star[(i + 1) % count].point);
+    const Triangle corners = triangle(p, corner(i).point, corner(i + 1).point);
     const auto asked =
         std::count_if(corners.begin(), corners.end(), [&](PointId q) { return rough.contains(q); });
-    return star[i % count].room <= 1 && stars_with.at(corners) == static_cast<std::size_t>(asked);
+    return corner(i).ball <= star.radius && stars_with.at(corners) == static_cast<std::size_t>(asked);
   };
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_agreed(i) || is_agreed(i + 1)) continue;
-    Gap gap{p, star[(i + 1) % count].point, {}, 0};
+    Gap gap{p, corner(i + 1).point, {}, 0};
     std::size_t end = i + 1;
-    for (; !is_agreed(end); ++end) gap.room = std::max(gap.room, star[end % count].room);
-    gap.to = star[end % count].point;
+    for (; !is_agreed(end); ++end)
+      gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
+    gap.to = corner(end).point;
     gaps.push_back(gap);
   }
   return gaps;
@@ -719,19 +752,25 @@ std::vector<PointId> first_way(std::vector<PointId> rim) {
 }
 
 void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
-  std::vector<std::vector<Corner>> stars(positions.size());
-  std::map<Triangle, std::size_t> stars_with;
   const std::set<PointId> rough = rough_points(result);
+  std::map<PointId, Star> stars;
   for (const PointId p : rough) {
-    const std::vector<Corner>& star = stars[value(p)] = star_of(positions, result, p);
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star[i].room <= 1) ++stars_with[triangle(p, star[i].point, star[(i + 1) % star.size()].point)];
+    const Star star = star_of(positions, result, p);
+    if (!star.corners.empty()) stars[p] = star;
+  }
+  measure(result, stars);
+  std::map<Triangle, std::size_t> stars_with;
+  for (const auto& [p, star] : stars) {
+    for (std::size_t i = 0; i < star.corners.size(); ++i) {
+      const Triangle corners =
+          triangle(p, star.corners[i].point, star.corners[(i + 1) % star.corners.size()].point);
+      stars_with[corners] += star.corners[i].ball <= star.radius;
     }
   }
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
-  for (const PointId p : rough) {
-    for (const Gap& gap : gaps_of(p, stars[value(p)], rough, stars_with)) {
+  for (const auto& [p, star] : stars) {
+    for (const Gap& gap : gaps_of(p, star, rough, stars_with)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
       gaps.push_back(gap);
     }
@@ -750,12 +789,12 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back(gaps[g].point);
-      wide += gaps[g].room >= 1.25;
-      wider += gaps[g].room >= 1.6;
+      wide += gaps[g].room >= 1.5;
+      wider += gaps[g].room >= 2.5;
       goes_on = rough.contains(next);
       if (goes_on) g = at.at({next, rim.back()});
     } while (goes_on && g != start);
-    const double count = static_cast<double>(rim.size()) + 4;
+    const double count = static_cast<double>(rim.size()) + 6;
     if (goes_on && rim.size() >= 8)
       rims.emplace_back(first_way(rim), std::min({1.0, wide / count, 1.25 * (wider / count)}));
   }

@@ -123,15 +123,16 @@ TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour"
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
-TEST_CASE("confidence is the share of points with room, of four more than there are") {
-  const std::vector<std::uint64_t> sixteen(16, 1);
-  CHECK(confidence(rim_of(sixteen, std::vector<float>(16, 1.7f))) == 0.8);
-  CHECK(confidence(rim_of(sixteen, std::vector<float>(16, 1.3f))) == 0);
-  std::vector<float> half(16, 1.1f);
-  std::fill(half.begin(), half.begin() + 8, 1.6f);
-  CHECK(confidence(rim_of(sixteen, half)) == 0.4);
-  std::fill(half.begin(), half.begin() + 4, 1.25f);  // 8 of 1.25, 4 of 1.6
-  CHECK(confidence(rim_of(sixteen, half)) == 1.25 * 4 / 20);
+TEST_CASE("confidence is the share of points with room, of six more than there are") {
+  const std::vector<std::uint64_t> twenty(20, 1);
+  const double points = 20 + 6;
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3))) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f))) == 0);
+  std::vector<float> half(20, 1.4f);
+  std::fill(half.begin(), half.begin() + 10, 2.5f);
+  CHECK(confidence(rim_of(twenty, half)) == 10 / points);
+  std::fill(half.begin(), half.begin() + 5, 1.5f);  // 10 of 1.5, 5 of 2.5
+  CHECK(confidence(rim_of(twenty, half)) == 1.25 * (5 / points));
 }
 
 }  // namespace lacuna

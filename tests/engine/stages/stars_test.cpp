@@ -1,12 +1,14 @@
 // Stars found side by side are those found with care, from every instruction set and beside whatever others.
 #include "engine/stages/stars.hpp"
 
+#include "engine/stages/ball_sizes.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/tile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -138,14 +140,14 @@ std::vector<LocalIndex> names(const Star& star) {
 TEST_CASE("a star's corners are the neighbours that a ball can rest on, counterclockwise from the nearest") {
   const Star star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
   CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
-  // The circle through (0, 0), (-1.2, 0) and (0, 1.2), in units of kBall times the mean of r.
-  CHECK(star[1].room == Approx(0.6 * std::sqrt(2.0) / kBall));
+  // The circle through (0, 0), (-1.2, 0) and (0, 1.2).
+  CHECK(star[1].room == Approx(0.6 * std::sqrt(2.0)));
 }
 
-TEST_CASE("where all neighbours are on one side, the star is closed by an edge with all the room") {
+TEST_CASE("where all neighbours are on one side, the star is closed by an edge with the largest ball") {
   const Star star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
   CHECK(names(star).size() == 3);
-  CHECK(std::count_if(star.begin(), star.end(), [](const auto& c) { return c.room == kMostRoom; }) == 1);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& c) { return c.room == kLargestBall; }) == 1);
 }
 
 TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
@@ -161,7 +163,7 @@ TEST_CASE("stars found side by side are those found with care, bit for bit") {
     const Queries queries(drawn_neighbourhoods(random));
     const std::vector<Star> found = found_side_by_side(queries);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      different += !same_bits(found[i], find_star_carefully(queries.seats, queries.all[i]));
+      different += !same_bits(found[i], find_star_carefully(queries.seats, queries.all[i]).corners);
       corners += found[i].size();
     }
   }
@@ -189,7 +191,7 @@ TEST_CASE("nearly every star is decided side by side, from every instruction set
     }
     for (std::size_t i = 0; i < kStarBundle; ++i) {
       if (queries.all[i].neighbours.size() > kMostSeen) continue;
-      const Star careful = find_star_carefully(queries.seats, queries.all[i]);
+      const auto [careful, distance] = find_star_carefully(queries.seats, queries.all[i]);
       if (expected.sizes[i] == BundledStars::kInDoubt) {
         ++in_doubt;
         continue;
@@ -198,6 +200,7 @@ TEST_CASE("nearly every star is decided side by side, from every instruction set
       Star star;
       for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.corners[c][i]);
       unlike_care += !same_bits(star, careful);
+      if (!careful.empty()) unlike_care += expected.distances[i] != distance;
     }
   }
   CHECK(different == 0);
@@ -221,8 +224,10 @@ TEST_CASE("a star is the same wherever its point stands in a bundle, and whateve
   CHECK(different == 0);
 }
 
-TEST_CASE("points with a suspect in sight are rough, the others inner, and those of the border wait") {
-  std::size_t rough = 0, inner = 0, wrong = 0;
+TEST_CASE(
+    "points with a suspect in sight are rough, others inner; the border waits, and rough ones beside it") {
+  std::array<std::size_t, 4> counts{};
+  std::size_t wrong = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloud cloud = seed == 1 ? plane(40) : random_cloud(3100 + seed);
     const TilePoints points = whole_tile(cloud);
@@ -231,22 +236,22 @@ TEST_CASE("points with a suspect in sight are rough, the others inner, and those
     const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
     Random random(seed);
     std::vector<std::uint8_t> is_border(points.owned);
-    for (auto& border : is_border) border = random.chance(0.05);
+    for (auto& border : is_border) border = random.chance(0.02);
     const std::vector<Standing> standings = find_standings(rows, evaluations, is_border);
     REQUIRE(standings.size() == points.owned);
     for (LocalIndex p = 0; p < points.owned; ++p) {
-      bool sees_suspect = evaluations[p].probability > kSuspicion;
-      for (const LocalIndex q : rows[p]) sees_suspect |= evaluations[q].probability > kSuspicion;
-      wrong += standings[p] != (is_border[p]   ? Standing::kBorder
-                                : sees_suspect ? Standing::kRough
-                                               : Standing::kInner);
-      rough += standings[p] == Standing::kRough;
-      inner += standings[p] == Standing::kInner;
+      bool sees_suspect = evaluations[p].probability > kSuspicion, sees_border = false;
+      for (const LocalIndex q : rows[p]) {
+        sees_suspect |= evaluations[q].probability > kSuspicion;
+        sees_border |= is_border[q] != 0;
+      }
+      const Standing rough = sees_border ? Standing::kBeside : Standing::kRough;
+      wrong += standings[p] != (is_border[p] ? Standing::kBorder : sees_suspect ? rough : Standing::kInner);
+      ++counts[static_cast<std::size_t>(standings[p])];
     }
   }
   CHECK(wrong == 0);
-  CHECK(rough > 100);
-  CHECK(inner > 100);
+  for (const std::size_t count : counts) CHECK(count > 100);
 }
 
 TEST_CASE("a triangle is agreed where the stars of all its rough corners have it, open where one waits") {
@@ -261,30 +266,40 @@ TEST_CASE("a triangle is agreed where the stars of all its rough corners have it
     std::vector<Standing> standings(points.owned, Standing::kRough);
     for (Standing& standing : standings) {
       if (random.chance(0.05)) standing = Standing::kBorder;
+      if (random.chance(0.05)) standing = Standing::kBeside;
       if (random.chance(0.1)) standing = Standing::kInner;
     }
 
-    const Stars<LocalIndex> stars = find_stars(rows, evaluations, seats, standings);
+    const auto [stars, samplings] = find_stars(rows, evaluations, seats, standings);
     std::size_t wrong_stars = 0, wrong_agreements = 0;
     REQUIRE(stars.size() == points.owned);
     REQUIRE(stars.corners.size() == stars.offsets.back());
     REQUIRE(stars.agreements.size() == stars.corners.size());
+    REQUIRE(samplings.size() == points.owned);
+    BallSizer sizer(samplings);
     for (LocalIndex p = 0; p < points.owned; ++p) {
       Star expected;
-      if (standings[p] == Standing::kRough)
-        expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]});
+      if (has_star(standings[p]))
+        expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]}).corners;
       for (auto& corner : expected) corner.point = rows[p][corner.point];
+      if (standings[p] == Standing::kRough && !expected.empty()) {
+        const Surroundings surroundings{p, rows[p]};
+        sizer.find({&surroundings, 1});
+        for (auto& corner : expected) corner.room = room_beyond(sizer[0], samplings[p], corner.room);
+      }
       const auto star = stars[p];
       wrong_stars += !same_bits({star.begin(), star.end()}, expected);
       for (std::size_t i = 0; i < star.size(); ++i) {
         const LocalIndex a = star[i].point, b = star[(i + 1) % star.size()].point;
-        const auto is = [&](LocalIndex q, Standing standing) { return standings[q] == standing; };
-        const bool refused = star[i].room > 1 || (is(a, Standing::kRough) && !has_triangle(stars[a], p, b)) ||
-                             (is(b, Standing::kRough) && !has_triangle(stars[b], p, a));
-        const bool open = is(a, Standing::kBorder) || is(b, Standing::kBorder);
-        const Agreement agreement = refused ? Agreement::kRefused
-                                    : open  ? Agreement::kOpen
-                                            : Agreement::kAgreed;
+        const auto refuses = [&](LocalIndex q, LocalIndex other) {
+          return standings[q] == Standing::kRough && !has_triangle(stars[q], p, other);
+        };
+        const bool refused = star[i].room > 0 || refuses(a, b) || refuses(b, a);
+        const bool open = waits(standings[a]) || waits(standings[b]);
+        const Agreement settled = refused ? Agreement::kRefused
+                                  : open  ? Agreement::kOpen
+                                          : Agreement::kAgreed;
+        const Agreement agreement = waits(standings[p]) ? Agreement::kOpen : settled;
         wrong_agreements += stars.agreements[stars.offsets[p] + i] != agreement;
       }
     }

@@ -1,0 +1,90 @@
+// How large balls may be, from medians by hand, beside whatever other points.
+#include "engine/stages/ball_sizes.hpp"
+
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+Sampling sampling_among(std::vector<float> balls, double distance) {
+  std::vector<StarCorner<LocalIndex>> corners;
+  for (const float ball : balls) corners.push_back({0, ball});
+  return sampling_of({corners.data(), 1, corners.size(), distance});
+}
+
+double median(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+BallSize size_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
+  std::vector<double> circles, scatters;
+  const auto look_at = [&](LocalIndex q) {
+    if (samplings[q].distance == 0) return;
+    circles.push_back(samplings[q].circle);
+    scatters.push_back(samplings[q].scatter);
+  };
+  look_at(around.point);
+  for (const LocalIndex q : around.neighbours) look_at(q);
+  const double most = samplings[around.point].distance / 2;
+  const double circle = std::min(median(circles), most), scatter = std::min(median(scatters), most);
+  return {1.45 * circle + 0.8 * scatter, 0.1 * circle + scatter};
+}
+
+}  // namespace
+
+TEST_CASE("a star tells its median ball and how far the least is below") {
+  const Sampling even = sampling_among({0.5f, 0.25f, 8, 1}, 10);
+  CHECK(even.distance == 10);
+  CHECK(even.circle == 10);
+  CHECK(even.scatter == 7.5);
+  CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).circle == 1);
+  CHECK(sampling_among({}, 2).distance == 0);
+  CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
+}
+
+TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1) == -2);
+}
+
+TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized beside") {
+  Random random(5);
+  std::size_t wrong = 0, most = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Sampling> samplings(200);
+    for (Sampling& s : samplings) {
+      if (random.chance(0.8)) s = {random.uniform(0.5, 2), random.uniform(0.1, 2), random.uniform(0, 1)};
+    }
+    std::vector<std::vector<LocalIndex>> neighbours;
+    std::vector<Surroundings> all;
+    const auto points = static_cast<std::size_t>(random.whole(1, kQueries));
+    for (std::size_t i = 0; i < points; ++i) {
+      auto p = static_cast<LocalIndex>(random.whole(0, 199));
+      while (samplings[p].distance == 0) p = (p + 1) % 200;
+      const auto count = static_cast<std::size_t>(random.whole(0, random.chance(0.05) ? 180 : 30));
+      neighbours.emplace_back();
+      while (neighbours.back().size() < count)
+        neighbours.back().push_back(static_cast<LocalIndex>(random.whole(0, 199)));
+      most = std::max(most, count);
+      all.push_back({p, {}});
+    }
+    for (std::size_t i = 0; i < points; ++i) all[i].neighbours = neighbours[i];
+    BallSizer sizer(samplings);
+    sizer.find(all);
+    for (std::size_t i = 0; i < points; ++i) {
+      const BallSize expected = size_by_hand(samplings, all[i]);
+      wrong += sizer[i].radius != expected.radius || sizer[i].unit != expected.unit;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(most > kMostSortedRows);
+}
+
+}  // namespace lacuna
