@@ -41,9 +41,9 @@ void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
 void normalise(std::vector<RimPoint>& rim);
 
 // How sure it is that the rim is that of a hole, in [0, 1): where the scan only happens to be thin, a larger
-// ball fits at few points of the rim. The share of points at which there is room for a ball of 1.25 times the
-// radius of triangles, or 1.25 times the share with room for one of 1.6 times, if that is less; out of four
-// points more than there are, so that small rims need room all around.
+// ball fits at few points of the rim. The share of points at which there is room of 1.5, or 1.25 times the
+// share with room of 2.5, if that is less; out of six points more than there are, so that small rims need
+// room all around.
 double confidence(std::span<const RimPoint> rim);
 
 }  // namespace lacuna

@@ -6,7 +6,8 @@
 // c . d / |d|^2 > 1/2. So what the ball of any size can do is told by the convex hull of the points
 // Pi(d / |d|^2), Pi the projection into the tangent plane. Corners of the hull are the neighbours that a ball
 // can rest on, in their order around p; at an edge of the hull at distance h from p the ball that rests on
-// both its ends has radius 1 / (2h). With h > 0 and 1 / (2h) <= R the edge is a triangle of p's star.
+// both its ends has radius 1 / (2h). With h > 0 and 1 / (2h) <= R the edge is a triangle of p's star; R is
+// told by the balls of the stars around (stages/ball_sizes).
 //
 // A triangle counts only if it is in the stars of all its three corners. Triangles at one corner never
 // overlap (they are in one star), so the agreed triangles are a surface with boundary whatever the noise: an
