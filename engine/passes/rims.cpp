@@ -405,10 +405,13 @@ class OpenRims {
 void report(std::vector<RimPoint>& rim, RawLoops& loops) {
   if (rim.size() < kLeastRim) return;
   normalise(rim);
-  std::vector<Vertex> loop;
-  loop.reserve(rim.size());
-  for (const RimPoint& p : rim) loop.push_back(p.vertex);
-  loops.add(loop, confidence(rim));
+  for (const std::vector<RimPoint>& curve : split_at_pinches(std::move(rim))) {
+    if (curve.size() < kLeastRim) continue;
+    std::vector<Vertex> loop;
+    loop.reserve(curve.size());
+    for (const RimPoint& p : curve) loop.push_back(p.vertex);
+    loops.add(loop, confidence(curve));
+  }
 }
 
 }  // namespace

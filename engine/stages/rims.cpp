@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <optional>
 
 namespace lacuna {
@@ -110,6 +111,32 @@ void normalise(std::vector<RimPoint>& rim) {
   turned.reserve(count);
   for (std::size_t i = 0; i < count; ++i) turned.push_back(rim[place(best->start, i, best->forwards, count)]);
   rim = std::move(turned);
+}
+
+std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
+  std::vector<Row> rows;
+  for (const RimPoint& p : rim) rows.push_back(p.vertex.row);
+  std::sort(rows.begin(), rows.end());
+  std::vector<std::vector<RimPoint>> curves;
+  if (std::adjacent_find(rows.begin(), rows.end()) == rows.end()) {
+    curves.push_back(std::move(rim));
+    return curves;
+  }
+  std::vector<RimPoint> way;
+  std::map<Row, std::size_t> places;  // on the way
+  for (const RimPoint& p : rim) {
+    if (const auto been = places.find(p.vertex.row); been != places.end()) {
+      const auto back = way.begin() + static_cast<std::ptrdiff_t>(been->second);
+      curves.emplace_back(back, way.end());
+      for (const RimPoint& left : curves.back()) places.erase(left.vertex.row);
+      way.erase(back, way.end());
+    }
+    places[p.vertex.row] = way.size();
+    way.push_back(p);
+  }
+  curves.push_back(std::move(way));
+  for (std::vector<RimPoint>& curve : curves) normalise(curve);
+  return curves;
 }
 
 double confidence(std::span<const RimPoint> rim) {

@@ -40,6 +40,10 @@ void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
 // such ways the one whose ids come first).
 void normalise(std::vector<RimPoint>& rim);
 
+// A rim passes a point twice where two holes touch: parts it into curves that pass each point once. Whenever
+// it comes back to a point, what lies between is a curve. Of one that is normalised; the curves are, too.
+std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim);
+
 // How sure it is that the rim is that of a hole, in [0, 1): where the scan only happens to be thin, a larger
 // ball fits at few points of the rim. The share of points at which there is room of 1.5, or 1.25 times the
 // share with room of 2.5, if that is less; out of six points more than there are, so that small rims need

@@ -738,17 +738,42 @@ std::vector<Gap> gaps_of(PointId p, const Star& star, const std::set<PointId>& r
   return gaps;
 }
 
-// Of all ways to write a closed curve, the one that comes first.
-std::vector<PointId> first_way(std::vector<PointId> rim) {
-  std::vector<PointId> best = rim;
+struct RimPoint {
+  PointId point;
+  double room;
+};
+
+// Of all ways to write a closed curve, the one whose points come first.
+std::vector<RimPoint> first_way(std::vector<RimPoint> rim) {
+  const auto ids = [](const std::vector<RimPoint>& way) {
+    std::vector<PointId> ids;
+    for (const RimPoint& p : way) ids.push_back(p.point);
+    return ids;
+  };
+  std::vector<RimPoint> best = rim;
   for (const bool turned : {false, true}) {
     if (turned) std::reverse(rim.begin(), rim.end());
     for (std::size_t i = 0; i < rim.size(); ++i) {
       std::rotate(rim.begin(), rim.begin() + 1, rim.end());
-      if (rim.front() == *std::min_element(rim.begin(), rim.end())) best = std::min(best, rim);
+      if (ids(rim) < ids(best)) best = rim;
     }
   }
   return best;
+}
+
+// Cuts off what lies between two passes of a point, until no point is passed twice.
+std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
+  std::vector<std::vector<RimPoint>> curves;
+  for (std::size_t end = 0; end < rim.size(); ++end) {
+    for (std::size_t begin = 0; begin < end; ++begin) {
+      if (rim[begin].point != rim[end].point) continue;
+      curves.emplace_back(rim.begin() + long(begin), rim.begin() + long(end));
+      rim.erase(rim.begin() + long(begin), rim.begin() + long(end));
+      end = begin;
+    }
+  }
+  curves.push_back(rim);
+  return curves;
 }
 
 void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
@@ -779,24 +804,30 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
     if (is_done[start]) continue;
-    std::vector<PointId> rim;
-    double wide = 0, wider = 0;
-    PointId next{};
+    std::vector<RimPoint> rim;
     std::size_t g = start;
     bool goes_on = true;
     do {
-      const PointId before = rim.empty() ? gaps[g].from : rim.back();
-      next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
+      const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
+      const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
-      rim.push_back(gaps[g].point);
-      wide += gaps[g].room >= 1.5;
-      wider += gaps[g].room >= 2.5;
+      rim.push_back({gaps[g].point, gaps[g].room});
       goes_on = rough.contains(next);
-      if (goes_on) g = at.at({next, rim.back()});
+      if (goes_on) g = at.at({next, rim.back().point});
     } while (goes_on && g != start);
-    const double count = static_cast<double>(rim.size()) + 6;
-    if (goes_on && rim.size() >= 8)
-      rims.emplace_back(first_way(rim), std::min({1.0, wide / count, 1.25 * (wider / count)}));
+    if (!goes_on || rim.size() < 8) continue;
+    for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
+      if (curve.size() < 8) continue;
+      std::vector<PointId> loop;
+      double wide = 0, wider = 0;
+      for (const RimPoint& p : first_way(curve)) {
+        loop.push_back(p.point);
+        wide += p.room >= 1.5;
+        wider += p.room >= 2.5;
+      }
+      const double count = static_cast<double>(loop.size()) + 6;
+      rims.emplace_back(loop, std::min(wide / count, 1.25 * (wider / count)));
+    }
   }
   std::sort(rims.begin(), rims.end());
   std::set<PointId> on_loop;

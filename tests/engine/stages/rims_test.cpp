@@ -123,6 +123,23 @@ TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour"
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
+TEST_CASE("a rim is parted where it passes a point again, into curves that pass each point once") {
+  const auto parted = [](const std::vector<std::uint64_t>& rim) {
+    std::vector<std::vector<std::uint64_t>> curves;
+    for (const auto& curve : split_at_pinches(rim_of(rim))) curves.push_back(ids(curve));
+    return curves;
+  };
+  using Curves = std::vector<std::vector<std::uint64_t>>;
+  CHECK(parted({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
+  CHECK(parted({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
+  CHECK(parted({1, 5, 4, 1, 2, 3}) == Curves{{1, 4, 5}, {1, 2, 3}});
+  CHECK(parted({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
+  CHECK(parted({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
+  const auto rooms = split_at_pinches(rim_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
+  REQUIRE(rooms.size() == 2);
+  CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
+}
+
 TEST_CASE("confidence is the share of points with room, of six more than there are") {
   const std::vector<std::uint64_t> twenty(20, 1);
   const double points = 20 + 6;
