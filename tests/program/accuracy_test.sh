@@ -31,6 +31,11 @@ cmp -s "$scratch/a.csv" "$scratch/first.csv" || fail "a second run differs"
 accuracy --only 'synth/torus-noise0$' -- --min-points 100000
 grep -q '^synth,torus-noise0,[0-9]*,default,16,13,0,0,0,0,' "$scratch/a.csv" || fail "options do not reach lacuna"
 
+# A range map is scan and truth in one.
+accuracy --only '/table-orthographic-noise0-strays$' || fail "ended with status $?: $(cat "$scratch/err")"
+grep -q '^range-made,table-orthographic-noise0-strays,[0-9]*,default,8,20,' "$scratch/a.csv" ||
+  fail "the range map has not 20 true loops: $(cat "$scratch/a.csv")"
+
 # What goes wrong is told.
 if accuracy --only no-such-set; then fail "no set, and no error"; fi
 if accuracy --only 'synth/torus-noise0$' -- --k 0; then fail "a failing lacuna is no error"; fi
