@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Measures how well `lacuna detect` finds holes that are known. See bench/accuracy/README.md.
 set -euo pipefail
-invoked_from=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-root=$PWD
+source "$(dirname "${BASH_SOURCE[0]}")/options.sh"
 
 usage() {
   cat <<'END'
@@ -24,50 +22,15 @@ DETECT_OPTIONS go to every `lacuna detect`: tools/accuracy.sh -- --k 20
 END
 }
 
-fail() {
-  echo "accuracy.sh: $1" >&2
-  exit "${2:-1}"
-}
-
-from_caller() { [[ $1 == /* ]] && echo "$1" || echo "$invoked_from/$1"; }
-
 only=
 lacuna=
-peers=1
+no_peers=0
 build=$root/build
 work=$root/bench/work/accuracy
 data=$root/../shared/data
 csv=$root/bench/accuracy/results/$(date +%Y-%m-%d-%H%M%S).csv
 detect_options=()
-
-while (($# > 0)); do
-  case $1 in
-    --only | --lacuna | --build | --work | --data | --csv)
-      (($# > 1)) || fail "$1 needs a value" 2
-      ;;&
-    --only) only=$2 && shift ;;
-    --lacuna) lacuna=$(from_caller "$2") && shift ;;
-    --build) build=$(from_caller "$2") && shift ;;
-    --work) work=$(from_caller "$2") && shift ;;
-    --data) data=$(from_caller "$2") && shift ;;
-    --csv) csv=$(from_caller "$2") && shift ;;
-    --no-peers) peers=0 ;;
-    -h | --help)
-      usage
-      exit 0
-      ;;
-    --)
-      shift
-      detect_options=("$@")
-      break
-      ;;
-    *)
-      usage >&2
-      fail "unknown option $1" 2
-      ;;
-  esac
-  shift
-done
+parse_options "$@"
 
 command -v python3 >/dev/null || fail "python3 is missing (package python3)"
 if [[ -n $lacuna ]]; then
@@ -80,7 +43,7 @@ else
 fi
 
 pcl=()
-if ((peers)); then
+if ((!no_peers)); then
   if [[ $(dpkg-query --show --showformat='${db:Status-Status}' libpcl-dev 2>/dev/null) == installed ]]; then
     cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release >/dev/null
     cmake --build "$build/peers" --parallel "$(nproc)" --target pcl_boundary_points >&2

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Measures `lacuna detect` from scan file to results, beside other tools where asked for. See bench/README.md.
 set -euo pipefail
-invoked_from=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-root=$PWD
+source "$(dirname "${BASH_SOURCE[0]}")/options.sh"
 
 usage() {
   cat <<'END'
@@ -30,19 +28,12 @@ DETECT_OPTIONS go to every `lacuna detect`: tools/bench.sh -- --eps 0.03
 END
 }
 
-fail() {
-  echo "bench.sh: $1" >&2
-  exit "${2:-1}"
-}
-
-from_caller() { [[ $1 == /* ]] && echo "$1" || echo "$invoked_from/$1"; }
-
 # ---- what was asked for
 
 points=(1 4)
 orders=(scanline random)
 threads=("$(nproc)")
-memory_limits=(default)
+memory_limit=(default)
 runs=5
 real=0
 peers=0
@@ -53,41 +44,7 @@ stages=0
 build=$root/build-bench
 work=$root/bench/work
 detect_options=()
-
-while (($# > 0)); do
-  case $1 in
-    --points | --orders | --threads | --memory-limit | --runs | --peer-points | --timeout | --against | --build | --work)
-      (($# > 1)) || fail "$1 needs a value" 2
-      ;;&
-    --points) read -r -a points <<<"$2" && shift ;;
-    --orders) read -r -a orders <<<"$2" && shift ;;
-    --threads) read -r -a threads <<<"$2" && shift ;;
-    --memory-limit) read -r -a memory_limits <<<"$2" && shift ;;
-    --runs) runs=$2 && shift ;;
-    --peer-points) peer_points=$2 && shift ;;
-    --timeout) timeout=$2 && shift ;;
-    --against) against=$(from_caller "$2") && shift ;;
-    --build) build=$(from_caller "$2") && shift ;;
-    --work) work=$(from_caller "$2") && shift ;;
-    --real) real=1 ;;
-    --peers) peers=1 ;;
-    --stages) stages=1 ;;
-    -h | --help)
-      usage
-      exit 0
-      ;;
-    --)
-      shift
-      detect_options=("$@")
-      break
-      ;;
-    *)
-      usage >&2
-      fail "unknown option $1" 2
-      ;;
-  esac
-  shift
-done
+parse_options "$@"
 
 for size in "${points[@]}" "$peer_points"; do
   [[ $size =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "\"$size\" is not a number of million points" 2
@@ -196,7 +153,7 @@ run_case() {
   local with_peers=$1 run limit program turn
   local -a turns=()
   local -A failed=()
-  for limit in "${memory_limits[@]}"; do
+  for limit in "${memory_limit[@]}"; do
     turns+=("lacuna $limit")
     [[ -z $against ]] || turns+=("against $limit")
   done

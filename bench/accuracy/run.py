@@ -4,6 +4,7 @@ bench/accuracy/README.md; tools/accuracy.sh builds what it needs and calls it.""
 
 import argparse
 import csv
+import itertools
 import json
 import random
 import re
@@ -15,11 +16,13 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from mesh import cut_balls, read_mesh, write_mesh  # noqa: E402
+from range_map import SCENES, range_map  # noqa: E402
 from thin import thin  # noqa: E402
 
 SYNTH_KINDS = ["plane", "waves", "cylinder", "torus", "sphere-cap"]
 CLOSED_KINDS = ["torus", "sphere", "cube"]
 NOISES = [0, 0.25, 0.5]  # spacings
+RANGE_NOISES = [0, 0.1, 0.3]  # steps of the grid of rays
 PCL_NEIGHBOURS = [15, 30]
 PCL_DEGREES = [90, 120]
 COLUMNS = ["group", "set", "points", "method", "min_vertices", "true", "found", "false", "repeated", "loops",
@@ -148,6 +151,15 @@ def range_sets(arguments):
         yield made_mesh(arguments, "range", "lato000-no-strays", lambda: read_mesh(lato).without(set()))
     if (scan := real(arguments, "bun000.ply")) and (truth := real(arguments, "bun000.loops.txt")):
         yield Set("range", "bun000", scan, truth)
+
+
+def range_made_sets(arguments):
+    for number, (scene, view) in enumerate(itertools.product(SCENES, ("orthographic", "perspective"))):
+        noise = RANGE_NOISES[number % 3]
+        strays = number % 4 in (1, 2)  # so in half of the sets of each noise and of each view
+        name = f"{scene}-{view}-noise{round(100 * noise)}{'-strays' if strays else ''}"
+        yield made_mesh(arguments, "range-made", name,
+                        lambda made=(scene, view == "perspective", noise, strays, number): range_map(*made))
 
 
 # ---- runs
@@ -294,7 +306,7 @@ def main():
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
     methods = known_methods(arguments)
     results = []
-    for sets in (synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets):
+    for sets in (synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets, range_made_sets):
         for case in sets(arguments):
             if not re.search(arguments.only, f"{case.group}/{case.name}"):
                 continue

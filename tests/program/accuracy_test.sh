@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# tools/accuracy.sh on a few sets, and the meshes and thinned scans that it makes. LACUNA_PROGRAM names the program.
+# tools/accuracy.sh on a few sets, and the meshes, thinned scans and range maps that it makes. LACUNA_PROGRAM names the
+# program.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
@@ -29,6 +30,11 @@ accuracy --only 'torus-noise0$'
 cmp -s "$scratch/a.csv" "$scratch/first.csv" || fail "a second run differs"
 accuracy --only 'synth/torus-noise0$' -- --min-points 100000
 grep -q '^synth,torus-noise0,[0-9]*,default,16,13,0,0,0,0,' "$scratch/a.csv" || fail "options do not reach lacuna"
+
+# A range map is scan and truth in one.
+accuracy --only '/table-orthographic-noise0-strays$' || fail "ended with status $?: $(cat "$scratch/err")"
+grep -q '^range-made,table-orthographic-noise0-strays,[0-9]*,default,8,20,' "$scratch/a.csv" ||
+  fail "the range map has not 20 true loops: $(cat "$scratch/a.csv")"
 
 # What goes wrong is told.
 if accuracy --only no-such-set; then fail "no set, and no error"; fi
@@ -77,3 +83,50 @@ END
 "$LACUNA_PROGRAM" evaluate "$scratch/holes" "$scratch/cut.ply" >"$scratch/told"
 grep -q 'true loops  2,' "$scratch/told" || fail "the cut mesh has not two true loops: $(cat "$scratch/told")"
 grep -q 'found       2' "$scratch/told" || fail "the loops of the cut mesh are not found: $(cat "$scratch/told")"
+
+# Shapes are met where they should be, and a range map has rims that do not touch and the strays that are asked for.
+python3 - "$root/bench/accuracy" <<'END'
+import math
+import sys
+from collections import Counter
+
+sys.path.insert(0, sys.argv[1])
+from range_map import (MISS, SCENES, box, cylinder, grid_triangles, height_field, nearest, range_map, sphere, tilted,
+                       torus)
+
+
+def meets(shape, x, y, distance, cosine):
+    """Seen from a height of 3, straight down."""
+    found = shape((x, y, 3.0), (0.0, 0.0, -1.0))
+    return math.isclose(found[0], distance, abs_tol=1e-6) and math.isclose(found[1], cosine, abs_tol=1e-4)
+
+
+ball, brick, half = sphere((0, 0, 1), 1), box((0, 0, 0), (1, 2, 0.5)), math.sqrt(0.5)
+lying, standing = cylinder((0, 0, 0), (1, 0, 0), 0.5, 1), cylinder((0, 0, 0), (0, 0, 1), 0.5, 1)
+slope = height_field(lambda x, y: x / 2, -1, 1)
+assert meets(ball, 0.6, 0, 1.2, 0.8) and meets(ball, 1.1, 0, *MISS)
+assert meets(brick, 0.9, -1.9, 2.5, 1) and meets(brick, 1.1, 0, *MISS)
+assert meets(tilted(90, brick), 0.9, 0.4, 1, 1) and meets(tilted(45, brick), 0.9, 0, 3 - half, half)
+assert meets(lying, 0.9, 0.3, 2.6, 0.8) and meets(lying, 1.1, 0, *MISS)
+assert meets(tilted(45, standing), 0, -half, 3 - half, half)
+assert meets(torus(1, 0.5), 1.3, 0, 2.6, 0.8) and meets(torus(1, 0.5), 0.4, 0, *MISS)
+assert meets(slope, 0.4, 0.7, 2.8, 2 / math.sqrt(5))
+assert meets(nearest(slope, ball), 0.6, 0, 1.2, 0.8)
+
+# Of 3 x 3 squares the four about one ray have one triangle each where it is lost or far off.
+for ray, triangles in (((1.0, 1.0, 0.0), 18), (None, 14), ((1.0, 1.0, 5.0), 14)):
+    seen = [(float(i % 4), float(i // 4), 0.0) for i in range(16)]
+    seen[5] = ray
+    assert len(grid_triangles(seen, 4)) == triangles
+
+SCENES["ball"] = (60, nearest(sphere((0, 0, 0), 0.9), box((0, 0, -1), (1.2, 1.2, 0.1))))
+maps = [range_map("ball", perspective, 0.3, True, 7) for perspective in (False, True)]
+for mesh in maps:
+    edges = Counter(frozenset(pair) for a, b, c in mesh.faces for pair in ((a, b), (b, c), (c, a)))
+    ends = Counter(vertex for edge, count in edges.items() if count == 1 for vertex in edge)
+    assert set(edges.values()) == {1, 2} and set(ends.values()) == {2}
+assert maps[0].positions == range_map("ball", False, 0.3, True, 7).positions != maps[1].positions
+clean = range_map("ball", False, 0.3, False, 7)
+assert len(clean.faces) == len(maps[0].faces) and len(clean.positions) < len(maps[0].positions)
+assert set(range(len(clean.positions))) == {vertex for face in clean.faces for vertex in face}
+END
