@@ -51,7 +51,7 @@ struct Boundary {
 
 // Along the rims of the surface that the points agree on (engine/README.md).
 Boundary find_by_stars(EvaluatedScan& scan, const TileStore& store, Job& job) {
-  RawLoops rims = trace_rims(scan, store, job);
+  RawLoops rims = trace_rims(scan.stars, store.tiling(), job);
   RowSet beside = find_beside_loops(rims, scan, store, job);
   return {{std::move(rims)}, std::move(beside)};
 }

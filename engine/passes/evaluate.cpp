@@ -183,7 +183,7 @@ class TileRecorder {
   }
 
   void record_strengths() {
-    record_runs(scan_.strengths, is_border_, [&](LocalIndex p) { return strength(p); });
+    record_runs(scan_.edges.strengths, is_border_, [&](LocalIndex p) { return strength(p); });
   }
 
   void record_stars() {
@@ -219,8 +219,8 @@ class TileRecorder {
         });
       }
     }
-    scan_.stars.append(tile_, open);
-    scan_.gaps.append(tile_, gaps);
+    scan_.stars.open.append(tile_, open);
+    scan_.stars.gaps.append(tile_, gaps);
     record_vertices(is_vertex);
   }
 
@@ -228,23 +228,22 @@ class TileRecorder {
 
   // Those that the stars to be found here ask for; the others are left as they are.
   std::unique_ptr<const Seat[]> find_seats(std::span<const Standing> standings) const {
-    std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
-    std::vector<std::uint8_t> is_taken(points_.owned);
-    const auto take = [&](LocalIndex p) {
-      if (!is_taken[p]) seats[p] = seat(p);
-      is_taken[p] = 1;
-    };
+    std::vector<std::uint8_t> is_asked_for(points_.owned);
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (!has_star(standings[p])) continue;
-      take(p);
-      for (const LocalIndex q : neighbourhoods_[p]) take(q);
+      is_asked_for[p] = 1;
+      for (const LocalIndex q : neighbourhoods_[p]) is_asked_for[q] = 1;
+    }
+    std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (is_asked_for[p]) seats[p] = seat(p);
     }
     return seats;
   }
 
   // For the stars that are settled later. Border points are told of when they are known.
   void tell_if_rough(LocalIndex p, std::span<const Standing> standings) {
-    if (points_.is_owned(p) && has_star(standings[p])) scan_.rough.insert(points_.rows[p]);
+    if (points_.is_owned(p) && has_star(standings[p])) scan_.stars.rough.insert(points_.rows[p]);
   }
 
   // What the stars of waiting points need, here and in other tiles.
@@ -270,7 +269,7 @@ class TileRecorder {
       place[p] = static_cast<LocalIndex>(in_sight.size());
       in_sight.push_back({vertex(p), points_.is_owned(p) ? samplings[p] : Sampling{}});
       tell_if_rough(p, standings);
-      if (points_.is_owned(p) && is_suspect(evaluations_[p])) scan_.suspects.insert(points_.rows[p]);
+      if (points_.is_owned(p) && is_suspect(evaluations_[p])) scan_.stars.suspects.insert(points_.rows[p]);
     }
 
     std::vector<WaitingPoint> waiting;
@@ -285,10 +284,10 @@ class TileRecorder {
                          {normal.x(), normal.y(), normal.z()}});
       for (const LocalIndex q : around) neighbours.push_back(place[q]);
     }
-    scan_.waiting.append(tile_, waiting);
-    scan_.waiting_neighbours.append(tile_, neighbours);
-    scan_.waiting_sight.append(tile_, in_sight);
-    record_runs(scan_.seats, std::span(is_seated).first(points_.owned),
+    scan_.stars.waiting.append(tile_, waiting);
+    scan_.stars.waiting_neighbours.append(tile_, neighbours);
+    scan_.stars.waiting_sight.append(tile_, in_sight);
+    record_runs(scan_.stars.seats, std::span(is_seated).first(points_.owned),
                 [&](LocalIndex p) { return seat(p); });
   }
 
@@ -305,11 +304,11 @@ class TileRecorder {
 
   void record_edges() {
     const TileEdges edges = eligible_edges(points_, neighbourhoods_, evaluations_, job_.config.spanning);
-    scan_.edges.append(tile_, edges.inside);
+    scan_.edges.inside.append(tile_, edges.inside);
     std::vector<StoredCrossing> crossings;
     for (const Crossing& c : edges.crossings)
       crossings.push_back({vertex(c.owned), vertex(c.foreign), strength(c.owned), c.distance});
-    scan_.crossings.append(tile_, crossings);
+    scan_.edges.crossings.append(tile_, crossings);
 
     // Ends of eligible edges; of edges between tiles another tile may tell, so all with foreign neighbours.
     std::vector<std::uint8_t> is_vertex = is_border_;
@@ -410,20 +409,26 @@ std::uint64_t blocks(std::uint64_t ids, const Job& job) {
 
 }  // namespace
 
-EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
-    : edges(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 12),
-      crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 12),
-      waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
+EdgeLists::EdgeLists(const TileStore& store, const Job& job)
+    : inside(job.file("edges"), store.tiling().tiles.size(), job.memory.spills / 4),
+      crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 4),
+      strengths(job.file("strengths")) {}
+
+StarLists::StarLists(const TileStore& store, const Job& job)
+    : waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       suspects(store.tiling().row_count()),
       rough(store.tiling().row_count()),
-      stars(job.file("stars"), store.tiling().tiles.size(), job.memory.spills / 8),
-      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
+      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 8),
+      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8) {}
+
+EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
+    : edges(store, job),
+      stars(store, job),
       vertices(job.file("vertices"), store.tiling().tiles.size(), job.memory.spills / 12),
       candidates(job.file("candidates"), store.tiling().tiles.size(), job.memory.spills / 12),
-      strengths(job.file("strengths")),
       results(job.file("results"), result_blocks, job.memory.spills / 8),
       orientation(job.file("orientation"), store.tiling().tiles.size(), job.memory.spills / 16),
       orientation_crossings(job.file("orientation-crossings"), store.tiling().tiles.size(),

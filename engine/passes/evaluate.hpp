@@ -92,22 +92,37 @@ struct Totals {
 };
 
 // Lists are by tile, unless said otherwise.
-struct EvaluatedScan {
-  EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job);
 
-  Spill<TileEdge> edges;  // eligible, inside the tile
+// For the loops of the paper (passes/trace); empty by stars.
+struct EdgeLists {
+  EdgeLists(const TileStore& store, const Job& job);
+
+  Spill<TileEdge> inside;  // eligible ones
   Spill<StoredCrossing> crossings;
+  Column<Strength> strengths;  // by row, of points with neighbours in other tiles
+};
+
+// For loops by stars (passes/rims); empty by the paper.
+struct StarLists {
+  StarLists(const TileStore& store, const Job& job);
+
   Spill<WaitingPoint> waiting;           // in ascending owned index
   Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   Column<Seat> seats;                    // by row, of border points and their neighbours
   RowSet suspects;                       // among these
   RowSet rough;                          // among these and corners of open stars
-  Spill<StoredCorner> stars;             // open ones, each in one piece
+  Spill<StoredCorner> open;              // stars, each in one piece
   Spill<Gap<Vertex>> gaps;
+};
+
+struct EvaluatedScan {
+  EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job);
+
+  EdgeLists edges;
+  StarLists stars;
   Spill<StoredVertex> vertices;        // in ascending owned index
   Spill<StoredCandidate> candidates;   // in ascending row
-  Column<Strength> strengths;          // by row, of points with neighbours in other tiles
   Spill<StoredResult> results;         // by block of ids; empty without output.points
   Spill<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
   Spill<OrientationCrossing> orientation_crossings;

@@ -6,11 +6,10 @@
 
 namespace lacuna {
 
-// Stars at seams once all points have their seats, their triangles agreed on between tiles, and the rims
-// followed: whole ones within a tile, parts of others joined at the ends of the edges that cross the seam.
-// Rims of fewer than `kLeastRim` points are left out: no ball that is larger than those of triangles rests on
-// so few. Consumes stars and gaps.
-RawLoops trace_rims(EvaluatedScan& scan, const TileStore& store, Job& job);
+// The stars at seams settled, then the rims followed: whole ones within a tile, parts of others joined at the
+// ends of the edges that cross a seam. Those of fewer than `kLeastRim` points are left out: around so few, a
+// sampling leaves gaps by itself. Consumes the lists.
+RawLoops trace_rims(StarLists& lists, const Tiling& tiling, Job& job);
 
 inline constexpr std::size_t kLeastRim = 8;
 

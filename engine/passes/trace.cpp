@@ -47,15 +47,15 @@ ComponentEdge component_edge(std::uint64_t component, double weight, const Verte
 
 void judge_crossings(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, const SpanningConfig& config,
                      Spill<SeamEdge>& seams) {
-  std::vector<StoredCrossing> crossings = scan.crossings.read(t);
-  scan.crossings.drop(t);
+  std::vector<StoredCrossing> crossings = scan.edges.crossings.read(t);
+  scan.edges.crossings.drop(t);
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
   const auto index_in = [&](TileIndex tile, Row row) {
     return static_cast<LocalIndex>(value(row) - value(tiling.tiles[tile].first_row));
   };
-  RunReader<Strength> foreign(scan.strengths);
+  RunReader<Strength> foreign(scan.edges.strengths);
   std::vector<SeamEdge> here;
   for (const StoredCrossing& c : crossings) {
     const Strength& other = foreign[value(c.foreign.row)];
@@ -214,7 +214,7 @@ class Tracer {
     });
     std::vector<std::uint64_t> needs(tiles_);
     for (std::size_t t = 0; t < tiles_; ++t) {
-      needs[t] = (scan_.edges.count(t) + seams_.count(t)) * kBytesPerEdge +
+      needs[t] = (scan_.edges.inside.count(t) + seams_.count(t)) * kBytesPerEdge +
                  scan_.vertices.count(t) * kBytesPerVertex +
                  store_.tiling().tiles[t].points * sizeof(LocalIndex);
     }
@@ -231,8 +231,8 @@ class Tracer {
   // Loops that nothing outside of the tile has to do with are found here; what may matter elsewhere goes on.
   void trace_tile(TileIndex t) {
     const Tile& tile = store_.tiling().tiles[t];
-    std::vector<WeightedEdge> edges = scan_.edges.read(t);
-    scan_.edges.drop(t);
+    std::vector<WeightedEdge> edges = scan_.edges.inside.read(t);
+    scan_.edges.inside.drop(t);
     const std::vector<SeamEdge> seams = seams_.read(t);
     if (edges.empty() && seams.empty()) return;
     const TileVertices vertices(tile, scan_.vertices.read(t), seams);

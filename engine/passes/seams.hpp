@@ -1,0 +1,12 @@
+// The stars of points that wait for other tiles.
+#pragma once
+
+#include "engine/passes/evaluate.hpp"
+
+namespace lacuna {
+
+// Finds the stars of border points once all points have their seats, measures these and the ones beside them,
+// and agrees on the triangles that they are asked for: then all gaps are known. Consumes all but the gaps.
+void settle_seams(StarLists& lists, const Tiling& tiling, Job& job);
+
+}  // namespace lacuna
