@@ -263,7 +263,7 @@ class OpenStars {
     return std::span(stars_.agreements).subspan(stars_.offsets[i], stars_[i].size());
   }
 
-  // An owned corner has its triangle with a and b, one of the three a border point. If it has, it is here:
+  // An owned corner has its triangle with a and b, one of the three a waiting point. If it has, it is here:
   // the triangle could not be settled before.
   bool agrees(LocalIndex corner, const Vertex& a, const Vertex& b) const {
     const auto at = std::lower_bound(points_.begin(), points_.end(), corner);
