@@ -224,16 +224,24 @@ class TileRecorder {
     record_vertices(is_vertex);
   }
 
+  // Marks owned points, by is_wanted(p), and all of their neighbours.
+  template <class Wanted>
+  std::vector<std::uint8_t> with_neighbours(Wanted&& is_wanted) const {
+    std::vector<std::uint8_t> marks(points_.size());
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!is_wanted(p)) continue;
+      marks[p] = 1;
+      for (const LocalIndex q : neighbourhoods_[p]) marks[q] = 1;
+    }
+    return marks;
+  }
+
   Seat seat(LocalIndex p) const { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); }
 
   // Those that the stars to be found here ask for; the others are left as they are.
   std::unique_ptr<const Seat[]> find_seats(std::span<const Standing> standings) const {
-    std::vector<std::uint8_t> is_asked_for(points_.owned);
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!has_star(standings[p])) continue;
-      is_asked_for[p] = 1;
-      for (const LocalIndex q : neighbourhoods_[p]) is_asked_for[q] = 1;
-    }
+    const std::vector<std::uint8_t> is_asked_for =
+        with_neighbours([&](LocalIndex p) { return has_star(standings[p]); });
     std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (is_asked_for[p]) seats[p] = seat(p);
@@ -248,15 +256,10 @@ class TileRecorder {
 
   // What the stars of waiting points need, here and in other tiles.
   void record_waiting(std::span<const Standing> standings, std::span<const Sampling> samplings) {
-    std::vector<std::uint8_t> is_seen(points_.size()), is_seated(points_.size());
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!waits(standings[p])) continue;
-      is_seen[p] = 1;
-      for (const LocalIndex q : neighbourhoods_[p]) is_seen[q] = 1;
-      if (standings[p] != Standing::kBorder) continue;
-      is_seated[p] = 1;
-      for (const LocalIndex q : neighbourhoods_[p]) is_seated[q] = 1;
-    }
+    const std::vector<std::uint8_t> is_seen =
+        with_neighbours([&](LocalIndex p) { return waits(standings[p]); });
+    const std::vector<std::uint8_t> is_seated =
+        with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
     std::vector<LocalIndex> seen;
     for (LocalIndex p = 0; p < points_.size(); ++p) {
       if (is_seen[p]) seen.push_back(p);

@@ -55,26 +55,31 @@ struct BlockSearch::Boxes {
     }
   }
 
+  // Where the boxes of a group begin.
+  struct Sides {
+    const double *lows[3], *highs[3];
+  };
+  Sides sides(std::size_t group) const {
+    Sides sides{};
+    for (int axis = 0; axis < 3; ++axis) {
+      sides.lows[axis] = low[axis].data() + group * kFan;
+      sides.highs[axis] = high[axis].data() + group * kFan;
+    }
+    return sides;
+  }
+
   // Squared distances from a box to those of a group.
   void gaps(std::size_t group, const double* from_low, const double* from_high, double* squared) const {
-    const double *lows[3], *highs[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lows[axis] = low[axis].data() + group * kFan;
-      highs[axis] = high[axis].data() + group * kFan;
-    }
-    fastest::box_gaps(from_low, from_high, lows, highs, squared);
+    const Sides to = sides(group);
+    fastest::box_gaps(from_low, from_high, to.lows, to.highs, squared);
   }
 
   // A bit for each box of a group that is within the radius of a box.
   std::uint32_t within(std::size_t group, const Box& from, double squared_radius) const {
-    const double *lows[3], *highs[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lows[axis] = low[axis].data() + group * kFan;
-      highs[axis] = high[axis].data() + group * kFan;
-    }
+    const Sides to = sides(group);
     const std::size_t there =
         std::min(kFan, count - group * kFan);  // where distances overflow, so does padding
-    return fastest::boxes_within(from.low.data(), from.high.data(), lows, highs, squared_radius) &
+    return fastest::boxes_within(from.low.data(), from.high.data(), to.lows, to.highs, squared_radius) &
            ((1U << there) - 1);
   }
 };

@@ -57,9 +57,8 @@ LACUNA_INLINE void append_near(Lanes gaps, double squared_radius, const std::uin
 LACUNA_INLINE std::size_t near_blocks(const Sight& sight, const double* query, double squared_radius,
                                       std::uint32_t* near) {
   std::size_t count = 0;
-  const double *const lows[3] = {sight.low[0], sight.low[1], sight.low[2]}, *const highs[3] = {sight.high[0],
-                                                                                               sight.high[1],
-                                                                                               sight.high[2]};
+  const double* const lows[3] = {sight.low[0], sight.low[1], sight.low[2]};
+  const double* const highs[3] = {sight.high[0], sight.high[1], sight.high[2]};
   for (std::size_t first = 0; first < sight.count; first += kLanes) {
     const Lanes gaps = squared_gaps(query, query, lows, highs, first);
     append_near(gaps, squared_radius, sight.blocks + first, sight.count - first, near, count);

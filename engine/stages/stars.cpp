@@ -235,13 +235,14 @@ std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const
   };
   for (LocalIndex p = 0; p < standings.size(); ++p) {
     if (is_border[p]) standings[p] = Standing::kBorder;
+  }
+  for (LocalIndex p = 0; p < standings.size(); ++p) {
     if (!is_suspect(evaluations[p])) continue;
     roughen(p);
     for (const LocalIndex q : neighbourhoods[p]) roughen(q);
   }
   for (LocalIndex p = 0; p < standings.size(); ++p) {
     if (!is_border[p]) continue;
-    standings[p] = Standing::kBorder;
     for (const LocalIndex q : neighbourhoods[p]) {
       if (q < standings.size() && standings[q] == Standing::kRough) standings[q] = Standing::kBeside;
     }
