@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -12,23 +11,6 @@ namespace lacuna {
 namespace {
 
 using Network = std::vector<Comparison>;
-
-Network merge_exchange(std::size_t rows) {
-  Network network;
-  for (std::size_t p = std::bit_ceil(rows) / 2; p > 0; p /= 2) {
-    std::size_t q = std::bit_ceil(rows) / 2, r = 0, d = p;
-    for (;;) {
-      for (std::size_t i = 0; i + d < rows; ++i) {
-        if ((i & p) == r) network.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + d)});
-      }
-      if (q == p) break;
-      d = q - p;
-      q /= 2;
-      r = p;
-    }
-  }
-  return network;
-}
 
 // Backwards from the wanted rows: a comparison that touches none that is needed is left out.
 Network needed_for(const Network& network, std::size_t wanted) {
@@ -56,7 +38,9 @@ SortingNetwork sorting_network(std::size_t rows, std::size_t wanted) {
   const Network* network = place.load(std::memory_order_acquire);
   if (network == nullptr) {
     const std::lock_guard lock(mutex);
-    owned.push_back(std::make_unique<const Network>(needed_for(merge_exchange(rows), wanted)));
+    Network all;
+    for_each_comparison(rows, [&](Comparison c) { all.push_back(c); });
+    owned.push_back(std::make_unique<const Network>(needed_for(all, wanted)));
     network = owned.back().get();
     place.store(network, std::memory_order_release);
   }

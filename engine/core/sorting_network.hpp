@@ -1,6 +1,9 @@
 // Sorting rows of numbers column by column, without a branch: the same comparisons whatever the numbers.
 #pragma once
 
+#include "engine/core/dispatch.hpp"
+#include "engine/core/eight.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -11,16 +14,43 @@ struct Comparison {
   std::uint8_t low, high;
 };
 
+// visit(comparison): those after which `rows` rows are in ascending order. Batcher's odd-even merge exchange
+// (Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M).
+template <class Visit>
+constexpr void for_each_comparison(std::size_t rows, Visit&& visit) {
+  std::size_t top = 1;  // half of the rows, rounded up to a power of two
+  while (2 * top < rows) top *= 2;
+  for (std::size_t p = top; p > 0; p /= 2) {
+    std::size_t q = top, r = 0, d = p;
+    for (;;) {
+      for (std::size_t i = 0; i + d < rows; ++i) {
+        if ((i & p) == r) visit(Comparison{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + d)});
+      }
+      if (q == p) break;
+      d = q - p;
+      q /= 2;
+      r = p;
+    }
+  }
+}
+
 inline constexpr std::size_t kMostSortedRows = 128;
 
-// The comparisons after which the first `wanted` of `rows` rows are the smallest, in ascending order:
-// Batcher's odd-even merge exchange (Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M), without
-// those that the wanted rows do not depend on; at most kMostSortedRows. Computed once for each pair, then
-// kept.
+// Those comparisons, at most kMostSortedRows rows, that put the `wanted` smallest first. Computed once for
+// each pair, then kept.
 struct SortingNetwork {
   const Comparison* comparisons;
   std::size_t count;
 };
 SortingNetwork sorting_network(std::size_t rows, std::size_t wanted);
+
+// Of each column, the `wanted` smallest of the first `count` numbers come first, in ascending order; the
+// others in any. Not for NaN. At most kMostSortedRows. Up to 32 rows are sorted in registers.
+using SortRows = void(Eight* rows, std::size_t count, std::size_t wanted);
+LACUNA_DISPATCH(SortRows, sort_rows)
+
+// For *.lanes.cpp: of as many columns as a register holds, from `first` on.
+using SortColumns = void(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first);
+LACUNA_DECLARE(SortColumns, sort_columns)
 
 }  // namespace lacuna

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "engine/core/dispatch.hpp"
-#include "engine/core/sorting_network.hpp"
+#include "engine/core/eight.hpp"
 
 #include <cstddef>
 
 namespace lacuna {
 
-inline constexpr std::size_t kBundle = 8;                 // points judged together
+inline constexpr std::size_t kBundle = kEight;            // points judged together
 inline constexpr std::size_t kMostSortedDirections = 64;  // side by side
 
 // Directions nearer than this, in radians, are one direction (its nearest neighbour stands for it), gaps
@@ -18,11 +18,6 @@ inline constexpr double kSameDirection = 1e-9;
 
 // A neighbour whose projection is shorter than this share of its distance projects onto p.
 inline constexpr double kNoDirection = 1e-12;
-
-// A number of each.
-struct alignas(64) Eight {
-  double at[kBundle];
-};
 
 // Neighbourhoods side by side: row i holds the i-th neighbour of each point. Beyond a point's count its
 // offsets are 0.
@@ -34,7 +29,6 @@ struct Bundle {
   Eight* z = nullptr;
   Eight given_normals[3];       // unit; NaN: to be estimated
   std::size_t sorted_rows = 0;  // the first rows, at most kMostSortedDirections
-  SortingNetwork network{};     // for these
   Eight* distance = nullptr;    // working space, by row
   Eight* weight = nullptr;
   Eight* direction = nullptr;

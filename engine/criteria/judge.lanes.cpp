@@ -1,5 +1,6 @@
 #include "engine/criteria/judge.hpp"
 
+#include "engine/core/sorting_network.hpp"
 #include "engine/criteria/angle.hpp"
 #include "engine/criteria/halfdisc.hpp"
 #include "engine/criteria/shape.hpp"
@@ -197,15 +198,6 @@ Lanes find_directions(const Part& part, Vectors normal, double cos_cone) {
   return used;
 }
 
-void sort_directions(const Part& part) {
-  for (std::size_t i = 0; i < part.bundle.network.count; ++i) {
-    const Comparison c = part.bundle.network.comparisons[i];
-    const Lanes a = part.get(part.bundle.direction, c.low), b = part.get(part.bundle.direction, c.high);
-    part.set(part.bundle.direction, c.low, smaller(a, b));
-    part.set(part.bundle.direction, c.high, larger(a, b));
-  }
-}
-
 // visit(turn, from, to) for the turn from each direction to the next, the last to the first. Sorted rows;
 // where there is no direction, the turn is negative.
 template <class Visit>
@@ -226,7 +218,8 @@ LACUNA_INLINE void for_each_turn(const Part& part, Visit&& visit) {
 Gaps largest_gaps(const Part& part, Vectors normal, double cos_cone) {
   Gaps gap;
   gap.used = find_directions(part, normal, cos_cone);
-  sort_directions(part);
+  LACUNA_LANES::sort_columns(part.bundle.direction, part.bundle.sorted_rows, part.bundle.sorted_rows,
+                             part.first);
   const auto pair_of = [](LaneBits from, LaneBits to) {
     return from < to ? from << kRowShift | to : to << kRowShift | from;
   };

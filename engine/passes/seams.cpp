@@ -219,8 +219,8 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
   BallSizer sizer(samplings);
   std::vector<Surroundings> surroundings;
   Letters<Claim> letters;
-  for (std::size_t first = 0; first < stars.size(); first += kQueries) {
-    const auto bundle = std::span(stars).subspan(first, std::min(kQueries, stars.size() - first));
+  for (std::size_t first = 0; first < stars.size(); first += kEight) {
+    const auto bundle = std::span(stars).subspan(first, std::min(kEight, stars.size() - first));
     surroundings.clear();
     for (const WaitingStar& star : bundle) surroundings.push_back(star.seen);
     sizer.find(surroundings);

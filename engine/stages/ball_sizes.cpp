@@ -1,5 +1,7 @@
 #include "engine/stages/ball_sizes.hpp"
 
+#include "engine/core/sorting_network.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -9,19 +11,17 @@ namespace {
 
 constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.1, kMostCircle = 0.5;
 
-using Counts = std::array<std::size_t, kQueries>;
+using Counts = std::array<std::size_t, kEight>;
 
 // The first `counts[i]` numbers of each point i, half of them up to the median.
-void sort_halves(std::vector<KeyRow>& rows, const Counts& counts) {
+void sort_halves(std::vector<Eight>& rows, const Counts& counts) {
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   if (most == 0) return;
   if (most <= kMostSortedRows) {
-    const std::size_t wanted = most / 2 + 1;
-    bool tied[kQueries];
-    fastest::sort_keys(rows.data(), sorting_network(most, wanted), wanted, tied);
+    fastest::sort_rows(rows.data(), most, most / 2 + 1);
     return;
   }
-  for (std::size_t i = 0; i < kQueries; ++i) {
+  for (std::size_t i = 0; i < kEight; ++i) {
     std::vector<double> numbers;
     for (std::size_t row = 0; row < counts[i]; ++row) numbers.push_back(rows[row].at[i]);
     std::sort(numbers.begin(), numbers.end());
@@ -53,8 +53,8 @@ void BallSizer::find(std::span<const Surroundings> points) {
     circles_.resize(rows);
     scatters_.resize(rows);
   }
-  constexpr KeyRow kBeyondAll = [] {
-    KeyRow row{};
+  constexpr Eight kBeyondAll = [] {
+    Eight row{};
     for (double& number : row.at) number = std::numeric_limits<double>::infinity();
     return row;
   }();

@@ -5,9 +5,8 @@
 // neighbours tells it from the rim of a hole as well, where some balls are large because there is nothing.
 #pragma once
 
-#include "engine/core/sorting_network.hpp"
+#include "engine/core/eight.hpp"
 #include "engine/data/star.hpp"
-#include "engine/stages/candidates.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <array>
@@ -35,14 +34,14 @@ class BallSizer {
  public:
   explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}
 
-  // One to kQueries points: then [i] is the size for point i. What it is depends on no other point.
+  // One to kEight points: then [i] is the size for point i. What it is depends on no other point.
   void find(std::span<const Surroundings> points);
   const BallSize& operator[](std::size_t i) const { return sizes_[i]; }
 
  private:
   std::span<const Sampling> samplings_;
-  std::vector<KeyRow> circles_, scatters_;
-  std::array<BallSize, kQueries> sizes_;
+  std::vector<Eight> circles_, scatters_;
+  std::array<BallSize, kEight> sizes_;
 };
 
 }  // namespace lacuna

@@ -170,14 +170,15 @@ void BlockSearch::sort_lists(std::size_t place, std::size_t count, std::size_t w
   bool* const tied = &tied_[place];
   std::fill_n(tied, count, true);
   if (rows > kMostSortedRows) return;
-  std::vector<KeyRow>& keys = keys_[place / kQueries];
+  std::vector<Eight>& keys = keys_[place / kQueries];
   if (keys.size() < rows) keys.resize(rows);
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t row = 0;
     for (; row < lists[i].count; ++row) keys[row].at[i] = lists[i].keys[row];
     for (; row < rows; ++row) keys[row].at[i] = kInfinite;
   }
-  fastest::sort_keys(keys.data(), sorting_network(rows, wanted), wanted, tied);
+  fastest::sort_rows(keys.data(), rows, wanted);
+  fastest::find_ties(keys.data(), wanted, tied);
 }
 
 // The neighbours of eight queries or fewer, whose candidates are listed from `place` on.

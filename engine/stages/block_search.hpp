@@ -77,8 +77,8 @@ class BlockSearch {
   double guess_ = 0;     // radius for the next query; 0: none yet
   double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
   Sight sight_;
-  std::array<CandidateList, kBlock> lists_;                  // of the queries of a block
-  std::array<std::vector<KeyRow>, kBlock / kQueries> keys_;  // of eight queries each, sorted
+  std::array<CandidateList, kBlock> lists_;                 // of the queries of a block
+  std::array<std::vector<Eight>, kBlock / kQueries> keys_;  // of eight queries each, sorted
   std::array<bool, kBlock> tied_;
   std::size_t neighbours_ = 0;      // of each query
   std::vector<LocalIndex> found_;   // by query of the block

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/dispatch.hpp"
+#include "engine/core/eight.hpp"
 #include "engine/core/sorting_network.hpp"
 
 #include <bit>
@@ -64,15 +65,11 @@ struct alignas(64) CandidateList {
 using FindWithin = void(const Sight&, const double* query, double squared_radius, CandidateList&);
 LACUNA_DISPATCH(FindWithin, find_within)
 
-// A number of each of eight queries.
-inline constexpr std::size_t kQueries = 8;
-struct alignas(64) KeyRow {
-  double at[kQueries];
-};
+inline constexpr std::size_t kQueries = kEight;  // ranked side by side
 
-// Sorts each query's keys, the first `wanted` of them into the first rows. tied[i]: whether two of these of
-// query i, other than infinite ones, cannot tell which is nearer.
-using SortKeys = void(KeyRow* rows, const SortingNetwork&, std::size_t wanted, bool* tied);
-LACUNA_DISPATCH(SortKeys, sort_keys)
+// tied[i]: whether two of the first `wanted` keys of query i, in ascending order, other than infinite ones,
+// cannot tell which is nearer.
+using FindTies = void(const Eight* rows, std::size_t wanted, bool* tied);
+LACUNA_DISPATCH(FindTies, find_ties)
 
 }  // namespace lacuna

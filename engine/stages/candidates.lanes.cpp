@@ -114,14 +114,8 @@ void find_within(const Sight& sight, const double* query, double squared_radius,
   list.count = count <= kMostCandidates ? count : kMostCandidates + 1;
 }
 
-void sort_keys(KeyRow* rows, const SortingNetwork& network, std::size_t wanted, bool* tied) {
+void find_ties(const Eight* rows, std::size_t wanted, bool* tied) {
   for (std::size_t first = 0; first < kQueries; first += kLanes) {
-    for (std::size_t i = 0; i < network.count; ++i) {
-      const Comparison c = network.comparisons[i];
-      const Lanes a = load(rows[c.low].at + first), b = load(rows[c.high].at + first);
-      store(rows[c.low].at + first, smaller(a, b));
-      store(rows[c.high].at + first, larger(a, b));
-    }
     LaneBits ties{};
     for (std::size_t i = 0; i + 1 < wanted; ++i) {
       const LaneBits a = bits(load(rows[i].at + first)), b = bits(load(rows[i + 1].at + first));

@@ -34,24 +34,22 @@ Evaluation lone_point() {
 }
 
 // Points with nearly as many neighbours each stand side by side, or most of a bundle would wait for the
-// largest neighbourhood. They come from a run of the store order, so that they share the cache.
+// largest neighbourhood.
 class Bundler {
  public:
   Bundler(const TilePoints& points, const Rows& neighbourhoods,
           std::span<const Eigen::Vector3d> given_normals)
       : points_(points), neighbourhoods_(neighbourhoods), given_normals_(given_normals) {}
 
-  // visit(bundle, points): the points of a bundle's lanes; a last one that is not full repeats a point.
+  // Of the points [first, last) that have neighbours. visit(bundle, points): the points of a bundle's lanes;
+  // a last one that is not full repeats a point.
   template <class Visit>
-  void for_each_bundle(Visit&& visit) {
-    constexpr LocalIndex kRun = 64;
-    for (LocalIndex first = 0; first < points_.owned; first += kRun) {
-      order_by_count(first, std::min(first + kRun, points_.owned));
-      for (std::size_t i = 0; i < order_.size(); i += kBundle) {
-        for (std::size_t lane = 0; lane < kBundle; ++lane)
-          lanes_[lane] = order_[std::min(i + lane, order_.size() - 1)];
-        visit(gather(), std::span<const LocalIndex>(lanes_).first(std::min(kBundle, order_.size() - i)));
-      }
+  void for_each_bundle(LocalIndex first, LocalIndex last, Visit&& visit) {
+    order_by_count(first, last);
+    for (std::size_t i = 0; i < order_.size(); i += kBundle) {
+      for (std::size_t lane = 0; lane < kBundle; ++lane)
+        lanes_[lane] = order_[std::min(i + lane, order_.size() - 1)];
+      visit(gather(), std::span<const LocalIndex>(lanes_).first(std::min(kBundle, order_.size() - i)));
     }
   }
 
@@ -73,7 +71,6 @@ class Bundler {
     if (rows > capacity_) grow(rows);
     bundle_.rows = rows;
     bundle_.sorted_rows = std::min(rows, kMostSortedDirections);
-    bundle_.network = sorting_network(bundle_.sorted_rows, bundle_.sorted_rows);
     for (std::size_t lane = 0; lane < kBundle; ++lane) {
       const LocalIndex p = lanes_[lane];
       const auto neighbours = neighbourhoods_[p];
@@ -150,14 +147,21 @@ std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbour
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria) {
   const JudgeParameters parameters = judge_parameters(normals, criteria);
-  std::vector<Evaluation> evaluations(points.owned, lone_point());
+  Bundler bundler(points, neighbourhoods, given_normals);
+  std::vector<Evaluation> evaluations;
+  evaluations.reserve(points.owned);
   Judgements judgements;
-  Bundler(points, neighbourhoods, given_normals)
-      .for_each_bundle([&](const Bundle& bundle, std::span<const LocalIndex> judged) {
-        fastest::judge(bundle, parameters, judgements);
-        for (std::size_t lane = 0; lane < judged.size(); ++lane)
-          evaluations[judged[lane]] = evaluation(judgements, lane, neighbourhoods[judged[lane]]);
-      });
+  // By runs of the store order: what is near in space shares the cache.
+  constexpr LocalIndex kRun = 64;
+  for (LocalIndex first = 0, last; first < points.owned; first = last) {
+    last = std::min(first + kRun, points.owned);
+    evaluations.resize(last, lone_point());
+    bundler.for_each_bundle(first, last, [&](const Bundle& bundle, std::span<const LocalIndex> judged) {
+      fastest::judge(bundle, parameters, judgements);
+      for (std::size_t lane = 0; lane < judged.size(); ++lane)
+        evaluations[judged[lane]] = evaluation(judgements, lane, neighbourhoods[judged[lane]]);
+    });
+  }
   return evaluations;
 }
 

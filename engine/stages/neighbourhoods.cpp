@@ -28,6 +28,12 @@ class Nearest {
   std::span<const LocalIndex> operator[](LocalIndex p) const {
     return {lists_.lines[p * lists_.stride].points, lists_.count};
   }
+  // Copies the row of p, in whole lines; returns where the next one goes.
+  LocalIndex* copy(LocalIndex p, LocalIndex* to) const {
+    for (std::size_t line = 0; line < lists_.stride; ++line)
+      std::copy_n(lists_.lines[p * lists_.stride + line].points, kListLine, to + line * kListLine);
+    return to + lists_.count;
+  }
   bool holds(LocalIndex p, LocalIndex q) const {
     const auto row = (*this)[p];
     return std::find(row.begin(), row.end(), q) != row.end();
@@ -83,16 +89,17 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
 
   Rows neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
-  neighbourhoods.indices.reserve(points.owned * std::min(k, points.size()) + others.indices.size() +
-                                 near.indices.size());
+  std::vector<LocalIndex>& indices = neighbourhoods.indices;
+  indices.resize(points.owned * nearest.lists().count + others.indices.size() + points.linked.indices.size() +
+                 near.indices.size() + kListLine);
+  LocalIndex* end = indices.data();
   std::vector<Neighbour> added;
   for (LocalIndex p = 0; p < points.owned; ++p) {
-    const auto row = nearest[p];
-    neighbourhoods.indices.insert(neighbourhoods.indices.end(), row.begin(), row.end());
+    end = nearest.copy(p, end);
 
     // Of the k nearest and the points within eps, one holds the other: both begin alike.
-    const auto beyond = near[p].subspan(std::min(row.size(), near[p].size()));
-    neighbourhoods.indices.insert(neighbourhoods.indices.end(), beyond.begin(), beyond.end());
+    const auto beyond = near[p].subspan(std::min(nearest.lists().count, near[p].size()));
+    end = std::copy(beyond.begin(), beyond.end(), end);
 
     // What is in neither comes after both.
     added.clear();
@@ -105,9 +112,10 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
       if (!nearest.holds(p, q)) add(q);
     }
     std::sort(added.begin(), added.end());
-    for (const Neighbour& q : added) neighbourhoods.indices.push_back(q.index);
-    neighbourhoods.offsets.push_back(static_cast<std::uint32_t>(neighbourhoods.indices.size()));
+    for (const Neighbour& q : added) *end++ = q.index;
+    neighbourhoods.offsets.push_back(static_cast<std::uint32_t>(end - indices.data()));
   }
+  indices.resize(static_cast<std::size_t>(end - indices.data()));
   return neighbourhoods;
 }
 

@@ -105,8 +105,8 @@ void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluatio
 void measure_each(const Rows& neighbourhoods, std::span<const LocalIndex> points, TileStars& found) {
   BallSizer sizer(found.samplings);
   std::vector<Surroundings> surroundings;
-  for (std::size_t first = 0; first < points.size(); first += kQueries) {
-    const auto bundle = points.subspan(first, std::min(kQueries, points.size() - first));
+  for (std::size_t first = 0; first < points.size(); first += kEight) {
+    const auto bundle = points.subspan(first, std::min(kEight, points.size() - first));
     surroundings.clear();
     for (const LocalIndex p : bundle) surroundings.push_back({p, neighbourhoods[p]});
     sizer.find(surroundings);

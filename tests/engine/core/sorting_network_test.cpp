@@ -61,4 +61,35 @@ TEST_CASE("fewer wanted rows need fewer comparisons") {
   CHECK(sorting_network(1, 1).count == 0);
 }
 
+// Values of few kinds, so that many are equal.
+TEST_CASE("rows of eight are sorted column by column, by every instruction set") {
+  std::vector<SortRows*> sets{plain::sort_rows};
+#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
+  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::sort_rows);
+  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::sort_rows);
+#endif
+  Random random(9);
+  std::size_t wrong = 0;
+  for (std::size_t count = 0; count <= kMostSortedRows; ++count) {
+    const auto wanted = std::size_t(random.whole(0, std::int64_t(count)));
+    std::vector<Eight> rows(count + 1);
+    for (Eight& row : rows) {
+      for (double& number : row.at) number = double(random.whole(-20, 20));
+    }
+    for (SortRows* const sort : sets) {
+      std::vector<Eight> sorted = rows;
+      sort(sorted.data(), count, wanted);
+      for (std::size_t column = 0; column < kEight; ++column) {
+        std::vector<double> expected, found;
+        for (std::size_t i = 0; i < count; ++i) expected.push_back(rows[i].at[column]);
+        for (std::size_t i = 0; i < wanted; ++i) found.push_back(sorted[i].at[column]);
+        std::sort(expected.begin(), expected.end());
+        wrong += !std::equal(found.begin(), found.end(), expected.begin());
+        wrong += sorted[count].at[column] != rows[count].at[column];  // beyond the last row
+      }
+    }
+  }
+  CHECK(wrong == 0);
+}
+
 }  // namespace lacuna

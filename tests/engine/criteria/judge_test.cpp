@@ -55,7 +55,6 @@ FilledBundle bundle_of(const std::vector<Neighbourhood>& points, bool given) {
   bundle.x = rows, bundle.y = rows + count, bundle.z = rows + 2 * count;
   bundle.distance = rows + 3 * count, bundle.weight = rows + 4 * count, bundle.direction = rows + 5 * count;
   bundle.sorted_rows = std::min(count, kMostSortedDirections);
-  bundle.network = sorting_network(bundle.sorted_rows, bundle.sorted_rows);
   for (std::size_t point = 0; point < kBundle; ++point) {
     bundle.counts.at[point] = double(points[point].size());
     for (int axis = 0; axis < 3; ++axis)

@@ -1,6 +1,7 @@
 // How large balls may be, from medians by hand, beside whatever other points.
 #include "engine/stages/ball_sizes.hpp"
 
+#include "engine/core/sorting_network.hpp"
 #include "tests/support/clouds.hpp"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
     }
     std::vector<std::vector<LocalIndex>> neighbours;
     std::vector<Surroundings> all;
-    const auto points = static_cast<std::size_t>(random.whole(1, kQueries));
+    const auto points = static_cast<std::size_t>(random.whole(1, kEight));
     for (std::size_t i = 0; i < points; ++i) {
       auto p = static_cast<LocalIndex>(random.whole(0, 199));
       while (samplings[p].distance == 0) p = (p + 1) % 200;

@@ -1,0 +1,15 @@
+// Eight numbers side by side: a row of what is computed for eight points at once. A whole register of the
+// widest instruction set, two or four of the others (core/lanes).
+#pragma once
+
+#include <cstddef>
+
+namespace lacuna {
+
+inline constexpr std::size_t kEight = 8;
+
+struct alignas(64) Eight {
+  double at[kEight];
+};
+
+}  // namespace lacuna

@@ -1,0 +1,95 @@
+#include "engine/core/sorting_network.hpp"
+
+#include "engine/core/lanes.hpp"
+
+#include <utility>
+
+namespace lacuna::LACUNA_LANES {
+namespace {
+
+constexpr double kInfinite = __builtin_inf();
+
+consteval std::size_t count_comparisons(std::size_t rows) {
+  std::size_t count = 0;
+  for_each_comparison(rows, [&](Comparison) { ++count; });
+  return count;
+}
+
+template <std::size_t kRows>
+struct Comparisons {
+  Comparison at[count_comparisons(kRows)];
+};
+
+template <std::size_t kRows>
+consteval Comparisons<kRows> all_comparisons() {
+  Comparisons<kRows> all{};
+  std::size_t count = 0;
+  for_each_comparison(kRows, [&](Comparison c) { all.at[count++] = c; });
+  return all;
+}
+
+LACUNA_INLINE void put_in_order(Lanes& low, Lanes& high) {
+  const Lanes a = low, b = high;
+  low = smaller(a, b);
+  high = larger(a, b);
+}
+
+// kRows rows, or one less. All comparisons are written out, so that the rows stay in registers.
+template <std::size_t kRows>
+void sort_few(Eight* rows, std::size_t count, std::size_t first) {
+  constexpr Comparisons<kRows> kAll = all_comparisons<kRows>();
+  constexpr std::size_t kLast = kRows - 1;
+  Lanes row[kRows];
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    ((row[i] = load(rows[i].at + first)), ...);
+  }
+  (std::make_index_sequence<kLast>{});
+  row[kLast] = count == kRows ? load(rows[kLast].at + first) : all_lanes(kInfinite);
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (put_in_order(row[kAll.at[i].low], row[kAll.at[i].high]), ...);
+  }
+  (std::make_index_sequence<count_comparisons(kRows)>{});
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (store(rows[i].at + first, row[i]), ...);
+  }
+  (std::make_index_sequence<kLast>{});
+  if (count == kRows) store(rows[kLast].at + first, row[kLast]);
+}
+
+void sort_many(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
+  const SortingNetwork network = sorting_network(count, wanted);
+  for (std::size_t i = 0; i < network.count; ++i) {
+    const Comparison c = network.comparisons[i];
+    Lanes low = load(rows[c.low].at + first), high = load(rows[c.high].at + first);
+    put_in_order(low, high);
+    store(rows[c.low].at + first, low);
+    store(rows[c.high].at + first, high);
+  }
+}
+
+constexpr std::size_t kMostInRegisters = 32;
+
+template <std::size_t... i>
+void sort_by_count(Eight* rows, std::size_t count, std::size_t first, std::index_sequence<i...>) {
+  using Sort = void(Eight*, std::size_t, std::size_t);
+  static constexpr Sort* kSorts[] = {sort_few<2 * i + 2>...};
+  kSorts[(count - 1) / 2](rows, count, first);
+}
+
+}  // namespace
+
+void sort_columns(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
+  if (count < 2) return;
+  if (count <= kMostInRegisters) {
+    sort_by_count(rows, count, first, std::make_index_sequence<kMostInRegisters / 2>{});
+  } else {
+    sort_many(rows, count, wanted, first);
+  }
+}
+
+void sort_rows(Eight* rows, std::size_t count, std::size_t wanted) {
+  for (std::size_t first = 0; first < kEight; first += kLanes)
+    LACUNA_LANES::sort_columns(rows, count, wanted, first);
+}
+
+}  // namespace lacuna::LACUNA_LANES
