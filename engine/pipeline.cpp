@@ -90,7 +90,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
   Tiling tiling = split_tiles(std::move(survey.cells), survey.grid, tile_points);
   Summary summary = summarise(survey, tiling, tile_points, job);
-  const TileStore store = bucket_scan(scan, std::move(tiling), job);
+  const TileStore store = bucket_scan(scan, std::move(tiling), survey.precision(), job);
 
   // Every point judged from its neighbourhood (paper, 4.1 to 4.6).
   Spill<Link> links = link_tiles(store, job);

@@ -15,10 +15,10 @@
 
 namespace lacuna {
 
-template <class Record>
+template <class Record, class Target = Column<Record>>
 class ColumnFiller {
  public:
-  ColumnFiller(Column<Record>& column, std::vector<std::uint64_t> first_rows, std::uint64_t memory)
+  ColumnFiller(Target& column, std::vector<std::uint64_t> first_rows, std::uint64_t memory)
       : column_(column),
         next_rows_(std::move(first_rows)),
         gathered_(next_rows_.size()),
@@ -52,7 +52,7 @@ class ColumnFiller {
     gathered_[run] = 0;
   }
 
-  Column<Record>& column_;
+  Target& column_;
   std::vector<std::uint64_t> next_rows_;  // of each run, the first that is not written
   std::vector<std::uint32_t> gathered_;   // records in its piece
   std::uint64_t piece_;                   // records

@@ -21,11 +21,11 @@ std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
 
 }  // namespace
 
-TileStore::TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals,
-                     std::uint64_t duplicate_budget)
+TileStore::TileStore(const std::filesystem::path& folder, Tiling tiling, Precision precision,
+                     bool with_normals, std::uint64_t duplicate_budget)
     : tiling_(std::move(tiling)),
       has_normals_(with_normals),
-      points_(folder / "points"),
+      points_(folder / "points", precision),
       normals_(folder / "normals"),
       duplicates_(folder / "duplicates", tiling_.tiles.size(), duplicate_budget) {
   tiling_.cell_rows.resize(tiling_.cells.size());

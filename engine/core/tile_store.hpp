@@ -4,6 +4,7 @@
 
 #include "engine/core/column_filler.hpp"
 #include "engine/core/file.hpp"
+#include "engine/core/point_column.hpp"
 #include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
 
@@ -17,14 +18,6 @@
 #include <Eigen/Core>
 
 namespace lacuna {
-
-// As it stands on disk.
-struct StoredPoint {
-  double x, y, z;
-  PointId id;
-
-  Eigen::Vector3d position() const { return {x, y, z}; }
-};
 
 struct StoredNormal {
   double x, y, z;
@@ -40,7 +33,7 @@ struct Duplicate {
 // several threads.
 class TileStore {
  public:
-  TileStore(const std::filesystem::path& folder, Tiling tiling, bool with_normals,
+  TileStore(const std::filesystem::path& folder, Tiling tiling, Precision precision, bool with_normals,
             std::uint64_t duplicate_budget);
 
   const Tiling& tiling() const { return tiling_; }
@@ -68,7 +61,7 @@ class TileStore {
  private:
   Tiling tiling_;
   bool has_normals_;
-  Column<StoredPoint> points_;
+  PointColumn points_;
   Column<StoredNormal> normals_;
   Spill<Duplicate> duplicates_;
 };
@@ -90,7 +83,7 @@ class TileStore::Filler {
   };
   const Tiling& tiling_;
   std::vector<Filled> filled_;  // of each tile
-  ColumnFiller<StoredPoint> points_;
+  ColumnFiller<StoredPoint, PointColumn> points_;
   std::optional<ColumnFiller<StoredNormal>> normals_;
 };
 

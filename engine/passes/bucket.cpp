@@ -146,12 +146,12 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
   return survey.finish();
 }
 
-TileStore bucket_scan(PointSource& scan, Tiling tiling, Job& job) {
+TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job& job) {
   std::uint64_t points = 0;
   for (const Tile& tile : tiling.tiles) points += tile.raw;
   Phase phase(job, "bucket", 2 * points);
   const CellIndex index(tiling);
-  TileStore store(job.workspace, std::move(tiling), scan.has_normals(), job.memory.spills / 8);
+  TileStore store(job.workspace, std::move(tiling), precision, scan.has_normals(), job.memory.spills / 8);
   fill(store, scan, index, job, phase);
 
   std::vector<std::uint64_t> needs;

@@ -12,6 +12,6 @@ namespace lacuna {
 SurveyedScan survey_scan(PointSource& scan, Job& job);
 
 // Streams it again and stores every distinct finite point in its tile, in cell order.
-TileStore bucket_scan(PointSource& scan, Tiling tiling, Job& job);
+TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job& job);
 
 }  // namespace lacuna

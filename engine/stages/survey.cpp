@@ -107,6 +107,11 @@ struct Survey::Counts {
   }
 };
 
+Precision SurveyedScan::precision() const {
+  constexpr std::uint64_t kIds = std::uint64_t{1} << 32;
+  return is_single && points <= kIds ? Precision::kSingle : Precision::kDouble;
+}
+
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   CellCounts counts{.points = batch.size()};
   const std::span<const Eigen::Vector3d> positions = batch.positions;
@@ -122,6 +127,7 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
         continue;
       }
       counts.bounds.extend(p);
+      counts.is_single &= p.cast<float>().cast<double>() == p;
       if (counts.runs.empty() || !same_cell(counts.runs.back().cell, cells[i]))
         counts.runs.push_back({cells[i], 0});
       ++counts.runs.back().points;
@@ -177,6 +183,7 @@ void Survey::add(const CellCounts& counts) {
   scan_.points += counts.points;
   scan_.dropped += counts.dropped;
   scan_.bounds.extend(counts.bounds);
+  scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
     counts_->add(runs, scan_.grid.shift);
     while (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();

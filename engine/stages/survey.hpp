@@ -1,6 +1,7 @@
 // survey: counts points per cell while they stream by.
 #pragma once
 
+#include "engine/core/point_column.hpp"
 #include "engine/data/points.hpp"
 #include "engine/data/tiling.hpp"
 
@@ -19,6 +20,9 @@ struct SurveyedScan {
   Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
   std::uint64_t points = 0;        // rows of the input
   std::uint64_t dropped = 0;       // with a non-finite coordinate
+  bool is_single = true;           // every finite coordinate is a number of single precision
+
+  Precision precision() const;
 };
 
 // Consecutive points in the same cell.
@@ -33,6 +37,7 @@ struct CellCounts {
   Eigen::AlignedBox3d bounds;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;
+  bool is_single = true;
 };
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 

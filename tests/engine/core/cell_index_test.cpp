@@ -131,7 +131,7 @@ StoredPoint numbered(std::uint64_t id) {
 
 TEST_CASE("points that come from several threads are in their tile once each, beside their normals") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), true, 1 << 16);
+  TileStore store(folder / "", two_tiles(), Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
   std::vector<std::thread> threads;
   for (std::uint64_t first = 0; first < 8000; first += 1000) {
@@ -167,7 +167,7 @@ TEST_CASE("points that come from several threads are in their tile once each, be
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), false, 1 << 16);
+  TileStore store(folder / "", two_tiles(), Precision::kDouble, false, 1 << 16);
   TileStore::Filler filler(store, 4000);
   const std::vector<StoredPoint> points(3000, numbered(1));
   filler.append(0, points, {});

@@ -138,7 +138,9 @@ TEST_CASE("an input that changes between the two readings is an error") {
   // Hundreds of points have come to the last one: as many as before, and each where some were counted.
   for (int i = 0; i < 300; ++i)
     crowded.positions[std::size_t(i)] = before.positions.back() + Eigen::Vector3d(1e-6 * (i + 1), 0, 0);
-  for (const Cloud& after : {fewer, before.joined(line(1)), elsewhere, crowded})
+  Cloud finer = before;
+  finer.positions[7].x() += 1e-12;
+  for (const Cloud& after : {fewer, before.joined(line(1)), elsewhere, crowded, finer})
     CHECK_THROWS_WITH(changed(after), Catch::Contains("the input changed while it was read"));
 }
 

@@ -1,0 +1,71 @@
+#include "engine/core/point_column.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace lacuna {
+namespace {
+
+// So many at a time are turned into the other kind, in the cache.
+constexpr std::size_t kPart = 4096;
+
+}  // namespace
+
+PointColumn::PointColumn(std::filesystem::path path, Precision precision)
+    : column_(std::in_place_type<Column<StoredPoint>>, path) {
+  if (precision == Precision::kSingle) column_.emplace<Column<SinglePoint>>(std::move(path));
+}
+
+void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) {
+  if (auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {
+    wide->write(row, points);
+  } else {
+    write_single(std::get<Column<SinglePoint>>(column_), row, points);
+  }
+}
+
+void PointColumn::write_single(Column<SinglePoint>& column, std::uint64_t row,
+                               std::span<const StoredPoint> points) {
+  std::array<SinglePoint, kPart> part;
+  for (std::size_t first = 0; first < points.size(); first += kPart) {
+    const std::size_t count = std::min(kPart, points.size() - first);
+    bool is_exact = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const StoredPoint& p = points[first + i];
+      const SinglePoint s{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                          static_cast<std::uint32_t>(value(p.id))};
+      is_exact &= (s.x == p.x) & (s.y == p.y) & (s.z == p.z) & (s.id == value(p.id));
+      part[i] = s;
+    }
+    if (!is_exact)
+      throw Error("the input changed while it was read: a coordinate has more digits than before");
+    column.write(row + first, std::span(part).first(count));
+  }
+}
+
+void PointColumn::read(std::uint64_t row, std::span<StoredPoint> points) const {
+  if (const auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {
+    wide->read(row, points);
+    return;
+  }
+  const auto& single = std::get<Column<SinglePoint>>(column_);
+  std::array<SinglePoint, kPart> part;
+  for (std::size_t first = 0; first < points.size(); first += kPart) {
+    const std::size_t count = std::min(kPart, points.size() - first);
+    single.read(row + first, std::span(part).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const SinglePoint& s = part[i];
+      points[first + i] = {s.x, s.y, s.z, PointId{s.id}};
+    }
+  }
+}
+
+std::vector<StoredPoint> PointColumn::read(std::uint64_t row, std::size_t count) const {
+  std::vector<StoredPoint> points(count);
+  read(row, std::span(points));
+  return points;
+}
+
+}  // namespace lacuna

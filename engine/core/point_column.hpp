@@ -1,0 +1,47 @@
+// The points of the tile store on disk: one per row, in half of the bytes where nothing is lost by it.
+#pragma once
+
+#include "engine/core/file.hpp"
+#include "engine/data/ids.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+struct StoredPoint {
+  double x, y, z;
+  PointId id;
+
+  Eigen::Vector3d position() const { return {x, y, z}; }
+};
+
+// Single: every coordinate is a number of single precision, every id below 2^32.
+enum class Precision : std::uint8_t { kSingle, kDouble };
+
+// Reads and writes may come from several threads.
+class PointColumn {
+ public:
+  PointColumn(std::filesystem::path path, Precision precision);
+
+  // Throws `Error` where the precision would lose a digit: a scan that was surveyed has none such.
+  void write(std::uint64_t row, std::span<const StoredPoint> points);
+  void read(std::uint64_t row, std::span<StoredPoint> points) const;
+  std::vector<StoredPoint> read(std::uint64_t row, std::size_t count) const;
+
+ private:
+  struct SinglePoint {
+    float x, y, z;
+    std::uint32_t id;
+  };
+  void write_single(Column<SinglePoint>& column, std::uint64_t row, std::span<const StoredPoint> points);
+
+  std::variant<Column<SinglePoint>, Column<StoredPoint>> column_;
+};
+
+}  // namespace lacuna
