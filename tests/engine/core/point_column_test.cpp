@@ -60,7 +60,7 @@ TEST_CASE("points come back from disk as they were, whatever the precision and t
 TEST_CASE("what single precision would lose is not written in it") {
   const test::ScratchFolder folder;
   PointColumn column(folder / "points", Precision::kSingle);
-  const StoredPoint good{0.5, -3, 1e30, PointId{7}};
+  const StoredPoint good{0.5, -3, 1e30f, PointId{7}};
   CHECK_NOTHROW(column.write(0, std::vector{good}));
   for (const StoredPoint& bad :
        {StoredPoint{0.1, 0, 0, PointId{7}}, StoredPoint{0, 1e300, 0, PointId{7}},
