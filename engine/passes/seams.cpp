@@ -116,31 +116,31 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
   const std::vector<StarQuery> queries = rough_ones(waiting, lists.suspects);
   const std::vector<Seat> seats = read_seats(queries, waiting, lists.seats);
 
-  StarFinder finder(seats);
   std::vector<StoredCorner> stars;
   Letters<ToldSampling> letters;
   std::vector<TileIndex> tiles;
-  for (std::size_t first = 0; first < queries.size(); first += kStarBundle) {
-    const auto bundle = std::span(queries).subspan(first, std::min(kStarBundle, queries.size() - first));
-    finder.find(bundle);
-    for (std::size_t i = 0; i < bundle.size(); ++i) {
-      const Vertex& point = waiting.in_sight[bundle[i].point].vertex;
-      lists.rough.insert(point.row);
-      for (std::size_t c = 0; c < finder[i].size(); ++c) {
-        const LocalIndex corner = bundle[i].neighbours[finder[i][c].point];
-        stars.push_back({point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex,
-                         finder[i][c].room});
-      }
-      tiles.assign(1, t);
-      for (const LocalIndex q : bundle[i].neighbours) {
-        if (!here.owns(waiting.in_sight[q].vertex)) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
-      }
-      std::sort(tiles.begin(), tiles.end());
-      tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-      const Sampling sampling = sampling_of(finder[i]);
-      for (const TileIndex tile : tiles) letters.add(tile, {point.row, sampling});
+  const auto tell = [&](const StarQuery& query, const FoundStar& star, const Sampling& sampling) {
+    const Vertex& point = waiting.in_sight[query.point].vertex;
+    lists.rough.insert(point.row);
+    for (std::size_t c = 0; c < star.size(); ++c) {
+      const LocalIndex corner = query.neighbours[star[c].point];
+      stars.push_back(
+          {point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex, star[c].room});
     }
-  }
+    tiles.assign(1, t);
+    for (const LocalIndex q : query.neighbours) {
+      if (!here.owns(waiting.in_sight[q].vertex)) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
+    }
+    std::sort(tiles.begin(), tiles.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+    for (const TileIndex tile : tiles) letters.add(tile, {point.row, sampling});
+  };
+  StarFinder(seats).for_each_bundle(
+      queries.size(), [&](std::size_t i) { return queries[i]; },
+      [&](std::size_t first, std::span<const FoundStar> bundle) {
+        const std::array<Sampling, kEight> samplings = samplings_of(bundle);
+        for (std::size_t i = 0; i < bundle.size(); ++i) tell(queries[first + i], bundle[i], samplings[i]);
+      });
   lists.open.append(t, stars);
   letters.send(post);
 }
@@ -216,23 +216,16 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
   sort_by_star(corners);
   const std::vector<WaitingStar> stars = waiting_stars(waiting, here, corners);
 
-  BallSizer sizer(samplings);
-  std::vector<Surroundings> surroundings;
   Letters<Claim> letters;
-  for (std::size_t first = 0; first < stars.size(); first += kEight) {
-    const auto bundle = std::span(stars).subspan(first, std::min(kEight, stars.size() - first));
-    surroundings.clear();
-    for (const WaitingStar& star : bundle) surroundings.push_back(star.seen);
-    sizer.find(surroundings);
-    for (std::size_t i = 0; i < bundle.size(); ++i) {
-      const auto [point, neighbours] = bundle[i].seen;
-      for (StoredCorner& corner : bundle[i].corners) {
-        corner.room = room_beyond(sizer[i], samplings[point], corner.room);
-        if (corner.room > 0) corner.agreement = Agreement::kRefused;
-      }
-      tell_triangles(waiting.in_sight[point].vertex, bundle[i].corners, tiling, here, letters);
+  const auto surroundings = [&](std::size_t i) { return stars[i].seen; };
+  BallSizer(samplings).for_each(stars.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+    const LocalIndex point = stars[i].seen.point;
+    for (StoredCorner& corner : stars[i].corners) {
+      corner.room = room_beyond(size, samplings[point], corner.room);
+      if (corner.room > 0) corner.agreement = Agreement::kRefused;
     }
-  }
+    tell_triangles(waiting.in_sight[point].vertex, stars[i].corners, tiling, here, letters);
+  });
   lists.open.append(t, corners);
   letters.send(claims);
 }

@@ -9,14 +9,15 @@
 #include "engine/data/star.hpp"
 #include "engine/stages/stars.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
 namespace lacuna {
 
-// Of a star as it is found. None where it has no corner.
-Sampling sampling_of(const FoundStar& star);
+// Of stars as they are found, side by side: as many as there are, up to kEight. None where one has no corner.
+std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars);
 
 // The room of a ball in units of `own.distance`.
 float room_beyond(const BallSize& size, const Sampling& own, float ball);
@@ -34,12 +35,24 @@ class BallSizer {
  public:
   explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}
 
-  // One to kEight points: then [i] is the size for point i. What it is depends on no other point.
-  void find(std::span<const Surroundings> points);
-  const BallSize& operator[](std::size_t i) const { return sizes_[i]; }
+  // visit(i, size) for each of `count` points; surroundings(i): of the i-th. What a size is depends on no
+  // other point.
+  template <class Around, class Visit>
+  void for_each(std::size_t count, Around&& surroundings, Visit&& visit) {
+    for (std::size_t first = 0; first < count; first += kEight) {
+      points_.clear();
+      for (std::size_t i = first; i < std::min(first + kEight, count); ++i)
+        points_.push_back(surroundings(i));
+      find();
+      for (std::size_t i = 0; i < points_.size(); ++i) visit(first + i, sizes_[i]);
+    }
+  }
 
  private:
+  void find();  // the sizes for `points_`
+
   std::span<const Sampling> samplings_;
+  std::vector<Surroundings> points_;
   std::vector<Eight> circles_, scatters_;
   std::array<BallSize, kEight> sizes_;
 };

@@ -78,44 +78,35 @@ std::vector<View> hull_of(std::vector<View> views) {
 void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                std::span<const Seat> seats, std::span<const LocalIndex> points, TileStars& found) {
   Stars<LocalIndex>& stars = found.stars;
-  StarFinder finder(seats);
-  std::vector<StarQuery> queries;
-  for (std::size_t first = 0; first < points.size(); first += kStarBundle) {
-    const auto bundle = points.subspan(first, std::min(kStarBundle, points.size() - first));
-    queries.clear();
-    for (const LocalIndex p : bundle) queries.push_back({p, evaluations[p].normal, neighbourhoods[p]});
-    finder.find(queries);
-    std::uint32_t end_of_star = stars.offsets.back();
-    for (std::size_t i = 0; i < queries.size(); ++i) end_of_star += finder[i].size();
-    if (stars.corners.size() < end_of_star + kFewCorners)
-      stars.corners.resize(2 * end_of_star + 8 * points.size());
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      stars.offsets.resize(bundle[i] + 1, stars.offsets.back());  // those before it have none
-      StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
-      for (std::size_t c = 0; c < finder[i].size(); ++c)
-        *to++ = {queries[i].neighbours[finder[i][c].point], finder[i][c].room};
-      stars.offsets.push_back(static_cast<std::uint32_t>(to - stars.corners.data()));
-      found.samplings[bundle[i]] = sampling_of(finder[i]);
-    }
-  }
+  const auto query = [&](std::size_t i) {
+    return StarQuery{points[i], evaluations[points[i]].normal, neighbourhoods[points[i]]};
+  };
+  StarFinder(seats).for_each_bundle(
+      points.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
+        const std::array<Sampling, kEight> samplings = samplings_of(bundle);
+        for (std::size_t i = 0; i < bundle.size(); ++i) {
+          const LocalIndex p = points[first + i];
+          found.samplings[p] = samplings[i];
+          stars.offsets.resize(p + 1, stars.offsets.back());  // those before it have none
+          const std::size_t end = stars.offsets.back() + bundle[i].size();
+          if (stars.corners.size() < end + kFewCorners) stars.corners.resize(2 * end + 8 * points.size());
+          StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
+          for (std::size_t c = 0; c < bundle[i].size(); ++c)
+            *to++ = {neighbourhoods[p][bundle[i][c].point], bundle[i][c].room};
+          stars.offsets.push_back(static_cast<std::uint32_t>(end));
+        }
+      });
   stars.offsets.resize(found.samplings.size() + 1, stars.offsets.back());
 }
 
 // Measures the stars of the points listed.
 void measure_each(const Rows& neighbourhoods, std::span<const LocalIndex> points, TileStars& found) {
-  BallSizer sizer(found.samplings);
-  std::vector<Surroundings> surroundings;
-  for (std::size_t first = 0; first < points.size(); first += kEight) {
-    const auto bundle = points.subspan(first, std::min(kEight, points.size() - first));
-    surroundings.clear();
-    for (const LocalIndex p : bundle) surroundings.push_back({p, neighbourhoods[p]});
-    sizer.find(surroundings);
-    for (std::size_t i = 0; i < bundle.size(); ++i) {
-      Stars<LocalIndex>& stars = found.stars;
-      for (std::uint32_t c = stars.offsets[bundle[i]]; c < stars.offsets[bundle[i] + 1]; ++c)
-        stars.corners[c].room = room_beyond(sizer[i], found.samplings[bundle[i]], stars.corners[c].room);
-    }
-  }
+  const auto surroundings = [&](std::size_t i) { return Surroundings{points[i], neighbourhoods[points[i]]}; };
+  BallSizer(found.samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+    Stars<LocalIndex>& stars = found.stars;
+    for (std::uint32_t c = stars.offsets[points[i]]; c < stars.offsets[points[i] + 1]; ++c)
+      stars.corners[c].room = room_beyond(size, found.samplings[points[i]], stars.corners[c].room);
+  });
 }
 
 // The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
@@ -203,11 +194,11 @@ CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& qu
   return star;
 }
 
-void StarFinder::find(std::span<const StarQuery> queries) {
+void StarFinder::find() {
   StarBundle bundle{.seats = seats_.data()};
   for (std::size_t lane = 0; lane < kStarBundle; ++lane) {
-    const StarQuery& query = queries[std::min(lane, queries.size() - 1)];
-    const bool fits = lane < queries.size() && query.neighbours.size() <= kMostSeen;
+    const StarQuery& query = queries_[std::min(lane, queries_.size() - 1)];
+    const bool fits = lane < queries_.size() && query.neighbours.size() <= kMostSeen;
     bundle.points[lane] = query.point;
     bundle.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
     bundle.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
@@ -215,10 +206,10 @@ void StarFinder::find(std::span<const StarQuery> queries) {
   }
   fastest::find_bundled_stars(bundle, bundled_);
 
-  for (std::size_t lane = 0; lane < queries.size(); ++lane) {
+  for (std::size_t lane = 0; lane < queries_.size(); ++lane) {
     const std::uint32_t size = bundled_.sizes[lane];
-    if (queries[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
-      careful_[lane] = find_star_carefully(seats_, queries[lane]);
+    if (queries_[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
+      careful_[lane] = find_star_carefully(seats_, queries_[lane]);
       stars_[lane] = {careful_[lane].corners.data(), 1, careful_[lane].corners.size(),
                       careful_[lane].distance};
     } else {

@@ -68,12 +68,23 @@ class StarFinder {
  public:
   explicit StarFinder(std::span<const Seat> seats) : seats_(seats) {}
 
-  // One to kStarBundle queries: then [i] is the star of query i. What it is depends on no other query.
-  void find(std::span<const StarQuery> queries);
-  const FoundStar& operator[](std::size_t i) const { return stars_[i]; }
+  // visit(first, stars): the stars of queries `first` and the next, up to kStarBundle; query(i): the i-th of
+  // `count`. What a star is depends on no other query.
+  template <class Query, class Visit>
+  void for_each_bundle(std::size_t count, Query&& query, Visit&& visit) {
+    for (std::size_t first = 0; first < count; first += kStarBundle) {
+      queries_.clear();
+      for (std::size_t i = first; i < std::min(first + kStarBundle, count); ++i) queries_.push_back(query(i));
+      find();
+      visit(first, std::span<const FoundStar>(stars_).first(queries_.size()));
+    }
+  }
 
  private:
+  void find();  // the stars of `queries_`
+
   std::span<const Seat> seats_;
+  std::vector<StarQuery> queries_;
   BundledStars bundled_;
   std::array<CarefulStar, kStarBundle> careful_;
   std::array<FoundStar, kStarBundle> stars_;

@@ -15,7 +15,8 @@ namespace {
 Sampling sampling_among(std::vector<float> balls, double distance) {
   std::vector<StarCorner<LocalIndex>> corners;
   for (const float ball : balls) corners.push_back({0, ball});
-  return sampling_of({corners.data(), 1, corners.size(), distance});
+  const FoundStar star(corners.data(), 1, corners.size(), distance);
+  return samplings_of({&star, 1})[0];
 }
 
 double median(std::vector<double> numbers) {
@@ -49,6 +50,27 @@ TEST_CASE("a star tells its median ball and how far the least is below") {
   CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
 }
 
+TEST_CASE("samplings of stars side by side are those of each alone") {
+  Random random(3);
+  std::size_t wrong = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::vector<StarCorner<LocalIndex>>> corners(std::size_t(random.whole(1, kEight)));
+    std::vector<FoundStar> stars;
+    for (auto& of_one : corners) {
+      of_one.resize(std::size_t(random.chance(0.1) ? random.whole(0, 64) : random.whole(3, 9)));
+      for (auto& corner : of_one) corner = {0, static_cast<float>(random.uniform(0.1, 8))};
+      stars.emplace_back(of_one.data(), 1, of_one.size(), random.uniform(1, 2));
+    }
+    const auto together = samplings_of(stars);
+    for (std::size_t i = 0; i < stars.size(); ++i) {
+      const Sampling alone = samplings_of({&stars[i], 1})[0];
+      wrong += together[i].distance != alone.distance || together[i].circle != alone.circle ||
+               together[i].scatter != alone.scatter;
+    }
+  }
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
   CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
   CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
@@ -65,7 +87,7 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
     }
     std::vector<std::vector<LocalIndex>> neighbours;
     std::vector<Surroundings> all;
-    const auto points = static_cast<std::size_t>(random.whole(1, kEight));
+    const auto points = static_cast<std::size_t>(random.whole(1, 20));
     for (std::size_t i = 0; i < points; ++i) {
       auto p = static_cast<LocalIndex>(random.whole(0, 199));
       while (samplings[p].distance == 0) p = (p + 1) % 200;
@@ -77,12 +99,14 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
       all.push_back({p, {}});
     }
     for (std::size_t i = 0; i < points; ++i) all[i].neighbours = neighbours[i];
-    BallSizer sizer(samplings);
-    sizer.find(all);
-    for (std::size_t i = 0; i < points; ++i) {
-      const BallSize expected = size_by_hand(samplings, all[i]);
-      wrong += sizer[i].radius != expected.radius || sizer[i].unit != expected.unit;
-    }
+    std::size_t sized = 0;
+    BallSizer(samplings).for_each(
+        points, [&](std::size_t i) { return all[i]; },
+        [&](std::size_t i, const BallSize& size) {
+          const BallSize expected = size_by_hand(samplings, all[i]);
+          wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit;
+        });
+    CHECK(sized == points);
   }
   CHECK(wrong == 0);
   CHECK(most > kMostSortedRows);

@@ -81,12 +81,15 @@ struct Queries {
 };
 
 std::vector<Star> found_side_by_side(const Queries& queries) {
-  StarFinder finder(queries.seats);
-  finder.find(queries.all);
   std::vector<Star> stars(queries.all.size());
-  for (std::size_t i = 0; i < stars.size(); ++i) {
-    for (std::size_t c = 0; c < finder[i].size(); ++c) stars[i].push_back(finder[i][c]);
-  }
+  StarFinder(queries.seats)
+      .for_each_bundle(
+          queries.all.size(), [&](std::size_t i) { return queries.all[i]; },
+          [&](std::size_t first, std::span<const FoundStar> bundle) {
+            for (std::size_t i = 0; i < bundle.size(); ++i) {
+              for (std::size_t c = 0; c < bundle[i].size(); ++c) stars[first + i].push_back(bundle[i][c]);
+            }
+          });
   return stars;
 }
 
@@ -284,8 +287,11 @@ TEST_CASE("a triangle is agreed where the stars of all its rough corners have it
       for (auto& corner : expected) corner.point = rows[p][corner.point];
       if (standings[p] == Standing::kRough && !expected.empty()) {
         const Surroundings surroundings{p, rows[p]};
-        sizer.find({&surroundings, 1});
-        for (auto& corner : expected) corner.room = room_beyond(sizer[0], samplings[p], corner.room);
+        sizer.for_each(
+            1, [&](std::size_t) { return surroundings; },
+            [&](std::size_t, const BallSize& size) {
+              for (auto& corner : expected) corner.room = room_beyond(size, samplings[p], corner.room);
+            });
       }
       const auto star = stars[p];
       wrong_stars += !same_bits({star.begin(), star.end()}, expected);
