@@ -48,26 +48,27 @@ struct StarCorner {
 struct Sampling {
   double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from
                         // each other, say little); 0: it has no star
-  double circle = 0;    // of the radii of its balls the median,
+  double circle = 0;    // of the radii of its balls that lie among points the median; 0: it has none such
   double scatter = 0;   // and how far the least is below
 };
 
 // What a ball may be to make a triangle.
 struct BallSize {
   double radius;
-  double unit;  // of the room beyond
+  double unit;       // of the room beyond
+  float unevenness;  // of the sampling around: its scatter over its circle
 };
 
 // What is known of a triangle of a star: all its corners that are not inner must have it in their stars.
 enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
 
 // A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,
-// there is no agreed triangle; `room`: of the largest ball that rests there.
+// there is no agreed triangle.
 template <class Name>
 struct Gap {
   Name point, from, to;
-  float room;
-  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
+  float room;        // of the largest ball that rests there
+  float unevenness;  // `BallSize::unevenness` of the point
 };
 
 }  // namespace lacuna

@@ -189,7 +189,7 @@ class TileRecorder {
   void record_stars() {
     const std::vector<Standing> standings = find_standings(neighbourhoods_, evaluations_, is_border_);
     const std::unique_ptr<const Seat[]> seats = find_seats(standings);
-    const auto [stars, samplings] =
+    const auto [stars, samplings, unevenness] =
         find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
     record_waiting(standings, samplings);
 
@@ -208,13 +208,14 @@ class TileRecorder {
       if (is_whole) continue;
       if (is_open) {
         for (std::size_t i = 0; i < star.size(); ++i) {
-          open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room});
+          open.push_back(
+              {points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness[p]});
           tell_if_rough(star[i].point, standings);
         }
         is_vertex[p] = 1;
       } else {
-        for_each_gap(p, star, agreements, [&](const Gap<LocalIndex>& gap) {
-          gaps.push_back({vertex(gap.point), end(gap.from), end(gap.to), gap.room});
+        for_each_gap(p, star, agreements, unevenness[p], [&](const Gap<LocalIndex>& gap) {
+          gaps.push_back({vertex(gap.point), end(gap.from), end(gap.to), gap.room, gap.unevenness});
           is_vertex[p] = 1;
         });
       }

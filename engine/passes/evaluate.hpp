@@ -77,7 +77,7 @@ struct StoredCorner {
   Agreement agreement;
   Vertex corner;
   float room;
-  std::uint32_t padding = 0;
+  float unevenness;  // of the star, once it is measured
 };
 
 __extension__ using Int128 = __int128;

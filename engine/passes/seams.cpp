@@ -125,7 +125,7 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
     for (std::size_t c = 0; c < star.size(); ++c) {
       const LocalIndex corner = query.neighbours[star[c].point];
       stars.push_back(
-          {point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex, star[c].room});
+          {point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex, star[c].room, 0});
     }
     tiles.assign(1, t);
     for (const LocalIndex q : query.neighbours) {
@@ -222,6 +222,7 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
     const LocalIndex point = stars[i].seen.point;
     for (StoredCorner& corner : stars[i].corners) {
       corner.room = room_beyond(size, samplings[point], corner.room);
+      corner.unevenness = size.unevenness;
       if (corner.room > 0) corner.agreement = Agreement::kRefused;
     }
     tell_triangles(waiting.in_sight[point].vertex, stars[i].corners, tiling, here, letters);
@@ -241,6 +242,7 @@ class OpenStars {
       if (points_.empty() || points_.back() != c.owned) {
         points_.push_back(c.owned);
         vertices_.push_back({c.id, here.row(c.owned)});
+        unevenness_.push_back(c.unevenness);
         stars_.offsets.push_back(stars_.offsets.back());
       }
       stars_.corners.push_back({c.corner, c.room});
@@ -251,6 +253,7 @@ class OpenStars {
 
   std::span<const LocalIndex> points() const { return points_; }
   const Vertex& vertex(std::size_t i) const { return vertices_[i]; }
+  float unevenness(std::size_t i) const { return unevenness_[i]; }
   std::span<const StarCorner<Vertex>> star(std::size_t i) const { return stars_[i]; }
   std::span<Agreement> agreements(std::size_t i) {
     return std::span(stars_.agreements).subspan(stars_.offsets[i], stars_[i].size());
@@ -267,6 +270,7 @@ class OpenStars {
  private:
   std::vector<LocalIndex> points_;  // ascending
   std::vector<Vertex> vertices_;    // the same
+  std::vector<float> unevenness_;
   Stars<Vertex> stars_;
 };
 
@@ -295,9 +299,10 @@ void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& cl
       agreements[i] = agrees(a, b) && agrees(b, a) ? Agreement::kAgreed : Agreement::kRefused;
     }
     const auto end = [&](const Vertex& v) { return lists.rough.contains(v.row) ? v : kInnerEnd; };
-    for_each_gap(point, star, std::span<const Agreement>(agreements), [&](const Gap<Vertex>& gap) {
-      gaps.push_back({gap.point, end(gap.from), end(gap.to), gap.room});
-    });
+    for_each_gap(point, star, std::span<const Agreement>(agreements), stars.unevenness(s),
+                 [&](const Gap<Vertex>& gap) {
+                   gaps.push_back({gap.point, end(gap.from), end(gap.to), gap.room, gap.unevenness});
+                 });
   }
   lists.gaps.append(t, gaps);
 }

@@ -9,7 +9,7 @@
 namespace lacuna {
 namespace {
 
-constexpr double kCircles = 1.45, kScatters = 0.8, kLeastUnit = 0.1, kMostCircle = 0.5;
+constexpr double kTelling = 0.85, kCircles = 1.5, kScatters = 1, kLeastUnit = 0.1, kMostCircle = 0.5;
 
 constexpr Eight kBeyondAll = [] {
   Eight row{};
@@ -38,23 +38,30 @@ void sort_halves(std::span<Eight> rows, const Counts& counts) {
 }  // namespace
 
 std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
-  Counts counts{};
-  for (std::size_t i = 0; i < stars.size(); ++i) counts[i] = stars[i].size();
+  std::size_t most = 0;
+  for (const FoundStar& star : stars) most = std::max(most, star.size());
   std::vector<Eight> many;
   std::array<Eight, 16> few;
-  const std::size_t most = *std::max_element(counts.begin(), counts.end());
   if (most > few.size()) many.resize(most);
   const std::span<Eight> balls(many.empty() ? few.data() : many.data(), most);
   std::fill(balls.begin(), balls.end(), kBeyondAll);
+  Counts counts{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
-    for (std::size_t corner = 0; corner < counts[i]; ++corner) balls[corner].at[i] = stars[i][corner].room;
+    for (std::size_t corner = 0; corner < stars[i].size(); ++corner) {
+      const double ball = stars[i][corner].room;
+      balls[counts[i]].at[i] = ball <= kTelling ? ball : kBeyondAll.at[i];
+      counts[i] += ball <= kTelling;
+    }
   }
   sort_halves(balls, counts);
   std::array<Sampling, kEight> samplings{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
+    if (stars[i].size() == 0) continue;
+    samplings[i].distance = stars[i].distance();
     if (counts[i] == 0) continue;
-    const double distance = stars[i].distance(), median = balls[counts[i] / 2].at[i];
-    samplings[i] = {distance, median * distance, (median - balls[0].at[i]) * distance};
+    const double median = balls[counts[i] / 2].at[i];
+    samplings[i].circle = median * samplings[i].distance;
+    samplings[i].scatter = (median - balls[0].at[i]) * samplings[i].distance;
   }
   return samplings;
 }
@@ -76,9 +83,9 @@ void BallSizer::find() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto look_at = [&](LocalIndex q) {
       const Sampling& sampling = samplings_[q];
-      circles_[counts[i]].at[i] = sampling.distance > 0 ? sampling.circle : kBeyondAll.at[i];
-      scatters_[counts[i]].at[i] = sampling.distance > 0 ? sampling.scatter : kBeyondAll.at[i];
-      counts[i] += sampling.distance > 0;
+      circles_[counts[i]].at[i] = sampling.circle > 0 ? sampling.circle : kBeyondAll.at[i];
+      scatters_[counts[i]].at[i] = sampling.circle > 0 ? sampling.scatter : kBeyondAll.at[i];
+      counts[i] += sampling.circle > 0;
     };
     look_at(points_[i].point);
     for (const LocalIndex q : points_[i].neighbours) look_at(q);
@@ -89,7 +96,8 @@ void BallSizer::find() {
     const double most = kMostCircle * samplings_[points_[i].point].distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);
     const double scatter = std::min(scatters_[counts[i] / 2].at[i], most);
-    sizes_[i] = {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter};
+    sizes_[i] = {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter,
+                 static_cast<float>(scatter / circle)};
   }
 }
 

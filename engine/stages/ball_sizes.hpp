@@ -2,7 +2,8 @@
 //
 // The balls of a star show how large the empty circles of the sampling are and how much they scatter: on a
 // grid all have 0.71 spacings, among points at random there are small and large ones. A median over a point's
-// neighbours tells it from the rim of a hole as well, where some balls are large because there is nothing.
+// neighbours tells it from the rim of a hole as well, where some balls are large because there is nothing;
+// such as lie in a hole for sure are left out, since on strips and islands half of the balls do.
 #pragma once
 
 #include "engine/core/eight.hpp"
@@ -29,8 +30,9 @@ struct Surroundings {
 };
 
 // With M the median of the circles of a point and its neighbours, S that of their scatters, each at most half
-// of the point's mean distance (on strips and islands most balls are large), the radius is 1.45 M + 0.8 S and
-// the unit S + 0.1 M. Those without a star say nothing. Eight points side by side: keeps its memory.
+// of the point's mean distance, the radius is 1.5 M + S, the unit S + 0.1 M and the unevenness S / M. Those
+// without a star, or with large balls only, say nothing; if no one says anything, M and S are that half. Eight
+// points side by side: keeps its memory.
 class BallSizer {
  public:
   explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}

@@ -8,8 +8,9 @@
 namespace lacuna {
 namespace {
 
-// Points without room that are added to every rim: shares of a few points say little.
-constexpr double kDoubt = 6;
+// Points without room that are added to a rim, by its unevenness, and at most: shares of a few points say
+// little where points have room by chance.
+constexpr double kDoubt = 42, kMostDoubt = 6;
 
 // Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
 class Follower {
@@ -39,7 +40,7 @@ class Follower {
     for (std::size_t g = start;;) {
       const Gap<Vertex>& gap = gaps_[g];
       is_done_[g] = true;
-      part.points.push_back({gap.point, gap.room});
+      part.points.push_back({gap.point, gap.room, gap.unevenness});
       const Vertex next = forwards ? gap.to : gap.from;
       if (!is_here(next)) {
         part.after = next;
@@ -140,12 +141,16 @@ std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
 }
 
 double confidence(std::span<const RimPoint> rim) {
+  const auto points = static_cast<double>(rim.size());
+  double unevenness = 0;
+  for (const RimPoint& p : rim) unevenness += p.unevenness;
+  const double doubt = std::min(kDoubt * (unevenness / points), kMostDoubt);
   const auto share = [&](float room) {
     const auto wide =
         std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
-    return static_cast<double>(wide) / (static_cast<double>(rim.size()) + kDoubt);
+    return static_cast<double>(wide) / (points + doubt);
   };
-  return std::min(share(1.5f), 1.25 * share(2.5f));
+  return std::min(share(1.5f), std::min(1.25 * share(2.5f), 1.0));
 }
 
 }  // namespace lacuna

@@ -18,8 +18,7 @@ inline constexpr Vertex kInnerEnd{PointId{UINT64_MAX}, Row{UINT64_MAX}};
 // A point of a rim. A point with several gaps is on several rims, or several times on one.
 struct RimPoint {
   Vertex vertex;
-  float room;                 // of the gap
-  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
+  float room, unevenness;  // of the gap
 };
 
 // A rim, or the part of one that lies in a tile: consecutive points.
@@ -44,10 +43,11 @@ void normalise(std::vector<RimPoint>& rim);
 // it comes back to a point, what lies between is a curve. Of one that is normalised; the curves are, too.
 std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim);
 
-// How sure it is that the rim is that of a hole, in [0, 1): where the scan only happens to be thin, a larger
+// How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a larger
 // ball fits at few points of the rim. The share of points at which there is room of 1.5, or 1.25 times the
-// share with room of 2.5, if that is less; out of six points more than there are, so that small rims need
-// room all around.
+// share with room of 2.5, if that is less; out of some points more than there are, so that small rims need
+// room all around: 42 times the mean unevenness, at most six. Where points lie evenly none has room by
+// chance.
 double confidence(std::span<const RimPoint> rim);
 
 }  // namespace lacuna

@@ -104,6 +104,7 @@ void measure_each(const Rows& neighbourhoods, std::span<const LocalIndex> points
   const auto surroundings = [&](std::size_t i) { return Surroundings{points[i], neighbourhoods[points[i]]}; };
   BallSizer(found.samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
     Stars<LocalIndex>& stars = found.stars;
+    found.unevenness[points[i]] = size.unevenness;
     for (std::uint32_t c = stars.offsets[points[i]]; c < stars.offsets[points[i] + 1]; ++c)
       stars.corners[c].room = room_beyond(size, found.samplings[points[i]], stars.corners[c].room);
   });
@@ -246,6 +247,7 @@ TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> eva
   std::vector<LocalIndex> points, measurable;
   TileStars found;
   found.samplings.resize(standings.size());
+  found.unevenness.resize(standings.size());
   for (LocalIndex p = 0; p < standings.size(); ++p) {
     if (has_star(standings[p])) points.push_back(p);
     if (standings[p] == Standing::kRough) measurable.push_back(p);

@@ -117,6 +117,7 @@ std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const
 struct TileStars {
   Stars<LocalIndex> stars;
   std::vector<Sampling> samplings;  // by point
+  std::vector<float> unevenness;    // by point, of measured stars
 };
 TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
                      std::span<const Seat> seats, std::span<const Standing> standings);
@@ -136,12 +137,12 @@ bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {
 // visit(gap): each gap of a point between agreed triangles. None where nothing is agreed.
 template <class Name, class Visit>
 void for_each_gap(Name point, std::span<const StarCorner<Name>> star, std::span<const Agreement> agreements,
-                  Visit&& visit) {
+                  float unevenness, Visit&& visit) {
   const std::size_t count = star.size();
   const auto next = [&](std::size_t i) { return i + 1 < count ? i + 1 : 0; };
   for (std::size_t i = 0; i < count; ++i) {
     if (agreements[i] != Agreement::kAgreed || agreements[next(i)] == Agreement::kAgreed) continue;
-    Gap<Name> gap{point, star[next(i)].point, {}, 0};
+    Gap<Name> gap{point, star[next(i)].point, {}, 0, unevenness};
     std::size_t end = next(i);
     for (; agreements[end] != Agreement::kAgreed; end = next(end))
       gap.room = std::max(gap.room, star[end].room);

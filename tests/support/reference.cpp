@@ -609,11 +609,12 @@ struct Star {
   double distance = 0;  // harmonic mean of r over the point and its neighbours
   double radius = 0;    // that a ball may have to make a triangle
   double unit = 0;      // of the room beyond
+  double unevenness = 0;
 };
 
 struct Gap {
   PointId point, from, to;
-  double room;
+  double room, unevenness;
 };
 
 using Triangle = std::array<PointId, 3>;
@@ -692,14 +693,19 @@ void measure(const Detection& result, std::map<PointId, Star>& stars) {
       const auto other = stars.find(q);
       if (other == stars.end()) continue;
       std::vector<double> balls;
-      for (const Corner& corner : other->second.corners) balls.push_back(corner.ball);
+      for (const Corner& corner : other->second.corners) {
+        if (corner.ball <= 0.85 * other->second.distance) balls.push_back(corner.ball);
+      }
+      if (balls.empty()) continue;
       circles.push_back(median(balls));
       scatters.push_back(circles.back() - *std::min_element(balls.begin(), balls.end()));
     }
-    const double circle = std::min(median(circles), star.distance / 2);
-    const double scatter = std::min(median(scatters), star.distance / 2);
-    star.radius = 1.45 * circle + 0.8 * scatter;
+    const double most = star.distance / 2;
+    const double circle = circles.empty() ? most : std::min(median(circles), most);
+    const double scatter = scatters.empty() ? most : std::min(median(scatters), most);
+    star.radius = 1.5 * circle + scatter;
     star.unit = scatter + 0.1 * circle;
+    star.unevenness = scatter / circle;
   }
 }
 
@@ -728,7 +734,7 @@ std::vector<Gap> gaps_of(PointId p, const Star& star, const std::set<PointId>& r
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_agreed(i) || is_agreed(i + 1)) continue;
-    Gap gap{p, corner(i + 1).point, {}, 0};
+    Gap gap{p, corner(i + 1).point, {}, 0, star.unevenness};
     std::size_t end = i + 1;
     for (; !is_agreed(end); ++end)
       gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
@@ -740,7 +746,7 @@ std::vector<Gap> gaps_of(PointId p, const Star& star, const std::set<PointId>& r
 
 struct RimPoint {
   PointId point;
-  double room;
+  double room, unevenness;
 };
 
 // Of all ways to write a closed curve, the one whose points come first.
@@ -811,7 +817,7 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
-      rim.push_back({gaps[g].point, gaps[g].room});
+      rim.push_back({gaps[g].point, gaps[g].room, gaps[g].unevenness});
       goes_on = rough.contains(next);
       if (goes_on) g = at.at({next, rim.back().point});
     } while (goes_on && g != start);
@@ -819,14 +825,16 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
     for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
       if (curve.size() < 8) continue;
       std::vector<PointId> loop;
-      double wide = 0, wider = 0;
+      double wide = 0, wider = 0, unevenness = 0;
       for (const RimPoint& p : first_way(curve)) {
         loop.push_back(p.point);
         wide += p.room >= 1.5;
         wider += p.room >= 2.5;
+        unevenness += p.unevenness;
       }
-      const double count = static_cast<double>(loop.size()) + 6;
-      rims.emplace_back(loop, std::min(wide / count, 1.25 * (wider / count)));
+      const auto points = static_cast<double>(loop.size());
+      const double count = points + std::min(42 * unevenness / points, 6.0);
+      rims.emplace_back(loop, std::min({wide / count, 1.25 * (wider / count), 1.0}));
     }
   }
   std::sort(rims.begin(), rims.end());

@@ -27,27 +27,35 @@ double median(std::vector<double> numbers) {
 BallSize size_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
   std::vector<double> circles, scatters;
   const auto look_at = [&](LocalIndex q) {
-    if (samplings[q].distance == 0) return;
+    if (samplings[q].circle == 0) return;
     circles.push_back(samplings[q].circle);
     scatters.push_back(samplings[q].scatter);
   };
   look_at(around.point);
   for (const LocalIndex q : around.neighbours) look_at(q);
   const double most = samplings[around.point].distance / 2;
-  const double circle = std::min(median(circles), most), scatter = std::min(median(scatters), most);
-  return {1.45 * circle + 0.8 * scatter, 0.1 * circle + scatter};
+  const double circle = circles.empty() ? most : std::min(median(circles), most);
+  const double scatter = circles.empty() ? most : std::min(median(scatters), most);
+  return {1.5 * circle + scatter, 0.1 * circle + scatter, static_cast<float>(scatter / circle)};
 }
 
 }  // namespace
 
 TEST_CASE("a star tells its median ball and how far the least is below") {
-  const Sampling even = sampling_among({0.5f, 0.25f, 8, 1}, 10);
+  const Sampling even = sampling_among({0.5f, 0.25f, 0.8f, 0.75f}, 10);
   CHECK(even.distance == 10);
-  CHECK(even.circle == 10);
-  CHECK(even.scatter == 7.5);
+  CHECK(even.circle == 7.5);
+  CHECK(even.scatter == 5);
   CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).circle == 1);
   CHECK(sampling_among({}, 2).distance == 0);
   CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
+}
+
+TEST_CASE("balls that lie in a hole say nothing of the sampling") {
+  CHECK(sampling_among({0.5f, 0.25f, 0.86f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
+  const Sampling none = sampling_among({2, 3, 4}, 2);
+  CHECK(none.distance == 2);
+  CHECK(none.circle == 0);
 }
 
 TEST_CASE("samplings of stars side by side are those of each alone") {
@@ -58,7 +66,8 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
     std::vector<FoundStar> stars;
     for (auto& of_one : corners) {
       of_one.resize(std::size_t(random.chance(0.1) ? random.whole(0, 64) : random.whole(3, 9)));
-      for (auto& corner : of_one) corner = {0, static_cast<float>(random.uniform(0.1, 8))};
+      for (auto& corner : of_one)
+        corner = {0, static_cast<float>(random.chance(0.8) ? random.uniform(0.1, 1) : 8)};
       stars.emplace_back(of_one.data(), 1, of_one.size(), random.uniform(1, 2));
     }
     const auto together = samplings_of(stars);
@@ -72,9 +81,9 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
 }
 
 TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1) == -2);
+  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 2) == 2);
+  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 1.5f) == 0);
+  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 1) == -2);
 }
 
 TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized beside") {
@@ -84,6 +93,7 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
     std::vector<Sampling> samplings(200);
     for (Sampling& s : samplings) {
       if (random.chance(0.8)) s = {random.uniform(0.5, 2), random.uniform(0.1, 2), random.uniform(0, 1)};
+      if (random.chance(0.2)) s.circle = s.scatter = 0;  // large balls only
     }
     std::vector<std::vector<LocalIndex>> neighbours;
     std::vector<Surroundings> all;
@@ -104,7 +114,8 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
         points, [&](std::size_t i) { return all[i]; },
         [&](std::size_t i, const BallSize& size) {
           const BallSize expected = size_by_hand(samplings, all[i]);
-          wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit;
+          wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit ||
+                   size.unevenness != expected.unevenness;
         });
     CHECK(sized == points);
   }

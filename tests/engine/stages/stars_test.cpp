@@ -273,12 +273,13 @@ TEST_CASE("a triangle is agreed where the stars of all its rough corners have it
       if (random.chance(0.1)) standing = Standing::kInner;
     }
 
-    const auto [stars, samplings] = find_stars(rows, evaluations, seats, standings);
+    const auto [stars, samplings, unevenness] = find_stars(rows, evaluations, seats, standings);
     std::size_t wrong_stars = 0, wrong_agreements = 0;
     REQUIRE(stars.size() == points.owned);
     REQUIRE(stars.corners.size() == stars.offsets.back());
     REQUIRE(stars.agreements.size() == stars.corners.size());
     REQUIRE(samplings.size() == points.owned);
+    REQUIRE(unevenness.size() == points.owned);
     BallSizer sizer(samplings);
     for (LocalIndex p = 0; p < points.owned; ++p) {
       Star expected;
@@ -290,6 +291,7 @@ TEST_CASE("a triangle is agreed where the stars of all its rough corners have it
         sizer.for_each(
             1, [&](std::size_t) { return surroundings; },
             [&](std::size_t, const BallSize& size) {
+              wrong_stars += unevenness[p] != size.unevenness;
               for (auto& corner : expected) corner.room = room_beyond(size, samplings[p], corner.room);
             });
       }
