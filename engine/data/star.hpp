@@ -1,6 +1,7 @@
 // Stars of points: the triangles over which a ball can rest, and the gaps between them.
 #pragma once
 
+#include "engine/data/component.hpp"
 #include "engine/data/ids.hpp"
 
 #include <cstdint>
@@ -64,9 +65,8 @@ enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
 
 // A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,
 // there is no agreed triangle.
-template <class Name>
 struct Gap {
-  Name point, from, to;
+  Vertex point, from, to;
   float room;        // of the largest ball that rests there
   float unevenness;  // `BallSize::unevenness` of the point
 };

@@ -1,5 +1,6 @@
 #include "engine/passes/evaluate.hpp"
 
+#include "engine/core/dispatch.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
@@ -71,18 +72,17 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& li
   const std::vector<StoredPoint> owned = store.points(index);
   const Sight sight = foreign_sight(store, links, halo);
   TilePoints points;
-  points.positions.reserve(owned.size() + sight.rows.size());
-  points.ids.reserve(owned.size() + sight.rows.size());
-  points.rows.reserve(owned.size() + sight.rows.size());
-  const auto add = [&](const StoredPoint& p, Row row) {
-    points.positions.push_back(p.position());
-    points.ids.push_back(p.id);
-    points.rows.push_back(row);
-  };
-  std::uint64_t row = value(tile.first_row);
-  for (const StoredPoint& p : owned) add(p, Row{row++});
-  points.owned = static_cast<LocalIndex>(points.size());
-  for (std::size_t i = 0; i < sight.rows.size(); ++i) add(sight.points[i], sight.rows[i]);
+  points.owned = static_cast<LocalIndex>(owned.size());
+  const std::size_t count = owned.size() + sight.rows.size();
+  points.positions.reserve(count);
+  for (const StoredPoint& p : owned) points.positions.push_back(p.position());
+  for (const StoredPoint& p : sight.points) points.positions.push_back(p.position());
+  points.ids.reserve(count);
+  for (const StoredPoint& p : owned) points.ids.push_back(p.id);
+  for (const StoredPoint& p : sight.points) points.ids.push_back(p.id);
+  points.rows.resize(owned.size());
+  for (std::size_t i = 0; i < owned.size(); ++i) points.rows[i] = Row{value(tile.first_row) + i};
+  points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
 
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
@@ -95,6 +95,17 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& li
     points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
   }
   return points;
+}
+
+// has[i]: whether row i holds an index of `least` or more.
+LACUNA_VECTORISED
+void find_rows_with(LocalIndex least, const std::uint32_t* offsets, const LocalIndex* indices,
+                    std::size_t rows, std::uint8_t* has) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    LocalIndex largest = 0;
+    for (std::uint32_t i = offsets[row]; i < offsets[row + 1]; ++i) largest = std::max(largest, indices[i]);
+    has[row] = largest >= least;
+  }
 }
 
 // One tile's share of the evaluated scan.
@@ -152,11 +163,8 @@ class TileRecorder {
 
   void mark_border() {
     is_border_.resize(points_.owned);
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      const auto neighbours = neighbourhoods_[p];
-      is_border_[p] = std::any_of(neighbours.begin(), neighbours.end(),
-                                  [&](LocalIndex q) { return !points_.is_owned(q); });
-    }
+    find_rows_with(points_.owned, neighbourhoods_.offsets.data(), neighbourhoods_.indices.data(),
+                   is_border_.size(), is_border_.data());
   }
 
   // Other tiles ask for what a column holds of points near theirs: runs of the tile's rows that hold none of
@@ -196,7 +204,7 @@ class TileRecorder {
     const auto end = [&](LocalIndex p) { return standings[p] == Standing::kInner ? kInnerEnd : vertex(p); };
     std::vector<std::uint8_t> is_vertex = is_border_;
     std::vector<StoredCorner> open;
-    std::vector<Gap<Vertex>> gaps;
+    std::vector<Gap> gaps;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       const auto star = stars[p];
       const auto agreements = std::span(stars.agreements).subspan(stars.offsets[p], star.size());
@@ -214,8 +222,8 @@ class TileRecorder {
         }
         is_vertex[p] = 1;
       } else {
-        for_each_gap(p, star, agreements, unevenness[p], [&](const Gap<LocalIndex>& gap) {
-          gaps.push_back({vertex(gap.point), end(gap.from), end(gap.to), gap.room, gap.unevenness});
+        for_each_gap(star, agreements, [&](LocalIndex from, LocalIndex to, float room) {
+          gaps.push_back({vertex(p), end(from), end(to), room, unevenness[p]});
           is_vertex[p] = 1;
         });
       }

@@ -113,7 +113,7 @@ struct StarLists {
   RowSet suspects;                       // among these
   RowSet rough;                          // among these and corners of open stars
   Spill<StoredCorner> open;              // stars, each in one piece
-  Spill<Gap<Vertex>> gaps;
+  Spill<Gap> gaps;
 };
 
 struct EvaluatedScan {

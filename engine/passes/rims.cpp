@@ -109,7 +109,7 @@ void report(std::vector<RimPoint>& rim, RawLoops& loops) {
 
 // The whole rims of a tile to `loops`, the parts of others to `open`.
 void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops& loops, OpenRims& open) {
-  std::vector<Gap<Vertex>> gaps = lists.gaps.read(t);
+  std::vector<Gap> gaps = lists.gaps.read(t);
   lists.gaps.drop(t);
   std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
     return std::tie(a.point.row, a.from.row) < std::tie(b.point.row, b.from.row);

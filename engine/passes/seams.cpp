@@ -282,7 +282,7 @@ void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& cl
   claims.drop(t);
   std::sort(told.begin(), told.end());
 
-  std::vector<Gap<Vertex>> gaps;
+  std::vector<Gap> gaps;
   for (std::size_t s = 0; s < stars.points().size(); ++s) {
     const LocalIndex p = stars.points()[s];
     const auto star = stars.star(s);
@@ -299,9 +299,9 @@ void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& cl
       agreements[i] = agrees(a, b) && agrees(b, a) ? Agreement::kAgreed : Agreement::kRefused;
     }
     const auto end = [&](const Vertex& v) { return lists.rough.contains(v.row) ? v : kInnerEnd; };
-    for_each_gap(point, star, std::span<const Agreement>(agreements), stars.unevenness(s),
-                 [&](const Gap<Vertex>& gap) {
-                   gaps.push_back({gap.point, end(gap.from), end(gap.to), gap.room, gap.unevenness});
+    for_each_gap(star, std::span<const Agreement>(agreements),
+                 [&](const Vertex& from, const Vertex& to, float room) {
+                   gaps.push_back({point, end(from), end(to), room, stars.unevenness(s)});
                  });
   }
   lists.gaps.append(t, gaps);

@@ -31,8 +31,8 @@ struct Surroundings {
 
 // With M the median of the circles of a point and its neighbours, S that of their scatters, each at most half
 // of the point's mean distance, the radius is 1.5 M + S, the unit S + 0.1 M and the unevenness S / M. Those
-// without a star, or with large balls only, say nothing; if no one says anything, M and S are that half. Eight
-// points side by side: keeps its memory.
+// without a star, or with large balls only, say nothing; if no one says anything, M and S are that half.
+// Eight points side by side: keeps its memory.
 class BallSizer {
  public:
   explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -56,14 +57,18 @@ class Bundler {
  private:
   std::size_t count(LocalIndex p) const { return neighbourhoods_[p].size(); }
 
+  // A counting sort.
   void order_by_count(LocalIndex first, LocalIndex last) {
-    keys_.clear();
+    std::size_t most = 0;
+    for (LocalIndex p = first; p < last; ++p) most = std::max(most, count(p));
+    ends_.assign(most + 2, 0);
+    for (LocalIndex p = first; p < last; ++p) ++ends_[count(p) + 1];
+    const std::uint32_t alone = std::exchange(ends_[1], 0);
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    order_.resize(last - first - alone);
     for (LocalIndex p = first; p < last; ++p) {
-      if (count(p) > 0) keys_.push_back(std::uint64_t{count(p)} << 32 | p);
+      if (count(p) > 0) order_[ends_[count(p)]++] = p;
     }
-    std::sort(keys_.begin(), keys_.end());
-    order_.clear();
-    for (const std::uint64_t key : keys_) order_.push_back(static_cast<LocalIndex>(key));
   }
 
   const Bundle& gather() {
@@ -113,7 +118,7 @@ class Bundler {
   const TilePoints& points_;
   const Rows& neighbourhoods_;
   std::span<const Eigen::Vector3d> given_normals_;
-  std::vector<std::uint64_t> keys_;  // (count, point)
+  std::vector<std::uint32_t> ends_;  // by count
   std::vector<LocalIndex> order_;
   std::array<LocalIndex, kBundle> lanes_{};
   Bundle bundle_;

@@ -4,6 +4,7 @@
 #include "engine/stages/nearest_lists.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace lacuna {
 namespace {
@@ -16,8 +17,8 @@ class Nearest {
       if (p == 0) {
         lists_.count = found.size();
         lists_.stride = (found.size() + kListLine - 1) / kListLine;
-        lines_.resize(lists_.stride * points.owned);
-        lists_.lines = lines_.data();
+        lines_ = std::make_unique_for_overwrite<ListLine[]>(lists_.stride * points.owned);
+        lists_.lines = lines_.get();
       }
       LocalIndex* const row = lines_[p * lists_.stride].points;
       std::fill(std::copy(found.begin(), found.end(), row), row + lists_.stride * kListLine, kNoIndex);
@@ -40,7 +41,7 @@ class Nearest {
   }
 
  private:
-  std::vector<ListLine> lines_;
+  std::unique_ptr<ListLine[]> lines_;
   NearestLists lists_{};
 };
 

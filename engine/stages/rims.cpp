@@ -15,7 +15,7 @@ constexpr double kDoubt = 42, kMostDoubt = 6;
 // Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
 class Follower {
  public:
-  Follower(std::span<const Gap<Vertex>> gaps, Row first, Row last)
+  Follower(std::span<const Gap> gaps, Row first, Row last)
       : gaps_(gaps), first_(first), last_(last), is_done_(gaps.size()) {}
 
   void follow(const std::function<void(RimPart&)>& visit) {
@@ -38,7 +38,7 @@ class Follower {
     RimPart part;
     part.before = forwards ? gaps_[start].from : gaps_[start].to;
     for (std::size_t g = start;;) {
-      const Gap<Vertex>& gap = gaps_[g];
+      const Gap& gap = gaps_[g];
       is_done_[g] = true;
       part.points.push_back({gap.point, gap.room, gap.unevenness});
       const Vertex next = forwards ? gap.to : gap.from;
@@ -58,7 +58,7 @@ class Follower {
   // The gap at `point` that ends at `neighbour`: there is just one.
   std::size_t at(const Vertex& point, const Vertex& neighbour) const {
     auto gap = std::lower_bound(gaps_.begin(), gaps_.end(), point.row,
-                                [](const Gap<Vertex>& g, Row row) { return g.point.row < row; });
+                                [](const Gap& g, Row row) { return g.point.row < row; });
     while (!(gap->from == neighbour || gap->to == neighbour)) {
       ++gap;
       assert(gap != gaps_.end() && gap->point == point);
@@ -66,7 +66,7 @@ class Follower {
     return static_cast<std::size_t>(gap - gaps_.begin());
   }
 
-  std::span<const Gap<Vertex>> gaps_;
+  std::span<const Gap> gaps_;
   Row first_, last_;
   std::vector<bool> is_done_;
 };
@@ -78,8 +78,7 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 
 }  // namespace
 
-void follow_rims(std::span<const Gap<Vertex>> gaps, Row first, Row last,
-                 const std::function<void(RimPart&)>& visit) {
+void follow_rims(std::span<const Gap> gaps, Row first, Row last, const std::function<void(RimPart&)>& visit) {
   Follower(gaps, first, last).follow(visit);
 }
 

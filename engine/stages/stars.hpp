@@ -134,20 +134,19 @@ bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {
   return false;
 }
 
-// visit(gap): each gap of a point between agreed triangles. None where nothing is agreed.
+// visit(from, to, room): each gap of a star's point between agreed triangles, as in `Gap`. None where nothing
+// is agreed.
 template <class Name, class Visit>
-void for_each_gap(Name point, std::span<const StarCorner<Name>> star, std::span<const Agreement> agreements,
-                  float unevenness, Visit&& visit) {
+void for_each_gap(std::span<const StarCorner<Name>> star, std::span<const Agreement> agreements,
+                  Visit&& visit) {
   const std::size_t count = star.size();
   const auto next = [&](std::size_t i) { return i + 1 < count ? i + 1 : 0; };
   for (std::size_t i = 0; i < count; ++i) {
     if (agreements[i] != Agreement::kAgreed || agreements[next(i)] == Agreement::kAgreed) continue;
-    Gap<Name> gap{point, star[next(i)].point, {}, 0, unevenness};
     std::size_t end = next(i);
-    for (; agreements[end] != Agreement::kAgreed; end = next(end))
-      gap.room = std::max(gap.room, star[end].room);
-    gap.to = star[end].point;
-    visit(gap);
+    float room = 0;
+    for (; agreements[end] != Agreement::kAgreed; end = next(end)) room = std::max(room, star[end].room);
+    visit(star[next(i)].point, star[end].point, room);
   }
 }
 

@@ -13,8 +13,8 @@ Vertex vertex(std::uint64_t row) {
 }
 
 // The gaps of a closed rim, every second one written against its direction.
-std::vector<Gap<Vertex>> ring(const std::vector<std::uint64_t>& rows) {
-  std::vector<Gap<Vertex>> gaps;
+std::vector<Gap> ring(const std::vector<std::uint64_t>& rows) {
+  std::vector<Gap> gaps;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Vertex from = vertex(rows[(i + rows.size() - 1) % rows.size()]), to = vertex(rows[(i + 1) % rows.size()]);
     if (i % 2 == 1) std::swap(from, to);
@@ -23,7 +23,7 @@ std::vector<Gap<Vertex>> ring(const std::vector<std::uint64_t>& rows) {
   return gaps;
 }
 
-std::vector<Gap<Vertex>> in_order(std::vector<Gap<Vertex>> gaps, std::uint64_t first, std::uint64_t last) {
+std::vector<Gap> in_order(std::vector<Gap> gaps, std::uint64_t first, std::uint64_t last) {
   std::erase_if(
       gaps, [&](const auto& gap) { return value(gap.point.row) < first || value(gap.point.row) >= last; });
   std::stable_sort(gaps.begin(), gaps.end(),
@@ -37,7 +37,7 @@ std::vector<std::uint64_t> rows(const RimPart& part) {
   return rows;
 }
 
-std::vector<RimPart> follow(const std::vector<Gap<Vertex>>& gaps, std::uint64_t first, std::uint64_t last) {
+std::vector<RimPart> follow(const std::vector<Gap>& gaps, std::uint64_t first, std::uint64_t last) {
   std::vector<RimPart> parts;
   follow_rims(in_order(gaps, first, last), Row{first}, Row{last},
               [&](RimPart& part) { parts.push_back(part); });
@@ -61,10 +61,10 @@ std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
 }  // namespace
 
 TEST_CASE("a rim that comes to an inner point is a crack, from whichever gap it is followed") {
-  std::vector<Gap<Vertex>> gaps = ring({3, 9, 4, 8, 1, 7});
+  std::vector<Gap> gaps = ring({3, 9, 4, 8, 1, 7});
   CHECK_FALSE(follow(gaps, 0, 20)[0].is_crack());
   std::erase_if(gaps, [](const auto& gap) { return value(gap.point.row) == 9; });
-  for (Gap<Vertex>& gap : gaps) {
+  for (Gap& gap : gaps) {
     for (Vertex* const end : {&gap.from, &gap.to}) {
       if (value(end->row) == 9) *end = kInnerEnd;
     }
@@ -79,7 +79,7 @@ TEST_CASE("a rim that comes to an inner point is a crack, from whichever gap it 
 }
 
 TEST_CASE("a rim within the rows is closed, through a point that it passes twice too") {
-  std::vector<Gap<Vertex>> gaps = ring({3, 9, 4, 8, 1, 7});
+  std::vector<Gap> gaps = ring({3, 9, 4, 8, 1, 7});
   const std::vector<RimPart> one = follow(gaps, 0, 20);
   REQUIRE(one.size() == 1);
   CHECK(one[0].is_closed);
@@ -89,17 +89,17 @@ TEST_CASE("a rim within the rows is closed, through a point that it passes twice
   CHECK(found == std::vector<std::uint64_t>{3, 9, 4, 8, 1, 7});
   for (const RimPoint& p : one[0].points) CHECK(p.room == static_cast<float>(value(p.vertex.row)));
 
-  const std::vector<Gap<Vertex>> twice = ring({3, 9, 4, 8, 9, 7});
+  const std::vector<Gap> twice = ring({3, 9, 4, 8, 9, 7});
   REQUIRE(follow(twice, 0, 20).size() == 1);
   CHECK(rows(follow(twice, 0, 20)[0]).size() == 6);
 
-  const std::vector<Gap<Vertex>> other = ring({9, 10, 11});  // touches the first in a point
+  const std::vector<Gap> other = ring({9, 10, 11});  // touches the first in a point
   gaps.insert(gaps.end(), other.begin(), other.end());
   REQUIRE(follow(gaps, 0, 20).size() == 2);
 }
 
 TEST_CASE("of a rim that leaves the rows there are the parts, with what comes before and after") {
-  const std::vector<Gap<Vertex>> gaps = ring({12, 3, 4, 15, 16, 5, 17});
+  const std::vector<Gap> gaps = ring({12, 3, 4, 15, 16, 5, 17});
   std::vector<RimPart> parts = follow(gaps, 0, 10);
   REQUIRE(parts.size() == 2);
   if (parts[0].points.size() == 1) std::swap(parts[0], parts[1]);
