@@ -8,6 +8,8 @@
 #include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -40,6 +42,9 @@ class TileStore {
   bool has_normals() const { return has_normals_; }
 
   std::vector<StoredPoint> points(TileIndex tile) const;
+  // The same without an array of them: visit(point).
+  template <class Visit>
+  void for_each_point(TileIndex tile, Visit&& visit) const;
   std::vector<Eigen::Vector3d> normals(TileIndex tile) const;  // as given; empty where none are
   std::vector<Duplicate> duplicates(TileIndex tile) const;     // in ascending id
   std::vector<StoredPoint> cell(std::uint32_t cell) const;
@@ -65,6 +70,18 @@ class TileStore {
   Column<StoredNormal> normals_;
   Spill<Duplicate> duplicates_;
 };
+
+template <class Visit>
+void TileStore::for_each_point(TileIndex index, Visit&& visit) const {
+  const Tile& tile = tiling_.tiles[index];
+  std::array<StoredPoint, 2048> part;
+  for (std::uint64_t done = 0; done < tile.points;) {
+    const std::uint64_t count = std::min<std::uint64_t>(part.size(), tile.points - done);
+    points_.read(value(tile.first_row) + done, std::span(part).first(count));
+    for (std::size_t i = 0; i < count; ++i) visit(part[i]);
+    done += count;
+  }
+}
 
 // Points on their way to their tiles, from any thread.
 class TileStore::Filler {

@@ -69,24 +69,25 @@ Sight foreign_sight(const TileStore& store, std::span<const Link> links,
 TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& links,
                   std::span<const std::uint32_t> halo) {
   const Tile& tile = store.tiling().tiles[index];
-  const std::vector<StoredPoint> owned = store.points(index);
   const Sight sight = foreign_sight(store, links, halo);
   TilePoints points;
-  points.owned = static_cast<LocalIndex>(owned.size());
-  const std::size_t count = owned.size() + sight.rows.size();
-  points.positions.reserve(count);
-  for (const StoredPoint& p : owned) points.positions.push_back(p.position());
-  for (const StoredPoint& p : sight.points) points.positions.push_back(p.position());
-  points.ids.reserve(count);
-  for (const StoredPoint& p : owned) points.ids.push_back(p.id);
-  for (const StoredPoint& p : sight.points) points.ids.push_back(p.id);
-  points.rows.resize(owned.size());
-  for (std::size_t i = 0; i < owned.size(); ++i) points.rows[i] = Row{value(tile.first_row) + i};
+  points.owned = static_cast<LocalIndex>(tile.points);
+  points.positions.reserve(tile.points + sight.rows.size());
+  points.ids.reserve(tile.points + sight.rows.size());
+  const auto add = [&](const StoredPoint& p) {
+    points.positions.push_back(p.position());
+    points.ids.push_back(p.id);
+  };
+  store.for_each_point(index, add);
+  std::for_each(sight.points.begin(), sight.points.end(), add);
+  points.rows.reserve(tile.points + sight.rows.size());
+  for (std::uint64_t i = 0; i < tile.points; ++i) points.rows.push_back(Row{value(tile.first_row) + i});
   points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
 
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
   });
+  points.linked.offsets.reserve(tile.points + 1);
   auto link = links.begin();
   for (LocalIndex p = 0; p < points.owned; ++p) {
     for (; link != links.end() && link->owned == p; ++link) {
@@ -273,8 +274,9 @@ class TileRecorder {
     for (LocalIndex p = 0; p < points_.size(); ++p) {
       if (is_seen[p]) seen.push_back(p);
     }
-    std::sort(seen.begin(), seen.end(),
-              [&](LocalIndex a, LocalIndex b) { return points_.rows[a] < points_.rows[b]; });
+    // By row: both the owned and the foreign ones are.
+    std::inplace_merge(seen.begin(), std::lower_bound(seen.begin(), seen.end(), points_.owned), seen.end(),
+                       [&](LocalIndex a, LocalIndex b) { return points_.rows[a] < points_.rows[b]; });
     std::vector<LocalIndex> place(points_.size());
     std::vector<SeenPoint> in_sight;
     for (const LocalIndex p : seen) {
