@@ -19,8 +19,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
 
 // What a run would take, from one streaming pass.
 struct Estimate {
-  Summary summary;  // points, dropped, bounds, tiles, threads, memory limit, phases
-  std::uint64_t workspace_bytes = 0;
+  Summary summary;                    // points, dropped, bounds, tiles, threads, memory limit, phases
+  std::uint64_t workspace_bytes = 0;  // of a clean scan; where all is noise up to six times that
   double cell_size = 0;
   std::uint64_t cells = 0;
 };
