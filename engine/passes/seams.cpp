@@ -102,10 +102,25 @@ std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& 
     is_needed[query.point] = 1;
     for (const LocalIndex q : query.neighbours) is_needed[q] = 1;
   }
+  // In runs of rows that are near each other. Between them most were never written: reading those, too, would
+  // fill the system's cache with zeros.
+  constexpr std::uint64_t kNear = 8;
+  const auto row = [&](std::size_t i) { return value(waiting.row(static_cast<LocalIndex>(i))); };
   std::vector<Seat> seats(waiting.in_sight.size());
-  RunReader<Seat> reader(stored);
-  for (LocalIndex i = 0; i < seats.size(); ++i) {
-    if (is_needed[i]) seats[i] = reader[value(waiting.row(i))];
+  std::vector<Seat> run;
+  for (std::size_t i = 0; i < seats.size();) {
+    if (!is_needed[i]) {
+      ++i;
+      continue;
+    }
+    std::size_t last = i;
+    for (std::size_t j = i + 1; j < seats.size() && row(j) <= row(last) + kNear; ++j) {
+      if (is_needed[j]) last = j;
+    }
+    const std::uint64_t first_row = row(i);
+    run.resize(row(last) - first_row + 1);
+    stored.read(first_row, std::span(run));
+    for (; i <= last; ++i) seats[i] = run[row(i) - first_row];
   }
   return seats;
 }
