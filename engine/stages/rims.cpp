@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace lacuna {
@@ -16,7 +17,14 @@ constexpr double kDoubt = 42, kMostDoubt = 6;
 class Follower {
  public:
   Follower(std::span<const Gap> gaps, Row first, Row last)
-      : gaps_(gaps), first_(first), last_(last), is_done_(gaps.size()) {}
+      : gaps_(gaps),
+        first_(first),
+        last_(last),
+        begins_(value(last) - value(first) + 1),
+        is_done_(gaps.size()) {
+    for (const Gap& gap : gaps) ++begins_[value(gap.point.row) - value(first) + 1];
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  }
 
   void follow(const std::function<void(RimPart&)>& visit) {
     // Parts from one end to the other, then what is left is closed.
@@ -57,17 +65,17 @@ class Follower {
 
   // The gap at `point` that ends at `neighbour`: there is just one.
   std::size_t at(const Vertex& point, const Vertex& neighbour) const {
-    auto gap = std::lower_bound(gaps_.begin(), gaps_.end(), point.row,
-                                [](const Gap& g, Row row) { return g.point.row < row; });
-    while (!(gap->from == neighbour || gap->to == neighbour)) {
-      ++gap;
-      assert(gap != gaps_.end() && gap->point == point);
+    std::size_t g = begins_[value(point.row) - value(first_)];
+    while (!(gaps_[g].from == neighbour || gaps_[g].to == neighbour)) {
+      ++g;
+      assert(g < gaps_.size() && gaps_[g].point == point);
     }
-    return static_cast<std::size_t>(gap - gaps_.begin());
+    return g;
   }
 
   std::span<const Gap> gaps_;
   Row first_, last_;
+  std::vector<std::uint32_t> begins_;  // by row, the first gap
   std::vector<bool> is_done_;
 };
 

@@ -31,7 +31,8 @@ struct RimPart {
 };
 
 // `gaps`: of points with rows in [first, last), in ascending row of the point. Every gap that a rim goes on
-// to within those rows must be there. Each rim and part once, in any order and direction. About linear.
+// to within those rows must be there. Each rim and part once, in any order and direction. Linear in gaps and
+// rows.
 void follow_rims(std::span<const Gap> gaps, Row first, Row last, const std::function<void(RimPart&)>& visit);
 
 // Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several
