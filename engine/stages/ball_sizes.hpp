@@ -6,11 +6,10 @@
 // such as lie in a hole for sure are left out, since on strips and islands half of the balls do.
 #pragma once
 
-#include "engine/core/eight.hpp"
+#include "engine/core/batches.hpp"
 #include "engine/data/star.hpp"
 #include "engine/stages/stars.hpp"
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -41,13 +40,10 @@ class BallSizer {
   // other point.
   template <class Around, class Visit>
   void for_each(std::size_t count, Around&& surroundings, Visit&& visit) {
-    for (std::size_t first = 0; first < count; first += kEight) {
-      points_.clear();
-      for (std::size_t i = first; i < std::min(first + kEight, count); ++i)
-        points_.push_back(surroundings(i));
+    for_each_batch(count, points_, surroundings, [&](std::size_t first) {
       find();
       for (std::size_t i = 0; i < points_.size(); ++i) visit(first + i, sizes_[i]);
-    }
+    });
   }
 
  private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/dispatch.hpp"
+#include "engine/core/eight.hpp"
 #include "engine/core/vector.hpp"
 #include "engine/data/star.hpp"
 
@@ -11,8 +12,8 @@
 
 namespace lacuna {
 
-inline constexpr std::size_t kStarBundle = 8;  // points side by side
-inline constexpr std::size_t kMostSeen = 64;   // neighbours of one of them
+inline constexpr std::size_t kStarBundle = kEight;  // points side by side
+inline constexpr std::size_t kMostSeen = 64;        // neighbours of one of them
 
 // Larger balls say no more, in units of `Sampling::distance`.
 inline constexpr double kLargestBall = 8;

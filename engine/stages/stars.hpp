@@ -15,6 +15,7 @@
 // is an edge with one triangle, which ends exactly one gap at its other end, too: the rims are closed curves.
 #pragma once
 
+#include "engine/core/batches.hpp"
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"
 #include "engine/data/star.hpp"
@@ -72,12 +73,10 @@ class StarFinder {
   // `count`. What a star is depends on no other query.
   template <class Query, class Visit>
   void for_each_bundle(std::size_t count, Query&& query, Visit&& visit) {
-    for (std::size_t first = 0; first < count; first += kStarBundle) {
-      queries_.clear();
-      for (std::size_t i = first; i < std::min(first + kStarBundle, count); ++i) queries_.push_back(query(i));
+    for_each_batch(count, queries_, query, [&](std::size_t first) {
       find();
       visit(first, std::span<const FoundStar>(stars_).first(queries_.size()));
-    }
+    });
   }
 
  private:
