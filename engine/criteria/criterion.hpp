@@ -15,6 +15,7 @@ struct Criterion {
 };
 
 inline constexpr std::size_t kCriteria = 3;
+inline constexpr std::size_t kAngle = 0, kHalfdisc = 1;  // places in the table
 inline constexpr std::array<Criterion, kCriteria> kCriteriaTable{{
     {"angle", &CriteriaConfig::weight_angle},
     {"halfdisc", &CriteriaConfig::weight_halfdisc},

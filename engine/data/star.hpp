@@ -32,9 +32,9 @@ inline bool waits(Standing standing) {
   return standing == Standing::kBeside || standing == Standing::kBorder;
 }
 
-// A suspect has more than this Pi. Some of the points of a rim may have less, but then they have neighbours
-// with more.
-inline constexpr double kSuspicion = 0.2;
+// A suspect's angle and halfdisc criteria have a larger mean. Some of the points of a rim may have less, but
+// then they have neighbours with more.
+inline constexpr double kSuspicion = 0.33;
 
 // One corner of a star, and the ball that rests on the star's point, this corner and the next one around.
 template <class Name>

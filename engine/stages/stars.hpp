@@ -102,8 +102,10 @@ struct Stars {
   }
 };
 
+// Not by Pi: of a surface that goes on all around, the shape criterion alone may say much, where points
+// happen to lie in rows.
 inline bool is_suspect(const Evaluation& evaluation) {
-  return evaluation.probability > kSuspicion;
+  return evaluation.criteria[kAngle] + evaluation.criteria[kHalfdisc] > 2 * kSuspicion;
 }
 
 // Of a tile's owned points. `is_border`: has foreign neighbours.

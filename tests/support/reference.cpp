@@ -504,7 +504,7 @@ bool path_within(const Graph& graph, PointId a, PointId b, std::int64_t steps, s
   return found;
 }
 
-Graph span(const SpanningConfig& config, Detection& result) {
+Graph span(Detection& result) {
   const std::size_t count = result.points.size();
   // 2 sqrt(pi K): steps around the smallest hole that edges do not cross.
   Graph graph(count);
@@ -709,12 +709,13 @@ void measure(const Detection& result, std::map<PointId, Star>& stars) {
   }
 }
 
-// Points that have more than Pi = 0.2 or a neighbour that has.
+// Points whose angle and halfdisc criteria have a mean of more than 0.33, or that have a neighbour of which
+// that is so.
 std::set<PointId> rough_points(const Detection& result) {
   std::set<PointId> rough;
   for (const PointId p : result.distinct) {
     const Point& point = result.points[value(p)];
-    if (!(point.probability > 0.2)) continue;
+    if (!(point.angle + point.halfdisc > 0.66)) continue;
     rough.insert(p);
     rough.insert(point.neighbours.begin(), point.neighbours.end());
   }
@@ -869,7 +870,7 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
         config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
     find_coherent(config.coherence, result);
     find_eligible(positions, config.spanning, result);
-    find_loops(span(config.spanning, result), result);
+    find_loops(span(result), result);
   } else {
     find_rims(positions, config.coherence.threshold, config.selection.min_confidence, result);
   }
