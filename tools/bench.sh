@@ -7,14 +7,14 @@ usage() {
   cat <<'END'
 usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
 
-Builds a release, makes the scans, runs every program once to warm up and then in turns, and writes
+Builds a release, makes the scans, runs the programs in turns, each twice of which once to warm up, and writes
 bench/results/DATE.csv with a table of medians (DATE.txt) and a plot (DATE.svg).
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
   --orders LIST         of the points in the file: scanline, random   default "scanline random"
   --threads LIST        default: one per core
   --memory-limit LIST   as for lacuna: 1GiB; or default               default "default"
-  --runs N              after the warm-up                             default 5
+  --runs N              that count; as many warm up                   default 5
   --real                the real scans in ../shared/data too
   --peers               PCL and Open3D too (installs about 1 GB of packages)
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
@@ -116,7 +116,7 @@ cleanup() { rm -rf "$work/out" "$work/told" "$work/time" "$work/plot.dat"; }
 trap cleanup EXIT
 
 # One program on the current case (scan, case, order) with the current number of threads: its rows go to the
-# csv, but not those of run 0.
+# csv, but not those of run "warm-up".
 run_once() {
   local program=$1 limit=$2 run=$3 command begin end status=0
   case $program in
@@ -139,7 +139,7 @@ run_once() {
     echo "bench.sh: ended with status $status: ${command[*]}" >&2
     return 1
   fi
-  ((run > 0)) || return 0
+  [[ $run != warm-up ]] || return 0
   python3 bench/record.py --csv "$csv" --case "$case" --order "$order" --program "$program" \
     --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
     --time "$work/time" --told "$work/told" --report "$work/out/holes.json"
@@ -147,8 +147,9 @@ run_once() {
 
 failures=()
 
-# All programs on one case in turns, A B A B, so that a slow minute of the machine meets all of them. One that
-# fails on a case is left out of the rest of it.
+# All programs on one case in turns, A A B B A A B B, so that a slow minute of the machine meets all of them. The
+# first run of a turn warms up: when a program of many gigabytes ends, a virtual machine gives them back to its
+# host, and whoever comes next would wait for every page. What fails on a case is left out of the rest of it.
 run_case() {
   local with_peers=$1 run limit program turn
   local -a turns=()
@@ -160,12 +161,12 @@ run_case() {
   if ((with_peers)); then
     for program in "${peer_programs[@]}"; do turns+=("$program default"); done
   fi
-  for ((run = 0; run <= runs; ++run)); do
+  for ((run = 1; run <= runs; ++run)); do
     for turn in "${turns[@]}"; do
       [[ -z ${failed[$turn]-} ]] || continue
       read -r program limit <<<"$turn"
-      echo "bench.sh: $case, $order, $thread_count threads: $program ($limit), $( ((run)) && echo "run $run" || echo warm-up)" >&2
-      run_once "$program" "$limit" "$run" && continue
+      echo "bench.sh: $case, $order, $thread_count threads: $program ($limit), run $run" >&2
+      run_once "$program" "$limit" warm-up && run_once "$program" "$limit" "$run" && continue
       failed[$turn]=yes
       failures+=("$program ($limit) on $case, $order, $thread_count threads")
     done

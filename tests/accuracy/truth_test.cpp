@@ -145,11 +145,13 @@ TEST_CASE("the distance to a segment is to its nearest place, ends included") {
   CHECK(distance_to({{1, 1, 1}, {1, 1, 1}}, {1, 1, 3}) == 2);
 }
 
-TEST_CASE("flagged points are right at a true vertex, or within the radius of one") {
+TEST_CASE("flagged points are right at a true vertex, or within the radius of a true edge") {
   Drawing drawing;
   const LoopIds ring = drawing.ring(10, 0, 0);
   const std::uint64_t same = drawing.point(drawing.positions[0].x(), drawing.positions[0].y());
   const std::uint64_t near = drawing.point(drawing.positions[5].x() - 0.4, drawing.positions[5].y());
+  const Eigen::Vector3d middle = (drawing.positions[2] + drawing.positions[3]) / 2;  // far from both
+  const std::uint64_t between = drawing.point(middle.x() + 0.3, middle.y());
   const std::uint64_t far = drawing.point(50, 0);
   const auto stands_for = stand_ins(drawing.positions);
   const std::vector<LoopIds> rings = {ring};
@@ -158,13 +160,13 @@ TEST_CASE("flagged points are right at a true vertex, or within the radius of on
     return score_points(flagged, truth, drawing.positions, stands_for, 0.5);
   };
 
-  const PointAccuracy result = score({same, ring[0], ring[1], near, far});
-  CHECK(result.flagged == 4);
+  const PointAccuracy result = score({same, ring[0], ring[1], near, between, far});
+  CHECK(result.flagged == 5);
   CHECK(result.truth == 10);
-  CHECK(result.by_id.precision == 0.5);
+  CHECK(result.by_id.precision == 0.4);
   CHECK(result.by_id.recall == 0.2);
-  CHECK(*result.by_id.f1 == Approx(2 / 7.));
-  CHECK(result.within_radius.precision == 0.75);
+  CHECK(*result.by_id.f1 == Approx(4 / 15.));
+  CHECK(result.within_radius.precision == 0.8);
   CHECK(result.within_radius.recall == Approx(0.3));
 
   CHECK(score(ring).by_id.f1 == 1);

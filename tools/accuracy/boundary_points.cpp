@@ -22,11 +22,22 @@ std::size_t count_common(const Ids& a, const Ids& b) {
   return common.size();
 }
 
-// How many of `ids` are within the radius of one of `others`.
-std::size_t count_near(const Ids& ids, const Ids& others, Positions positions, double radius) {
+EdgeTree tree_of_points(const Ids& ids, Positions positions) {
   std::vector<Segment> points;
-  for (const std::uint64_t id : others) points.push_back({positions[id], positions[id], 0});
-  const EdgeTree tree(std::move(points));
+  for (const std::uint64_t id : ids) points.push_back({positions[id], positions[id], 0});
+  return EdgeTree(std::move(points));
+}
+
+EdgeTree tree_of_edges(std::span<const TrueLoop> loops, Positions positions) {
+  std::vector<Segment> edges;
+  for (const TrueLoop& loop : loops) {
+    for (const auto& [a, b] : loop.edges) edges.push_back({positions[a], positions[b], 0});
+  }
+  return EdgeTree(std::move(edges));
+}
+
+// How many of `ids` are within the radius of what is in the tree.
+std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, double radius) {
   std::size_t near = 0;
   std::vector<std::size_t> found;
   for (const std::uint64_t id : ids) {
@@ -59,11 +70,12 @@ PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<con
   sort_once(told);
   sort_once(known);
   const std::size_t common = count_common(told, known);
+  const std::size_t right = count_near(told, tree_of_edges(truth, positions), positions, radius);
+  const std::size_t met = count_near(known, tree_of_points(told, positions), positions, radius);
   return {.flagged = told.size(),
           .truth = known.size(),
           .by_id = scores(share(common, told.size()), share(common, known.size())),
-          .within_radius = scores(share(count_near(told, known, positions, radius), told.size()),
-                                  share(count_near(known, told, positions, radius), known.size()))};
+          .within_radius = scores(share(right, told.size()), share(met, known.size()))};
 }
 
 }  // namespace lacuna::accuracy
