@@ -34,7 +34,7 @@ inline bool waits(Standing standing) {
 
 // A suspect's angle and halfdisc criteria have a larger mean. Some of the points of a rim may have less, but
 // then they have neighbours with more.
-inline constexpr double kSuspicion = 0.33;
+inline constexpr double kSuspicion = 0.28;
 
 // One corner of a star, and the ball that rests on the star's point, this corner and the next one around.
 template <class Name>
@@ -69,6 +69,11 @@ struct Gap {
   Vertex point, from, to;
   float room;        // of the largest ball that rests there
   float unevenness;  // `BallSize::unevenness` of the point
+};
+
+// A gap of `from` ends at `at`.
+struct GapEnd {
+  Vertex at, from;
 };
 
 }  // namespace lacuna

@@ -202,7 +202,6 @@ class TileRecorder {
         find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
     record_waiting(standings, samplings);
 
-    const auto end = [&](LocalIndex p) { return standings[p] == Standing::kInner ? kInnerEnd : vertex(p); };
     std::vector<std::uint8_t> is_vertex = is_border_;
     std::vector<StoredCorner> open;
     std::vector<Gap> gaps;
@@ -220,12 +219,13 @@ class TileRecorder {
           open.push_back(
               {points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness[p]});
           tell_if_rough(star[i].point, standings);
+          if (points_.is_owned(star[i].point)) is_vertex[star[i].point] = 1;
         }
         is_vertex[p] = 1;
       } else {
         for_each_gap(star, agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({vertex(p), end(from), end(to), room, unevenness[p]});
-          is_vertex[p] = 1;
+          gaps.push_back({vertex(p), vertex(from), vertex(to), room, unevenness[p]});
+          is_vertex[p] = is_vertex[from] = is_vertex[to] = 1;
         });
       }
     }
@@ -436,7 +436,8 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       suspects(store.tiling().row_count()),
       rough(store.tiling().row_count()),
       open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 8),
-      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8) {}
+      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
+      inner_ends(job.file("inner-ends"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 
 EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
     : edges(store, job),

@@ -114,6 +114,7 @@ struct StarLists {
   RowSet rough;                          // among these and corners of open stars
   Spill<StoredCorner> open;              // stars, each in one piece
   Spill<Gap> gaps;
+  Spill<GapEnd> inner_ends;  // by tile of the inner point, of gaps in other tiles
 };
 
 struct EvaluatedScan {

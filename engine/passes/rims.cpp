@@ -109,15 +109,18 @@ void report(std::vector<RimPoint>& rim, RawLoops& loops) {
 
 // The whole rims of a tile to `loops`, the parts of others to `open`.
 void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops& loops, OpenRims& open) {
+  const Row first = tiling.tiles[t].first_row, last{value(first) + tiling.tiles[t].points};
   std::vector<Gap> gaps = lists.gaps.read(t);
   lists.gaps.drop(t);
+  const std::vector<Gap> inner = gaps_of_inner_points(gaps, lists.inner_ends.read(t), first, last);
+  lists.inner_ends.drop(t);
+  gaps.insert(gaps.end(), inner.begin(), inner.end());
   std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
     return std::tie(a.point.row, a.from.row) < std::tie(b.point.row, b.from.row);
   });
-  const Row first = tiling.tiles[t].first_row, last{value(first) + tiling.tiles[t].points};
   follow_rims(gaps, first, last, [&](RimPart& part) {
     if (part.is_closed) report(part.points, loops);
-    if (!part.is_closed && !part.is_crack()) open.add(part);
+    if (!part.is_closed && !part.is_crack) open.add(part);
   });
 }
 

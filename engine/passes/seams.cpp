@@ -298,6 +298,7 @@ void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& cl
   std::sort(told.begin(), told.end());
 
   std::vector<Gap> gaps;
+  Letters<GapEnd> letters;
   for (std::size_t s = 0; s < stars.points().size(); ++s) {
     const LocalIndex p = stars.points()[s];
     const auto star = stars.star(s);
@@ -313,13 +314,19 @@ void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& cl
       const Vertex &a = star[i].point, &b = star[i + 1 < star.size() ? i + 1 : 0].point;
       agreements[i] = agrees(a, b) && agrees(b, a) ? Agreement::kAgreed : Agreement::kRefused;
     }
-    const auto end = [&](const Vertex& v) { return lists.rough.contains(v.row) ? v : kInnerEnd; };
+    const auto tell_if_inner = [&](const Vertex& end) {
+      if (!here.owns(end) && !lists.rough.contains(end.row))
+        letters.add(tiling.tile_of_row(end.row), {end, point});
+    };
     for_each_gap(star, std::span<const Agreement>(agreements),
                  [&](const Vertex& from, const Vertex& to, float room) {
-                   gaps.push_back({point, end(from), end(to), room, stars.unevenness(s)});
+                   gaps.push_back({point, from, to, room, stars.unevenness(s)});
+                   tell_if_inner(from);
+                   tell_if_inner(to);
                  });
   }
   lists.gaps.append(t, gaps);
+  letters.send(lists.inner_ends);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "engine/stages/rims.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -31,7 +31,8 @@ class Follower {
     for (const bool ends_only : {true, false}) {
       for (std::size_t g = 0; g < gaps_.size(); ++g) {
         if (is_done_[g]) continue;
-        const bool enters = !is_here(gaps_[g].from), leaves = !is_here(gaps_[g].to);
+        const bool enters = next(gaps_[g].from, gaps_[g].point) == kNone;
+        const bool leaves = next(gaps_[g].to, gaps_[g].point) == kNone;
         if (ends_only && !enters && !leaves) continue;
         RimPart part = walk(g, /*forwards=*/enters || !leaves);
         visit(part);
@@ -40,6 +41,8 @@ class Follower {
   }
 
  private:
+  static constexpr std::size_t kNone = SIZE_MAX;
+
   bool is_here(const Vertex& v) const { return first_ <= v.row && v.row < last_; }
 
   RimPart walk(std::size_t start, bool forwards) {
@@ -49,12 +52,12 @@ class Follower {
       const Gap& gap = gaps_[g];
       is_done_[g] = true;
       part.points.push_back({gap.point, gap.room, gap.unevenness});
-      const Vertex next = forwards ? gap.to : gap.from;
-      if (!is_here(next)) {
-        part.after = next;
+      part.after = forwards ? gap.to : gap.from;
+      g = next(part.after, gap.point);
+      if (g == kNone) {
+        part.is_crack = is_here(part.after) || is_crack_before(part);
         return part;
       }
-      g = at(next, gap.point);
       forwards = gaps_[g].from == gap.point;
       if (g == start) {
         part.is_closed = true;
@@ -63,14 +66,18 @@ class Follower {
     }
   }
 
-  // The gap at `point` that ends at `neighbour`: there is just one.
-  std::size_t at(const Vertex& point, const Vertex& neighbour) const {
-    std::size_t g = begins_[value(point.row) - value(first_)];
-    while (!(gaps_[g].from == neighbour || gaps_[g].to == neighbour)) {
-      ++g;
-      assert(g < gaps_.size() && gaps_[g].point == point);
+  bool is_crack_before(const RimPart& part) const {
+    return is_here(part.before) && next(part.before, part.points.front().vertex) == kNone;
+  }
+
+  // The gap at `point` that ends at `neighbour`; there is at most one.
+  std::size_t next(const Vertex& point, const Vertex& neighbour) const {
+    if (!is_here(point)) return kNone;
+    const std::size_t row = value(point.row) - value(first_);
+    for (std::size_t g = begins_[row]; g < begins_[row + 1]; ++g) {
+      if (gaps_[g].from == neighbour || gaps_[g].to == neighbour) return g;
     }
-    return g;
+    return kNone;
   }
 
   std::span<const Gap> gaps_;
@@ -85,6 +92,28 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 }
 
 }  // namespace
+
+std::vector<Gap> gaps_of_inner_points(std::span<const Gap> gaps, std::vector<GapEnd> elsewhere, Row first,
+                                      Row last) {
+  std::vector<bool> has_gap(value(last) - value(first));
+  for (const Gap& gap : gaps) has_gap[value(gap.point.row) - value(first)] = true;
+  std::vector<GapEnd> ends = std::move(elsewhere);
+  for (const Gap& gap : gaps) {
+    for (const Vertex& end : {gap.from, gap.to}) {
+      const bool is_here = first <= end.row && end.row < last;
+      if (is_here && !has_gap[value(end.row) - value(first)]) ends.push_back({end, gap.point});
+    }
+  }
+  std::sort(ends.begin(), ends.end(), [](const GapEnd& a, const GapEnd& b) {
+    return std::tie(a.at.row, a.from.row) < std::tie(b.at.row, b.from.row);
+  });
+  std::vector<Gap> found;
+  for (std::size_t i = 0, end; i < ends.size(); i = end) {
+    for (end = i; end < ends.size() && ends[end].at == ends[i].at;) ++end;
+    if (end - i == 2) found.push_back({ends[i].at, ends[i].from, ends[i + 1].from, 0, 0});
+  }
+  return found;
+}
 
 void follow_rims(std::span<const Gap> gaps, Row first, Row last, const std::function<void(RimPart&)>& visit) {
   Follower(gaps, first, last).follow(visit);

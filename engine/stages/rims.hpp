@@ -11,10 +11,6 @@
 
 namespace lacuna {
 
-// Where a gap ends at an inner point: a rim that comes there is a crack between points that lie amid their
-// neighbours, and leads nowhere.
-inline constexpr Vertex kInnerEnd{PointId{UINT64_MAX}, Row{UINT64_MAX}};
-
 // A point of a rim. A point with several gaps is on several rims, or several times on one.
 struct RimPoint {
   Vertex vertex;
@@ -25,14 +21,18 @@ struct RimPoint {
 struct RimPart {
   std::vector<RimPoint> points;
   bool is_closed = false;
-  Vertex before{}, after{};  // of a part: points of other tiles that the rim comes from and goes to, or none
-
-  bool is_crack() const { return !is_closed && (before == kInnerEnd || after == kInnerEnd); }
+  bool is_crack = false;     // leads to a point with rows as below that has no gap
+  Vertex before{}, after{};  // unless closed: what the rim comes from and goes to
 };
 
-// `gaps`: of points with rows in [first, last), in ascending row of the point. Every gap that a rim goes on
-// to within those rows must be there. Each rim and part once, in any order and direction. Linear in gaps and
-// rows.
+// Points with rows in [first, last) that have no gap of their own, since no star was looked for, but to which
+// exactly two gaps lead: the gaps between these. One weak point would else open the rim of a whole scan.
+// `gaps`: of points in these rows; `elsewhere`: ends there of gaps of other points.
+std::vector<Gap> gaps_of_inner_points(std::span<const Gap> gaps, std::vector<GapEnd> elsewhere, Row first,
+                                      Row last);
+
+// `gaps`: of points with rows in [first, last), in ascending row of the point. Each rim and part once, in any
+// order and direction. Linear in gaps and rows.
 void follow_rims(std::span<const Gap> gaps, Row first, Row last, const std::function<void(RimPart&)>& visit);
 
 // Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several

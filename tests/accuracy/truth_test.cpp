@@ -150,8 +150,9 @@ TEST_CASE("flagged points are right at a true vertex, or within the radius of a 
   const LoopIds ring = drawing.ring(10, 0, 0);
   const std::uint64_t same = drawing.point(drawing.positions[0].x(), drawing.positions[0].y());
   const std::uint64_t near = drawing.point(drawing.positions[5].x() - 0.4, drawing.positions[5].y());
-  const Eigen::Vector3d middle = (drawing.positions[2] + drawing.positions[3]) / 2;  // far from both
-  const std::uint64_t between = drawing.point(middle.x() + 0.3, middle.y());
+  const Eigen::Vector3d middle = (drawing.positions[2] + drawing.positions[3]) / 2;
+  const Eigen::Vector3d beside_edge = middle + 0.3 * middle.normalized();  // 0.58 from both ends
+  const std::uint64_t between = drawing.point(beside_edge.x(), beside_edge.y());
   const std::uint64_t far = drawing.point(50, 0);
   const auto stands_for = stand_ins(drawing.positions);
   const std::vector<LoopIds> rings = {ring};

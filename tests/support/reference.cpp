@@ -709,13 +709,13 @@ void measure(const Detection& result, std::map<PointId, Star>& stars) {
   }
 }
 
-// Points whose angle and halfdisc criteria have a mean of more than 0.33, or that have a neighbour of which
+// Points whose angle and halfdisc criteria have a mean of more than 0.28, or that have a neighbour of which
 // that is so.
 std::set<PointId> rough_points(const Detection& result) {
   std::set<PointId> rough;
   for (const PointId p : result.distinct) {
     const Point& point = result.points[value(p)];
-    if (!(point.angle + point.halfdisc > 0.66)) continue;
+    if (!(point.angle + point.halfdisc > 0.56)) continue;
     rough.insert(p);
     rough.insert(point.neighbours.begin(), point.neighbours.end());
   }
@@ -807,6 +807,18 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       gaps.push_back(gap);
     }
   }
+  // Points that are not rough, to which two gaps lead.
+  std::map<PointId, std::vector<PointId>> ends;
+  for (const Gap& gap : gaps) {
+    for (const PointId end : {gap.from, gap.to}) {
+      if (!rough.contains(end)) ends[end].push_back(gap.point);
+    }
+  }
+  for (const auto& [p, from] : ends) {
+    if (from.size() != 2) continue;
+    at[{p, from[0]}] = at[{p, from[1]}] = gaps.size();
+    gaps.push_back({p, from[0], from[1], 0, 0});
+  }
   std::vector<std::pair<std::vector<PointId>, double>> rims;
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
@@ -819,8 +831,9 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back({gaps[g].point, gaps[g].room, gaps[g].unevenness});
-      goes_on = rough.contains(next);
-      if (goes_on) g = at.at({next, rim.back().point});
+      const auto found = at.find({next, rim.back().point});
+      goes_on = found != at.end();
+      if (goes_on) g = found->second;
     } while (goes_on && g != start);
     if (!goes_on || rim.size() < 8) continue;
     for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
