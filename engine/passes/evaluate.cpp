@@ -202,7 +202,8 @@ class TileRecorder {
         find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
     record_waiting(standings, samplings);
 
-    std::vector<std::uint8_t> is_vertex = is_border_;
+    // Where the stars of border points will leave gaps is not known yet: at these, or at inner points beside.
+    std::vector<std::uint8_t> is_vertex = with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
     std::vector<StoredCorner> open;
     std::vector<Gap> gaps;
     for (LocalIndex p = 0; p < points_.owned; ++p) {

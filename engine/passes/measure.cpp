@@ -3,6 +3,7 @@
 #include "engine/stages/measure_loop.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace lacuna {
@@ -38,6 +39,7 @@ std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedS
       const auto owned = static_cast<LocalIndex>(value(next->row) - value(tile.first_row));
       vertex = std::lower_bound(vertex, vertices.end(), owned,
                                 [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
+      assert(vertex != vertices.end() && vertex->owned == owned);
       points[next->slot] = {vertex->point,
                             next->row,
                             {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
