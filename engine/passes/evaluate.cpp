@@ -200,10 +200,12 @@ class TileRecorder {
     const std::unique_ptr<const Seat[]> seats = find_seats(standings);
     const auto [stars, samplings, unevenness] =
         find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
-    record_waiting(standings, samplings);
+    const std::vector<std::uint8_t> at_border =
+        with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
+    record_waiting(standings, samplings, at_border);
 
     // Where the stars of border points will leave gaps is not known yet: at these, or at inner points beside.
-    std::vector<std::uint8_t> is_vertex = with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
+    std::vector<std::uint8_t> is_vertex = at_border;
     std::vector<StoredCorner> open;
     std::vector<Gap> gaps;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
@@ -220,7 +222,7 @@ class TileRecorder {
           open.push_back(
               {points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness[p]});
           tell_if_rough(star[i].point, standings);
-          if (points_.is_owned(star[i].point)) is_vertex[star[i].point] = 1;
+          if (standings[star[i].point] == Standing::kInner) is_vertex[star[i].point] = 1;
         }
         is_vertex[p] = 1;
       } else {
@@ -265,12 +267,12 @@ class TileRecorder {
     if (points_.is_owned(p) && has_star(standings[p])) scan_.stars.rough.insert(points_.rows[p]);
   }
 
-  // What the stars of waiting points need, here and in other tiles.
-  void record_waiting(std::span<const Standing> standings, std::span<const Sampling> samplings) {
+  // What the stars of waiting points need, here and in other tiles. `is_seated`: border points and their
+  // neighbours.
+  void record_waiting(std::span<const Standing> standings, std::span<const Sampling> samplings,
+                      std::span<const std::uint8_t> is_seated) {
     const std::vector<std::uint8_t> is_seen =
         with_neighbours([&](LocalIndex p) { return waits(standings[p]); });
-    const std::vector<std::uint8_t> is_seated =
-        with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
     std::vector<LocalIndex> seen;
     for (LocalIndex p = 0; p < points_.size(); ++p) {
       if (is_seen[p]) seen.push_back(p);
@@ -302,7 +304,7 @@ class TileRecorder {
     scan_.stars.waiting.append(tile_, waiting);
     scan_.stars.waiting_neighbours.append(tile_, neighbours);
     scan_.stars.waiting_sight.append(tile_, in_sight);
-    record_runs(scan_.stars.seats, std::span(is_seated).first(points_.owned),
+    record_runs(scan_.stars.seats, is_seated.first(points_.owned),
                 [&](LocalIndex p) { return seat(p); });
   }
 

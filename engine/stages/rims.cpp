@@ -45,6 +45,7 @@ class Follower {
 
   bool is_here(const Vertex& v) const { return first_ <= v.row && v.row < last_; }
 
+  // From an end on, where there is one.
   RimPart walk(std::size_t start, bool forwards) {
     RimPart part;
     part.before = forwards ? gaps_[start].from : gaps_[start].to;
@@ -55,7 +56,7 @@ class Follower {
       part.after = forwards ? gap.to : gap.from;
       g = next(part.after, gap.point);
       if (g == kNone) {
-        part.is_crack = is_here(part.after) || is_crack_before(part);
+        part.is_crack = is_here(part.before) || is_here(part.after);
         return part;
       }
       forwards = gaps_[g].from == gap.point;
@@ -64,10 +65,6 @@ class Follower {
         return part;
       }
     }
-  }
-
-  bool is_crack_before(const RimPart& part) const {
-    return is_here(part.before) && next(part.before, part.points.front().vertex) == kNone;
   }
 
   // The gap at `point` that ends at `neighbour`; there is at most one.

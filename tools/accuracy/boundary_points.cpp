@@ -28,14 +28,6 @@ EdgeTree tree_of_points(const Ids& ids, Positions positions) {
   return EdgeTree(std::move(points));
 }
 
-EdgeTree tree_of_edges(std::span<const TrueLoop> loops, Positions positions) {
-  std::vector<Segment> edges;
-  for (const TrueLoop& loop : loops) {
-    for (const auto& [a, b] : loop.edges) edges.push_back({positions[a], positions[b], 0});
-  }
-  return EdgeTree(std::move(edges));
-}
-
 // How many of `ids` are within the radius of what is in the tree.
 std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, double radius) {
   std::size_t near = 0;
@@ -70,7 +62,7 @@ PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<con
   sort_once(told);
   sort_once(known);
   const std::size_t common = count_common(told, known);
-  const std::size_t right = count_near(told, tree_of_edges(truth, positions), positions, radius);
+  const std::size_t right = count_near(told, tree_of_truth(truth, positions), positions, radius);
   const std::size_t met = count_near(known, tree_of_points(told, positions), positions, radius);
   return {.flagged = told.size(),
           .truth = known.size(),

@@ -31,14 +31,6 @@ EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {
   return EdgeTree(std::move(edges));
 }
 
-EdgeTree tree_of_truth(std::span<const TrueLoop> truth, Positions positions) {
-  std::vector<Segment> edges;
-  for (std::size_t loop = 0; loop < truth.size(); ++loop) {
-    for (const auto& [a, b] : truth[loop].edges) edges.push_back({positions[a], positions[b], loop});
-  }
-  return EdgeTree(std::move(edges));
-}
-
 Overlaps overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth, Positions positions,
                      double tolerance) {
   Overlaps overlaps(loops.size());

@@ -108,4 +108,12 @@ std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
   return loops;
 }
 
+EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions) {
+  std::vector<Segment> edges;
+  for (std::size_t loop = 0; loop < truth.size(); ++loop) {
+    for (const auto& [a, b] : truth[loop].edges) edges.push_back({positions[a], positions[b], loop});
+  }
+  return EdgeTree(std::move(edges));
+}
+
 }  // namespace lacuna::accuracy

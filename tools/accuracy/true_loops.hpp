@@ -3,6 +3,7 @@
 
 #include "io/loops_reader.hpp"
 #include "io/mesh_reader.hpp"
+#include "tools/accuracy/edge_tree.hpp"
 
 #include <array>
 #include <cstdint>
@@ -30,5 +31,8 @@ std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<cons
 // with two corners at one place have no area and do not count.
 std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
                                     std::span<const std::uint64_t> stand_ins);
+
+// All edges of the loops; their owners are places in `truth`.
+EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions);
 
 }  // namespace lacuna::accuracy

@@ -243,9 +243,12 @@ TEST_CASE(
     const std::vector<Standing> standings = find_standings(rows, evaluations, is_border);
     REQUIRE(standings.size() == points.owned);
     for (LocalIndex p = 0; p < points.owned; ++p) {
-      bool sees_suspect = is_suspect(evaluations[p]), sees_border = false;
+      const auto is_weak = [&](LocalIndex q) {
+        return evaluations[q].criteria[0] + evaluations[q].criteria[1] > 2 * kSuspicion;
+      };
+      bool sees_suspect = is_weak(p), sees_border = false;
       for (const LocalIndex q : rows[p]) {
-        sees_suspect |= is_suspect(evaluations[q]);
+        sees_suspect |= is_weak(q);
         sees_border |= is_border[q] != 0;
       }
       const Standing rough = sees_border ? Standing::kBeside : Standing::kRough;
