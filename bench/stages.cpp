@@ -15,8 +15,8 @@
 #include "engine/stages/order_tile.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/split.hpp"
-#include "engine/stages/stars.hpp"
 #include "engine/stages/survey.hpp"
+#include "engine/stages/tile_stars.hpp"
 #include "io/file_scan.hpp"
 #include "tests/support/point_tree.hpp"
 #include "tools/synth/ply_output.hpp"
@@ -329,16 +329,13 @@ struct NoisySample {
     points = sample_tile(moved);
     rows = lacuna::find_neighbourhoods(points, kNeighbours, 0);
     evaluations = lacuna::evaluate(points, rows, {}, kConfig.normals, kConfig.criteria);
-    for (LocalIndex p = 0; p < points.owned; ++p)
-      seats.push_back(seat_of(points.positions[p], points.ids[p], evaluations[p]));
-    standings.resize(points.owned, Standing::kRough);
+    is_border.resize(points.owned);
   }
 
   TilePoints points;
   Rows rows;
   std::vector<Evaluation> evaluations;
-  std::vector<Seat> seats;
-  std::vector<Standing> standings;
+  std::vector<std::uint8_t> is_border;  // none
 };
 
 void find_stars(benchmark::State& state, double noise) {
@@ -346,7 +343,7 @@ void find_stars(benchmark::State& state, double noise) {
   std::size_t corners = 0;
   for (auto _ : state) {
     const TileStars found =
-        lacuna::find_stars(sample.rows, sample.evaluations, sample.seats, sample.standings);
+        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.is_border);
     corners = found.stars.corners.size();
   }
   time_per(state, "per_point", kPoints);

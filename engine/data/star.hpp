@@ -16,25 +16,26 @@ struct alignas(64) Seat {
   double weight;     // decides ties among points on one circle, alike for all of them
 };
 
-// Whether a point's star is looked for.
+// What is known of a point in its tile. The stars of rough points must have the triangles that they are part
+// of.
 enum class Standing : std::uint8_t {
-  kRough,   // yes: it or a neighbour is a suspect
-  kBeside,  // likewise, but it has neighbours that wait: which of its balls are triangles is told later
-  kInner,   // no: it agrees to every triangle
-  kBorder,  // not yet: it has neighbours in other tiles
+  kInner,   // not rough: it agrees to every triangle
+  kRough,   // rough, and its star is measured
+  kUnsure,  // likewise measured; it may become rough by what is told in other tiles
+  kBeside,  // its star is found, and measured later: it has neighbours at the border
+  kBorder,  // its star is found later: it has neighbours in other tiles
 };
 
-// Its star is found within its tile.
-inline bool has_star(Standing standing) {
-  return standing == Standing::kRough || standing == Standing::kBeside;
+inline bool is_measured(Standing standing) {
+  return standing == Standing::kRough || standing == Standing::kUnsure;
 }
 inline bool waits(Standing standing) {
   return standing == Standing::kBeside || standing == Standing::kBorder;
 }
 
-// A suspect's angle and halfdisc criteria have a larger mean. Some of the points of a rim may have less, but
-// then they have neighbours with more.
-inline constexpr double kSuspicion = 0.28;
+// A suspect's angle and halfdisc criteria have a larger mean; at a straight rim it is 1. What it is matters
+// little: one suspect is enough for a rim to be found.
+inline constexpr double kSuspicion = 0.4;
 
 // One corner of a star, and the ball that rests on the star's point, this corner and the next one around.
 template <class Name>
@@ -60,7 +61,7 @@ struct BallSize {
   float unevenness;  // of the sampling around: its scatter over its circle
 };
 
-// What is known of a triangle of a star: all its corners that are not inner must have it in their stars.
+// What is known of a triangle of a star: all its rough corners must have it in their stars.
 enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
 
 // A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,
@@ -69,11 +70,6 @@ struct Gap {
   Vertex point, from, to;
   float room;        // of the largest ball that rests there
   float unevenness;  // `BallSize::unevenness` of the point
-};
-
-// A gap of `from` ends at `at`.
-struct GapEnd {
-  Vertex at, from;
 };
 
 }  // namespace lacuna

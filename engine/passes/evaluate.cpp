@@ -5,8 +5,7 @@
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
 #include "engine/stages/reach.hpp"
-#include "engine/stages/rims.hpp"
-#include "engine/stages/stars.hpp"
+#include "engine/stages/tile_stars.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -196,42 +195,33 @@ class TileRecorder {
   }
 
   void record_stars() {
-    const std::vector<Standing> standings = find_standings(neighbourhoods_, evaluations_, is_border_);
-    const std::unique_ptr<const Seat[]> seats = find_seats(standings);
-    const auto [stars, samplings, unevenness] =
-        find_stars(neighbourhoods_, evaluations_, {seats.get(), points_.owned}, standings);
-    const std::vector<std::uint8_t> at_border =
-        with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
-    record_waiting(standings, samplings, at_border);
-
-    // Where the stars of border points will leave gaps is not known yet: at these, or at inner points beside.
-    std::vector<std::uint8_t> is_vertex = at_border;
+    const TileStars found = find_stars(points_, neighbourhoods_, evaluations_, is_border_);
     std::vector<StoredCorner> open;
     std::vector<Gap> gaps;
+    std::vector<std::uint8_t> is_vertex = is_border_;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      const auto star = stars[p];
-      const auto agreements = std::span(stars.agreements).subspan(stars.offsets[p], star.size());
-      bool is_open = false, is_whole = true;
-      for (const Agreement agreement : agreements) {
-        is_open |= agreement == Agreement::kOpen;
-        is_whole &= agreement == Agreement::kAgreed;
-      }
-      if (is_whole) continue;
-      if (is_open) {
-        for (std::size_t i = 0; i < star.size(); ++i) {
-          open.push_back(
-              {points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness[p]});
-          tell_if_rough(star[i].point, standings);
-          if (standings[star[i].point] == Standing::kInner) is_vertex[star[i].point] = 1;
-        }
-        is_vertex[p] = 1;
-      } else {
+      const Standing standing = found.standings[p];
+      if (found.is_rough[p]) scan_.stars.rough.insert(points_.rows[p]);
+      if (standing == Standing::kInner || standing == Standing::kBorder) continue;
+      const auto star = found.stars[p];
+      const auto agreements = found.stars.agreements_of(p);
+      const float unevenness = found.unevenness[p];
+      const auto all_are = [&](auto... these) {
+        return std::all_of(agreements.begin(), agreements.end(),
+                           [&](Agreement a) { return ((a == these) || ...); });
+      };
+      if (standing == Standing::kRough && all_are(Agreement::kAgreed)) continue;
+      is_vertex[p] = 1;
+      if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
         for_each_gap(star, agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({vertex(p), vertex(from), vertex(to), room, unevenness[p]});
-          is_vertex[p] = is_vertex[from] = is_vertex[to] = 1;
+          gaps.push_back({vertex(p), vertex(from), vertex(to), room, unevenness});
         });
+      } else {
+        for (std::size_t i = 0; i < star.size(); ++i)
+          open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness});
       }
     }
+    record_waiting(found);
     scan_.stars.open.append(tile_, open);
     scan_.stars.gaps.append(tile_, gaps);
     record_vertices(is_vertex);
@@ -251,28 +241,10 @@ class TileRecorder {
 
   Seat seat(LocalIndex p) const { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); }
 
-  // Those that the stars to be found here ask for; the others are left as they are.
-  std::unique_ptr<const Seat[]> find_seats(std::span<const Standing> standings) const {
-    const std::vector<std::uint8_t> is_asked_for =
-        with_neighbours([&](LocalIndex p) { return has_star(standings[p]); });
-    std::unique_ptr<Seat[]> seats = std::make_unique_for_overwrite<Seat[]>(points_.owned);
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (is_asked_for[p]) seats[p] = seat(p);
-    }
-    return seats;
-  }
-
-  // For the stars that are settled later. Border points are told of when they are known.
-  void tell_if_rough(LocalIndex p, std::span<const Standing> standings) {
-    if (points_.is_owned(p) && has_star(standings[p])) scan_.stars.rough.insert(points_.rows[p]);
-  }
-
-  // What the stars of waiting points need, here and in other tiles. `is_seated`: border points and their
-  // neighbours.
-  void record_waiting(std::span<const Standing> standings, std::span<const Sampling> samplings,
-                      std::span<const std::uint8_t> is_seated) {
+  // What the stars of waiting points need, here and in other tiles.
+  void record_waiting(const TileStars& found) {
     const std::vector<std::uint8_t> is_seen =
-        with_neighbours([&](LocalIndex p) { return waits(standings[p]); });
+        with_neighbours([&](LocalIndex p) { return waits(found.standings[p]); });
     std::vector<LocalIndex> seen;
     for (LocalIndex p = 0; p < points_.size(); ++p) {
       if (is_seen[p]) seen.push_back(p);
@@ -284,28 +256,28 @@ class TileRecorder {
     std::vector<SeenPoint> in_sight;
     for (const LocalIndex p : seen) {
       place[p] = static_cast<LocalIndex>(in_sight.size());
-      in_sight.push_back({vertex(p), points_.is_owned(p) ? samplings[p] : Sampling{}});
-      tell_if_rough(p, standings);
-      if (points_.is_owned(p) && is_suspect(evaluations_[p])) scan_.stars.suspects.insert(points_.rows[p]);
+      in_sight.push_back({vertex(p), points_.is_owned(p) ? found.samplings[p] : Sampling{}});
     }
 
     std::vector<WaitingPoint> waiting;
     std::vector<LocalIndex> neighbours;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
-      if (!waits(standings[p])) continue;
+      if (!waits(found.standings[p])) continue;
       const Eigen::Vector3d& normal = evaluations_[p].normal;
       const auto around = neighbourhoods_[p];
       waiting.push_back({place[p],
                          static_cast<std::uint32_t>(around.size()),
-                         standings[p],
+                         found.standings[p],
                          {normal.x(), normal.y(), normal.z()}});
       for (const LocalIndex q : around) neighbours.push_back(place[q]);
     }
     scan_.stars.waiting.append(tile_, waiting);
     scan_.stars.waiting_neighbours.append(tile_, neighbours);
     scan_.stars.waiting_sight.append(tile_, in_sight);
-    record_runs(scan_.stars.seats, is_seated.first(points_.owned),
-                [&](LocalIndex p) { return seat(p); });
+    const std::vector<std::uint8_t> is_seated =
+        with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
+    record_runs(scan_.stars.seats, std::span(is_seated).first(points_.owned),
+                [&](LocalIndex p) { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); });
   }
 
   // Points that may end up on a loop.
@@ -436,11 +408,10 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
-      suspects(store.tiling().row_count()),
       rough(store.tiling().row_count()),
       open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
-      inner_ends(job.file("inner-ends"), store.tiling().tiles.size(), job.memory.spills / 16) {}
+      open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 
 EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
     : edges(store, job),

@@ -54,8 +54,8 @@ struct OrientationCrossing {
 
 // ---- stars
 
-// A point with neighbours in other tiles, whose star waits for their seats, or a rough one beside such, whose
-// star waits to be measured.
+// A point with neighbours in other tiles, whose star waits for their seats, or one beside such, whose star
+// waits to be measured.
 struct WaitingPoint {
   LocalIndex place;  // in sight
   std::uint32_t neighbours;
@@ -110,11 +110,10 @@ struct StarLists {
   Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   Column<Seat> seats;                    // by row, of border points and their neighbours
-  RowSet suspects;                       // among these
-  RowSet rough;                          // among these and corners of open stars
-  Spill<StoredCorner> open;              // stars, each in one piece
-  Spill<Gap> gaps;
-  Spill<GapEnd> inner_ends;  // by tile of the inner point, of gaps in other tiles
+  RowSet rough;
+  Spill<StoredCorner> open;  // stars of points that are not settled, each in one piece
+  Spill<Gap> gaps;           // of settled ones
+  Spill<Gap> open_gaps;      // of the others (passes/seams)
 };
 
 struct EvaluatedScan {

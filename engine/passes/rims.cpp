@@ -4,6 +4,7 @@
 #include "engine/stages/rims.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <mutex>
 #include <tuple>
 
@@ -39,8 +40,9 @@ class OpenRims {
         entries.push_back(enter);
         is_done[enter / 2] = true;
         enter = partners[enter ^ 1];
-      } while (enter != kNone && !is_done[enter / 2]);
-      if (enter != entries.front()) continue;  // a crack
+        assert(enter != kNone);  // rims are closed
+      } while (!is_done[enter / 2]);
+      assert(enter == entries.front());
       std::vector<RimPoint> rim;
       for (const Side entry : entries) append(entry, rim);
       visit(rim);
@@ -68,7 +70,7 @@ class OpenRims {
     return {std::min(a.row, b.row), std::max(a.row, b.row), 2 * part + side};
   }
 
-  // Of each side that of the other part at the same edge; none where that one is a crack.
+  // Of each side that of the other part at the same edge.
   std::vector<Side> find_partners() {
     std::sort(ends_.begin(), ends_.end());
     std::vector<Side> partners(2 * parts_.size(), kNone);
@@ -112,15 +114,18 @@ void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops
   const Row first = tiling.tiles[t].first_row, last{value(first) + tiling.tiles[t].points};
   std::vector<Gap> gaps = lists.gaps.read(t);
   lists.gaps.drop(t);
-  const std::vector<Gap> inner = gaps_of_inner_points(gaps, lists.inner_ends.read(t), first, last);
-  lists.inner_ends.drop(t);
-  gaps.insert(gaps.end(), inner.begin(), inner.end());
+  const std::vector<Gap> open_gaps = lists.open_gaps.read(t);
+  lists.open_gaps.drop(t);
+  gaps.insert(gaps.end(), open_gaps.begin(), open_gaps.end());
   std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
     return std::tie(a.point.row, a.from.row) < std::tie(b.point.row, b.from.row);
   });
   follow_rims(gaps, first, last, [&](RimPart& part) {
-    if (part.is_closed) report(part.points, loops);
-    if (!part.is_closed && !part.is_crack) open.add(part);
+    if (part.is_closed) {
+      report(part.points, loops);
+    } else {
+      open.add(part);
+    }
   });
 }
 

@@ -1,12 +1,15 @@
 #include "engine/passes/seams.hpp"
 
 #include "engine/stages/ball_sizes.hpp"
-#include "engine/stages/rims.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <algorithm>
 #include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -31,6 +34,7 @@ class Here {
   bool owns(const Vertex& v) const { return value(v.row) - first_ < points_; }
   LocalIndex local(const Vertex& v) const { return static_cast<LocalIndex>(value(v.row) - first_); }
   Row row(LocalIndex owned) const { return Row{first_ + owned}; }
+  std::uint64_t points() const { return points_; }
 
  private:
   std::uint64_t first_, points_;
@@ -82,16 +86,12 @@ struct Waiting {
   Row row(LocalIndex place) const { return in_sight[place].vertex.row; }
 };
 
-// Border points that are rough, now that all suspects are known.
-std::vector<StarQuery> rough_ones(const Waiting& waiting, const RowSet& suspects) {
-  const auto is_suspect = [&](LocalIndex place) { return suspects.contains(waiting.row(place)); };
-  std::vector<StarQuery> rough;
+std::vector<StarQuery> border_points(const Waiting& waiting) {
+  std::vector<StarQuery> points;
   for (const Waiting::Point& p : waiting.points) {
-    if (p.standing != Standing::kBorder) continue;
-    if (is_suspect(p.place) || std::any_of(p.neighbours.begin(), p.neighbours.end(), is_suspect))
-      rough.push_back({p.place, p.normal, p.neighbours});
+    if (p.standing == Standing::kBorder) points.push_back({p.place, p.normal, p.neighbours});
   }
-  return rough;
+  return points;
 }
 
 // Of the points that ask and of their neighbours; none of the others.
@@ -128,7 +128,7 @@ std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& 
 void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post) {
   const Here here(tiling, t);
   const Waiting waiting(lists, t);
-  const std::vector<StarQuery> queries = rough_ones(waiting, lists.suspects);
+  const std::vector<StarQuery> queries = border_points(waiting);
   const std::vector<Seat> seats = read_seats(queries, waiting, lists.seats);
 
   std::vector<StoredCorner> stars;
@@ -136,7 +136,6 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
   std::vector<TileIndex> tiles;
   const auto tell = [&](const StarQuery& query, const FoundStar& star, const Sampling& sampling) {
     const Vertex& point = waiting.in_sight[query.point].vertex;
-    lists.rough.insert(point.row);
     for (std::size_t c = 0; c < star.size(); ++c) {
       const LocalIndex corner = query.neighbours[star[c].point];
       stars.push_back(
@@ -173,10 +172,14 @@ std::vector<Sampling> all_samplings(std::span<const SeenPoint> in_sight, std::ve
   return samplings;
 }
 
-// Corners by star.
+// Corners by star: they come in a few runs that are.
 void sort_by_star(std::vector<StoredCorner>& corners) {
-  std::stable_sort(corners.begin(), corners.end(),
-                   [](const auto& a, const auto& b) { return a.owned < b.owned; });
+  const auto comes_first = [](const StoredCorner& a, const StoredCorner& b) { return a.owned < b.owned; };
+  for (auto end = corners.begin(); end != corners.end();) {
+    const auto next = std::is_sorted_until(end, corners.end(), comes_first);
+    std::inplace_merge(corners.begin(), end, next, comes_first);
+    end = next;
+  }
 }
 
 // A star that waited to be measured.
@@ -246,87 +249,144 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
   letters.send(claims);
 }
 
-// ---- what all corners agree on
+// ---- rough points, and what all of them agree on
 
-// The stars of a tile that were not settled when it was evaluated.
+// The stars of a tile that were not settled when it was evaluated: all points are here that may become rough.
 class OpenStars {
  public:
-  OpenStars(const Here& here, std::vector<StoredCorner> corners) {
+  OpenStars(const Here& here, const RowSet& rough, std::vector<StoredCorner> corners,
+            std::span<const Claim> claims)
+      : here_(here), rough_(rough), claims_(claims), star_of_(here.points(), kNone) {
     sort_by_star(corners);
+    stars_.corners.reserve(corners.size());
+    stars_.agreements.reserve(corners.size());
     for (const StoredCorner& c : corners) {
       if (points_.empty() || points_.back() != c.owned) {
+        star_of_[c.owned] = static_cast<std::uint32_t>(points_.size());
         points_.push_back(c.owned);
         vertices_.push_back({c.id, here.row(c.owned)});
         unevenness_.push_back(c.unevenness);
-        stars_.offsets.push_back(stars_.offsets.back());
+        stars_.places.push_back({static_cast<std::uint32_t>(stars_.corners.size()), 0});
       }
       stars_.corners.push_back({c.corner, c.room});
       stars_.agreements.push_back(c.agreement);
-      ++stars_.offsets.back();
+      ++stars_.places.back().size;
     }
   }
 
-  std::span<const LocalIndex> points() const { return points_; }
-  const Vertex& vertex(std::size_t i) const { return vertices_[i]; }
-  float unevenness(std::size_t i) const { return unevenness_[i]; }
-  std::span<const StarCorner<Vertex>> star(std::size_t i) const { return stars_[i]; }
-  std::span<Agreement> agreements(std::size_t i) {
-    return std::span(stars_.agreements).subspan(stars_.offsets[i], stars_[i].size());
+  // Corners of refused triangles of rough points are rough: until there are no more. visit(vertex): each
+  // point found.
+  template <class Visit>
+  void find_rough_points(Visit&& visit) {
+    for (bool go_on = true; go_on;) {
+      go_on = false;
+      for (std::size_t s = 0; s < points_.size(); ++s) {
+        if (!rough_.contains(vertices_[s].row)) continue;
+        const auto [begin, size] = stars_.places[s];
+        for (std::uint32_t c = begin; c < begin + size; ++c) {
+          const std::uint32_t next = c + 1 < begin + size ? c + 1 : begin;
+          const Vertex &a = stars_.corners[c].point, &b = stars_.corners[next].point;
+          const bool is_a_rough = rough_.contains(a.row), is_b_rough = rough_.contains(b.row);
+          if ((is_a_rough && is_b_rough) || !is_refused(s, c, next)) continue;
+          if (!is_a_rough) visit(a);
+          if (!is_b_rough) visit(b);
+          go_on = true;
+        }
+      }
+    }
   }
 
-  // An owned corner has its triangle with a and b, one of the three a waiting point. If it has, it is here:
-  // the triangle could not be settled before.
-  bool agrees(LocalIndex corner, const Vertex& a, const Vertex& b) const {
-    const auto at = std::lower_bound(points_.begin(), points_.end(), corner);
-    return at != points_.end() && *at == corner &&
-           has_triangle(stars_[static_cast<std::size_t>(at - points_.begin())], a, b);
+  // visit(gap): each gap of rough points, now that all of these are known.
+  template <class Visit>
+  void for_each_gap(Visit&& visit) {
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+      if (!rough_.contains(vertices_[s].row)) continue;
+      const auto [begin, size] = stars_.places[s];
+      for (std::uint32_t c = begin; c < begin + size; ++c) {
+        if (!is_refused(s, c, c + 1 < begin + size ? c + 1 : begin))
+          stars_.agreements[c] = Agreement::kAgreed;
+      }
+      lacuna::for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s),
+                           [&](const Vertex& from, const Vertex& to, float room) {
+                             visit(Gap{vertices_[s], from, to, room, unevenness_[s]});
+                           });
+    }
   }
 
  private:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  // The triangle that begins at corner a of star s.
+  bool is_refused(std::size_t s, std::uint32_t a, std::uint32_t b) {
+    Agreement& agreement = stars_.agreements[a];
+    if (agreement == Agreement::kOpen && (refuses(a, s, b) || refuses(b, s, a)))
+      agreement = Agreement::kRefused;
+    return agreement == Agreement::kRefused;
+  }
+
+  // The star of a corner is asked for its triangle with the point of star s and the other corner. If it has
+  // it, it is here: the triangle could not be settled before.
+  bool refuses(std::uint32_t corner, std::size_t s, std::uint32_t other) const {
+    const Vertex& point = stars_.corners[corner].point;
+    const Vertex& third = stars_.corners[other].point;
+    if (!rough_.contains(point.row)) return false;
+    if (!here_.owns(point))
+      return !std::binary_search(claims_.begin(), claims_.end(), Claim{points_[s], 0, point.row, third.row});
+    const std::uint32_t star = star_of_[here_.local(point)];
+    return star == kNone || !has_triangle(stars_[star], vertices_[s], third);
+  }
+
+  const Here& here_;
+  const RowSet& rough_;
+  std::span<const Claim> claims_;
   std::vector<LocalIndex> points_;  // ascending
   std::vector<Vertex> vertices_;    // the same
   std::vector<float> unevenness_;
   Stars<Vertex> stars_;
+  std::vector<std::uint32_t> star_of_;  // by owned index
 };
 
-void agree(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<Claim>& claims) {
-  const Here here(tiling, t);
-  OpenStars stars(here, lists.open.read(t));
-  lists.open.drop(t);
-  std::vector<Claim> told = claims.read(t);
-  claims.drop(t);
-  std::sort(told.begin(), told.end());
-
-  std::vector<Gap> gaps;
-  Letters<GapEnd> letters;
-  for (std::size_t s = 0; s < stars.points().size(); ++s) {
-    const LocalIndex p = stars.points()[s];
-    const auto star = stars.star(s);
-    const auto agreements = stars.agreements(s);
-    const Vertex point = stars.vertex(s);
-    const auto agrees = [&](const Vertex& corner, const Vertex& other) {
-      if (!lists.rough.contains(corner.row)) return true;
-      if (here.owns(corner)) return stars.agrees(here.local(corner), point, other);
-      return std::binary_search(told.begin(), told.end(), Claim{p, 0, corner.row, other.row});
-    };
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (agreements[i] != Agreement::kOpen) continue;
-      const Vertex &a = star[i].point, &b = star[i + 1 < star.size() ? i + 1 : 0].point;
-      agreements[i] = agrees(a, b) && agrees(b, a) ? Agreement::kAgreed : Agreement::kRefused;
-    }
-    const auto tell_if_inner = [&](const Vertex& end) {
-      if (!here.owns(end) && !lists.rough.contains(end.row))
-        letters.add(tiling.tile_of_row(end.row), {end, point});
-    };
-    for_each_gap(star, std::span<const Agreement>(agreements),
-                 [&](const Vertex& from, const Vertex& to, float room) {
-                   gaps.push_back({point, from, to, room, stars.unevenness(s)});
-                   tell_if_inner(from);
-                   tell_if_inner(to);
-                 });
+// Tiles that have to look again.
+class Again {
+ public:
+  void add(TileIndex tile) {
+    const std::lock_guard lock(mutex_);
+    tiles_.insert(tile);
   }
-  lists.gaps.append(t, gaps);
-  letters.send(lists.inner_ends);
+  std::vector<TileIndex> take() {
+    std::vector<TileIndex> tiles(tiles_.begin(), tiles_.end());
+    tiles_.clear();
+    return tiles;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<TileIndex> tiles_;
+};
+
+// `told`: rough points of which the tiles know whose stars they are corners of.
+void settle_tile(StarLists& lists, const Tiling& tiling, TileIndex t, const Spill<Claim>& claims,
+                 RowSet& told, Again& again) {
+  const Here here(tiling, t);
+  std::vector<Claim> here_claimed = claims.read(t);
+  std::sort(here_claimed.begin(), here_claimed.end());
+  OpenStars stars(here, lists.rough, lists.open.read(t), here_claimed);
+  stars.find_rough_points([&](const Vertex& v) {
+    const bool is_new = lists.rough.insert(v.row);
+    if (is_new && !here.owns(v)) again.add(tiling.tile_of_row(v.row));
+  });
+  for (auto claim = here_claimed.begin(); claim != here_claimed.end();) {
+    const Row row = here.row(claim->to);
+    const bool is_news = lists.rough.contains(row) && told.insert(row);
+    const LocalIndex to = claim->to;
+    for (; claim != here_claimed.end() && claim->to == to; ++claim) {
+      if (is_news) again.add(tiling.tile_of_row(claim->from));
+    }
+  }
+  std::vector<Gap> gaps;
+  stars.for_each_gap([&](const Gap& gap) { gaps.push_back(gap); });
+  lists.open_gaps.drop(t);
+  lists.open_gaps.append(t, gaps);
 }
 
 }  // namespace
@@ -340,7 +400,16 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   job.crew.for_each(tiles, [&](std::size_t t) {
     measure_stars(lists, tiling, static_cast<TileIndex>(t), samplings, claims);
   });
-  job.crew.for_each(tiles, [&](std::size_t t) { agree(lists, tiling, static_cast<TileIndex>(t), claims); });
+  RowSet told = lists.rough;
+  Again again;
+  std::vector<TileIndex> unsettled(tiles);
+  std::iota(unsettled.begin(), unsettled.end(), TileIndex{0});
+  while (!unsettled.empty()) {
+    job.crew.for_each(unsettled.size(),
+                      [&](std::size_t i) { settle_tile(lists, tiling, unsettled[i], claims, told, again); });
+    unsettled = again.take();
+  }
+  for (std::size_t t = 0; t < tiles; ++t) lists.open.drop(t);
 }
 
 }  // namespace lacuna

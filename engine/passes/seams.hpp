@@ -6,7 +6,8 @@
 namespace lacuna {
 
 // Finds the stars of border points once all points have their seats, measures these and the ones beside them,
-// and agrees on the triangles that they are asked for: then all gaps are known. Consumes all but the gaps.
+// and goes on, from tile to tile, to look for rough points along refused triangles until there are no more:
+// then all gaps are known. Consumes all but the gaps.
 void settle_seams(StarLists& lists, const Tiling& tiling, Job& job);
 
 }  // namespace lacuna

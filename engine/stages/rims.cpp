@@ -1,10 +1,10 @@
 #include "engine/stages/rims.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -56,7 +56,7 @@ class Follower {
       part.after = forwards ? gap.to : gap.from;
       g = next(part.after, gap.point);
       if (g == kNone) {
-        part.is_crack = is_here(part.before) || is_here(part.after);
+        assert(!is_here(part.before) && !is_here(part.after));
         return part;
       }
       forwards = gaps_[g].from == gap.point;
@@ -89,28 +89,6 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 }
 
 }  // namespace
-
-std::vector<Gap> gaps_of_inner_points(std::span<const Gap> gaps, std::vector<GapEnd> elsewhere, Row first,
-                                      Row last) {
-  std::vector<bool> has_gap(value(last) - value(first));
-  for (const Gap& gap : gaps) has_gap[value(gap.point.row) - value(first)] = true;
-  std::vector<GapEnd> ends = std::move(elsewhere);
-  for (const Gap& gap : gaps) {
-    for (const Vertex& end : {gap.from, gap.to}) {
-      const bool is_here = first <= end.row && end.row < last;
-      if (is_here && !has_gap[value(end.row) - value(first)]) ends.push_back({end, gap.point});
-    }
-  }
-  std::sort(ends.begin(), ends.end(), [](const GapEnd& a, const GapEnd& b) {
-    return std::tie(a.at.row, a.from.row) < std::tie(b.at.row, b.from.row);
-  });
-  std::vector<Gap> found;
-  for (std::size_t i = 0, end; i < ends.size(); i = end) {
-    for (end = i; end < ends.size() && ends[end].at == ends[i].at;) ++end;
-    if (end - i == 2) found.push_back({ends[i].at, ends[i].from, ends[i + 1].from, 0, 0});
-  }
-  return found;
-}
 
 void follow_rims(std::span<const Gap> gaps, Row first, Row last, const std::function<void(RimPart&)>& visit) {
   Follower(gaps, first, last).follow(visit);

@@ -21,15 +21,8 @@ struct RimPoint {
 struct RimPart {
   std::vector<RimPoint> points;
   bool is_closed = false;
-  bool is_crack = false;     // leads to a point with rows as below that has no gap
   Vertex before{}, after{};  // unless closed: what the rim comes from and goes to
 };
-
-// Points with rows in [first, last) that have no gap of their own, since no star was looked for, but to which
-// exactly two gaps lead: the gaps between these. One weak point would else open the rim of a whole scan.
-// `gaps`: of points in these rows; `elsewhere`: ends there of gaps of other points.
-std::vector<Gap> gaps_of_inner_points(std::span<const Gap> gaps, std::vector<GapEnd> elsewhere, Row first,
-                                      Row last);
 
 // `gaps`: of points with rows in [first, last), in ascending row of the point. Each rim and part once, in any
 // order and direction. Linear in gaps and rows.

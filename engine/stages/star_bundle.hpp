@@ -40,15 +40,20 @@ LACUNA_DISPATCH(FindBundledStars, find_bundled_stars)
 // Stars that are compared in one step have no more corners; as many are readable beyond the last star.
 inline constexpr std::uint32_t kFewCorners = 8;
 
+// Where a star is among the corners of all.
+struct StarPlace {
+  std::uint32_t begin = 0, size = 0;
+};
+
 // Stars by point, as in `Stars`, and what becomes of their triangles.
 struct StarTable {
-  const std::uint32_t* offsets;
+  const StarPlace* places;
   const StarCorner<LocalIndex>* corners;
   const Standing* standings;
   Agreement* agreements;
 };
 
-// A triangle that one of its corners, the first one that has a star, asks the others for.
+// A triangle that one of its corners, the first rough one, asks the others for.
 struct AskedTriangle {
   std::uint32_t corner;  // of the asking star
   LocalIndex point, a, b;

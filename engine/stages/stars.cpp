@@ -1,7 +1,5 @@
 #include "engine/stages/stars.hpp"
 
-#include "engine/stages/ball_sizes.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -74,89 +72,6 @@ std::vector<View> hull_of(std::vector<View> views) {
   return hull;
 }
 
-// The stars of the points listed, with balls instead of room.
-void find_each(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-               std::span<const Seat> seats, std::span<const LocalIndex> points, TileStars& found) {
-  Stars<LocalIndex>& stars = found.stars;
-  const auto query = [&](std::size_t i) {
-    return StarQuery{points[i], evaluations[points[i]].normal, neighbourhoods[points[i]]};
-  };
-  StarFinder(seats).for_each_bundle(
-      points.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
-        const std::array<Sampling, kEight> samplings = samplings_of(bundle);
-        for (std::size_t i = 0; i < bundle.size(); ++i) {
-          const LocalIndex p = points[first + i];
-          found.samplings[p] = samplings[i];
-          stars.offsets.resize(p + 1, stars.offsets.back());  // those before it have none
-          const std::size_t end = stars.offsets.back() + bundle[i].size();
-          if (stars.corners.size() < end + kFewCorners) stars.corners.resize(2 * end + 8 * points.size());
-          StarCorner<LocalIndex>* to = stars.corners.data() + stars.offsets.back();
-          for (std::size_t c = 0; c < bundle[i].size(); ++c)
-            *to++ = {neighbourhoods[p][bundle[i][c].point], bundle[i][c].room};
-          stars.offsets.push_back(static_cast<std::uint32_t>(end));
-        }
-      });
-  stars.offsets.resize(found.samplings.size() + 1, stars.offsets.back());
-}
-
-// Measures the stars of the points listed.
-void measure_each(const Rows& neighbourhoods, std::span<const LocalIndex> points, TileStars& found) {
-  const auto surroundings = [&](std::size_t i) { return Surroundings{points[i], neighbourhoods[points[i]]}; };
-  BallSizer(found.samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
-    Stars<LocalIndex>& stars = found.stars;
-    found.unevenness[points[i]] = size.unevenness;
-    for (std::uint32_t c = stars.offsets[points[i]]; c < stars.offsets[points[i] + 1]; ++c)
-      stars.corners[c].room = room_beyond(size, found.samplings[points[i]], stars.corners[c].room);
-  });
-}
-
-// The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
-// branch: which corner asks cannot be foretold.
-std::size_t ask(const Stars<LocalIndex>& stars, std::span<const Standing> standings, LocalIndex first,
-                LocalIndex last, AskedTriangle* asked) {
-  const auto asks_before = [&](LocalIndex p, LocalIndex q) {
-    return (q < p) & (standings[q] == Standing::kRough);
-  };
-  std::size_t count = 0;
-  for (LocalIndex p = first; p < last; ++p) {
-    const std::uint32_t begin = stars.offsets[p], end = stars.offsets[p + 1];
-    if (begin == end || standings[p] != Standing::kRough) continue;
-    const StarCorner<LocalIndex>* a = &stars.corners[end - 1];
-    bool is_told = asks_before(p, a->point);
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const StarCorner<LocalIndex>* const b = &stars.corners[i];
-      const bool is_told_by_b = asks_before(p, b->point);
-      asked[count] = {static_cast<std::uint32_t>(a - stars.corners.data()), p, a->point, b->point};
-      count += !(is_told | is_told_by_b) & (a->room <= 0);
-      a = b;
-      is_told = is_told_by_b;
-    }
-  }
-  return count;
-}
-
-void agree(Stars<LocalIndex>& stars, std::span<const Standing> standings) {
-  stars.agreements.resize(stars.offsets.back(), Agreement::kRefused);
-  const StarTable table{stars.offsets.data(), stars.corners.data(), standings.data(),
-                        stars.agreements.data()};
-  constexpr LocalIndex kRun = 64;
-  std::vector<AskedTriangle> asked;
-  const auto points = static_cast<LocalIndex>(stars.size());
-  for (LocalIndex first = 0; first < points; first += kRun) {
-    const LocalIndex last = std::min(first + kRun, points);
-    const std::size_t most = stars.offsets[last] - stars.offsets[first] + 1;
-    if (asked.size() < most) asked.resize(2 * most);
-    const std::size_t count = ask(stars, standings, first, last, asked.data());
-    fastest::agree_on_triangles(table, asked.data(), count);
-  }
-  for (LocalIndex p = 0; p < points; ++p) {
-    if (standings[p] != Standing::kBeside) continue;
-    std::fill(stars.agreements.begin() + stars.offsets[p], stars.agreements.begin() + stars.offsets[p + 1],
-              Agreement::kOpen);
-  }
-  stars.corners.resize(stars.offsets.back());
-}
-
 }  // namespace
 
 Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation) {
@@ -217,45 +132,6 @@ void StarFinder::find() {
       stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size, bundled_.distances[lane]};
     }
   }
-}
-
-std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                                     std::span<const std::uint8_t> is_border) {
-  std::vector<Standing> standings(is_border.size(), Standing::kInner);
-  const auto roughen = [&](LocalIndex p) {
-    if (p < standings.size() && standings[p] == Standing::kInner) standings[p] = Standing::kRough;
-  };
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (is_border[p]) standings[p] = Standing::kBorder;
-  }
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (!is_suspect(evaluations[p])) continue;
-    roughen(p);
-    for (const LocalIndex q : neighbourhoods[p]) roughen(q);
-  }
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (!is_border[p]) continue;
-    for (const LocalIndex q : neighbourhoods[p]) {
-      if (q < standings.size() && standings[q] == Standing::kRough) standings[q] = Standing::kBeside;
-    }
-  }
-  return standings;
-}
-
-TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                     std::span<const Seat> seats, std::span<const Standing> standings) {
-  std::vector<LocalIndex> points, measurable;
-  TileStars found;
-  found.samplings.resize(standings.size());
-  found.unevenness.resize(standings.size());
-  for (LocalIndex p = 0; p < standings.size(); ++p) {
-    if (has_star(standings[p])) points.push_back(p);
-    if (standings[p] == Standing::kRough) measurable.push_back(p);
-  }
-  find_each(neighbourhoods, evaluations, seats, points, found);
-  measure_each(neighbourhoods, measurable, found);
-  agree(found.stars, standings);
-  return found;
 }
 
 }  // namespace lacuna

@@ -9,15 +9,15 @@
 // both its ends has radius 1 / (2h). With h > 0 and 1 / (2h) <= R the edge is a triangle of p's star; R is
 // told by the balls of the stars around (stages/ball_sizes).
 //
-// A triangle counts only if it is in the stars of all its three corners. Triangles at one corner never
-// overlap (they are in one star), so the agreed triangles are a surface with boundary whatever the noise: an
-// edge has at most two of them, and around each point gaps and fans of triangles alternate. Each end of a gap
-// is an edge with one triangle, which ends exactly one gap at its other end, too: the rims are closed curves.
+// A triangle counts only if it is in the stars of all its rough corners (stages/tile_stars). Triangles at one
+// corner never overlap (they are in one star), so the agreed triangles are a surface with boundary whatever
+// the noise: an edge has at most two of them, and around each point gaps and fans of triangles alternate.
+// Each end of a gap is an edge with one triangle, which ends exactly one gap at its other end, too: the rims
+// are closed curves.
 #pragma once
 
 #include "engine/core/batches.hpp"
 #include "engine/data/evaluation.hpp"
-#include "engine/data/neighbourhoods.hpp"
 #include "engine/data/star.hpp"
 #include "engine/stages/star_bundle.hpp"
 
@@ -89,16 +89,22 @@ class StarFinder {
   std::array<FoundStar, kStarBundle> stars_;
 };
 
-// Stars by point: row p of `offsets` are corners of p; `agreements` of the edges that begin at each corner.
+// Stars of points 0, 1, 2, ...; `agreements` of the triangles that begin at each corner.
 template <class Name>
 struct Stars {
-  std::vector<std::uint32_t> offsets{0};
+  std::vector<StarPlace> places;
   std::vector<StarCorner<Name>> corners;
   std::vector<Agreement> agreements;
 
-  std::size_t size() const { return offsets.size() - 1; }
+  std::size_t size() const { return places.size(); }
   std::span<const StarCorner<Name>> operator[](std::size_t p) const {
-    return {corners.data() + offsets[p], corners.data() + offsets[p + 1]};
+    return {corners.data() + places[p].begin, places[p].size};
+  }
+  std::span<const Agreement> agreements_of(std::size_t p) const {
+    return {agreements.data() + places[p].begin, places[p].size};
+  }
+  std::span<Agreement> agreements_of(std::size_t p) {
+    return {agreements.data() + places[p].begin, places[p].size};
   }
 };
 
@@ -108,29 +114,14 @@ inline bool is_suspect(const Evaluation& evaluation) {
   return evaluation.criteria[kAngle] + evaluation.criteria[kHalfdisc] > 2 * kSuspicion;
 }
 
-// Of a tile's owned points. `is_border`: has foreign neighbours.
-std::vector<Standing> find_standings(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                                     std::span<const std::uint8_t> is_border);
-
-// Stars of a tile's owned points: those of rough ones measured, with an agreement on each triangle, open
-// where a corner waits; those beside the border as found, and open. `seats`: at least of these and their
-// neighbours.
-struct TileStars {
-  Stars<LocalIndex> stars;
-  std::vector<Sampling> samplings;  // by point
-  std::vector<float> unevenness;    // by point, of measured stars
-};
-TileStars find_stars(const Rows& neighbourhoods, std::span<const Evaluation> evaluations,
-                     std::span<const Seat> seats, std::span<const Standing> standings);
-
 // The star has the triangle of its point with a and b.
 template <class Name>
 bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    const std::size_t next = i + 1 < star.size() ? i + 1 : 0;
-    if ((star[i].point == a && star[next].point == b) || (star[i].point == b && star[next].point == a)) {
-      if (star[i].room <= 0) return true;
-    }
+  const std::size_t count = star.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (star[i].point != a) continue;
+    const auto &next = star[i + 1 < count ? i + 1 : 0], &before = star[i > 0 ? i - 1 : count - 1];
+    return (next.point == b && star[i].room <= 0) || (before.point == b && before.room <= 0);
   }
   return false;
 }

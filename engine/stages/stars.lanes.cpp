@@ -263,7 +263,7 @@ std::uint32_t find_in_large(const StarCorner<LocalIndex>* star, std::uint32_t si
 // The corner from which the point's triangle with a and b goes on to the next corner.
 LACUNA_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a,
                                           LocalIndex b) {
-  const std::uint32_t begin = stars.offsets[point], size = stars.offsets[point + 1] - begin;
+  const auto [begin, size] = stars.places[point];
   const StarCorner<LocalIndex>* const star = stars.corners + begin;
   std::uint32_t place = kNone;
   if (size <= kFewCorners) {
@@ -302,7 +302,10 @@ void agree_on_triangles(const StarTable& stars, const AskedTriangle* asked, std:
     std::uint32_t in_a = corner, in_b = corner;
     if (of_a == Standing::kRough && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
     if (of_b == Standing::kRough && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-    const bool is_open = waits(of_a) || waits(of_b);
+    const auto is_told_later = [](Standing corner) {
+      return corner != Standing::kRough && corner != Standing::kInner;
+    };
+    const bool is_open = is_told_later(of_a) || is_told_later(of_b);
     const Agreement agreement = is_open ? Agreement::kOpen : Agreement::kAgreed;
     stars.agreements[corner] = stars.agreements[in_a] = stars.agreements[in_b] = agreement;
   }

@@ -617,14 +617,6 @@ struct Gap {
   double room, unevenness;
 };
 
-using Triangle = std::array<PointId, 3>;
-
-Triangle triangle(PointId a, PointId b, PointId c) {
-  Triangle corners{a, b, c};
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 double weight(PointId id, double r) {
   std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
   mixed ^= mixed >> 29;
@@ -683,18 +675,34 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-// Sets the radius of triangles of each star from the balls of its own and its neighbours' stars.
-void measure(const Detection& result, std::map<PointId, Star>& stars) {
-  for (auto& [p, star] : stars) {
-    std::vector<PointId> around = result.points[value(p)].neighbours;
+// Stars of points and of their neighbours, found when they are first asked for.
+class Stars {
+ public:
+  Stars(const Positions& positions, const Detection& result) : positions_(positions), result_(result) {}
+
+  // Measured by the balls of its own and its neighbours' stars.
+  const Star& operator[](PointId p) {
+    const auto [at, is_new] = measured_.try_emplace(p, found(p));
+    if (is_new && !at->second.corners.empty()) measure(p, at->second);
+    return at->second;
+  }
+
+ private:
+  const Star& found(PointId p) {
+    const auto [at, is_new] = found_.try_emplace(p);
+    if (is_new) at->second = star_of(positions_, result_, p);
+    return at->second;
+  }
+
+  void measure(PointId p, Star& star) {
+    std::vector<PointId> around = result_.points[value(p)].neighbours;
     around.push_back(p);
     std::vector<double> circles, scatters;
     for (const PointId q : around) {
-      const auto other = stars.find(q);
-      if (other == stars.end()) continue;
+      const Star& other = found(q);
       std::vector<double> balls;
-      for (const Corner& corner : other->second.corners) {
-        if (corner.ball <= 0.85 * other->second.distance) balls.push_back(corner.ball);
+      for (const Corner& corner : other.corners) {
+        if (corner.ball <= 0.85 * other.distance) balls.push_back(corner.ball);
       }
       if (balls.empty()) continue;
       circles.push_back(median(balls));
@@ -707,38 +715,63 @@ void measure(const Detection& result, std::map<PointId, Star>& stars) {
     star.unit = scatter + 0.1 * circle;
     star.unevenness = scatter / circle;
   }
+
+  const Positions& positions_;
+  const Detection& result_;
+  std::map<PointId, Star> found_, measured_;
+};
+
+bool has_triangle(const Star& star, PointId a, PointId b) {
+  const std::size_t count = star.corners.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const PointId here = star.corners[i].point, next = star.corners[(i + 1) % count].point;
+    if (star.corners[i].ball <= star.radius && ((here == a && next == b) || (here == b && next == a)))
+      return true;
+  }
+  return false;
 }
 
-// Points whose angle and halfdisc criteria have a mean of more than 0.28, or that have a neighbour of which
-// that is so.
-std::set<PointId> rough_points(const Detection& result) {
+// Whether the triangle that begins at corner i of p's star is in the stars of all of its rough corners.
+bool is_agreed(PointId p, std::size_t i, const std::set<PointId>& rough, Stars& stars) {
+  const Star& star = stars[p];
+  const PointId a = star.corners[i].point, b = star.corners[(i + 1) % star.corners.size()].point;
+  return has_triangle(star, a, b) && (!rough.contains(a) || has_triangle(stars[a], p, b)) &&
+         (!rough.contains(b) || has_triangle(stars[b], p, a));
+}
+
+// Points whose angle and halfdisc criteria have a mean of more than 0.4, and, again and again, the corners of
+// triangles in their stars that are not agreed.
+std::set<PointId> rough_points(const Detection& result, Stars& stars) {
   std::set<PointId> rough;
   for (const PointId p : result.distinct) {
-    const Point& point = result.points[value(p)];
-    if (!(point.angle + point.halfdisc > 0.56)) continue;
-    rough.insert(p);
-    rough.insert(point.neighbours.begin(), point.neighbours.end());
+    if (result.points[value(p)].angle + result.points[value(p)].halfdisc > 0.8) rough.insert(p);
+  }
+  for (std::size_t before = 0; before != rough.size();) {
+    before = rough.size();
+    const std::set<PointId> known = rough;
+    for (const PointId p : known) {
+      const std::vector<Corner>& corners = stars[p].corners;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (is_agreed(p, i, known, stars)) continue;
+        rough.insert(corners[i].point);
+        rough.insert(corners[(i + 1) % corners.size()].point);
+      }
+    }
   }
   return rough;
 }
 
-std::vector<Gap> gaps_of(PointId p, const Star& star, const std::set<PointId>& rough,
-                         const std::map<Triangle, std::size_t>& stars_with) {
+std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars) {
+  const Star& star = stars[p];
   const std::size_t count = star.corners.size();
   const auto corner = [&](std::size_t i) -> const Corner& { return star.corners[i % count]; };
-  const auto is_agreed = [&](std::size_t i) {
-    const Triangle corners = triangle(p, corner(i).point, corner(i + 1).point);
-    const auto asked =
-        std::count_if(corners.begin(), corners.end(), [&](PointId q) { return rough.contains(q); });
-    return corner(i).ball <= star.radius && stars_with.at(corners) == static_cast<std::size_t>(asked);
-  };
+  const auto agreed = [&](std::size_t i) { return is_agreed(p, i % count, rough, stars); };
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!is_agreed(i) || is_agreed(i + 1)) continue;
+    if (!agreed(i) || agreed(i + 1)) continue;
     Gap gap{p, corner(i + 1).point, {}, 0, star.unevenness};
     std::size_t end = i + 1;
-    for (; !is_agreed(end); ++end)
-      gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
+    for (; !agreed(end); ++end) gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
     gap.to = corner(end).point;
     gaps.push_back(gap);
   }
@@ -784,40 +817,15 @@ std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
 }
 
 void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
-  const std::set<PointId> rough = rough_points(result);
-  std::map<PointId, Star> stars;
-  for (const PointId p : rough) {
-    const Star star = star_of(positions, result, p);
-    if (!star.corners.empty()) stars[p] = star;
-  }
-  measure(result, stars);
-  std::map<Triangle, std::size_t> stars_with;
-  for (const auto& [p, star] : stars) {
-    for (std::size_t i = 0; i < star.corners.size(); ++i) {
-      const Triangle corners =
-          triangle(p, star.corners[i].point, star.corners[(i + 1) % star.corners.size()].point);
-      stars_with[corners] += star.corners[i].ball <= star.radius;
-    }
-  }
+  Stars stars(positions, result);
+  const std::set<PointId> rough = rough_points(result, stars);
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
-  for (const auto& [p, star] : stars) {
-    for (const Gap& gap : gaps_of(p, star, rough, stars_with)) {
+  for (const PointId p : rough) {
+    for (const Gap& gap : gaps_of(p, rough, stars)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
       gaps.push_back(gap);
     }
-  }
-  // Points that are not rough, to which two gaps lead.
-  std::map<PointId, std::vector<PointId>> ends;
-  for (const Gap& gap : gaps) {
-    for (const PointId end : {gap.from, gap.to}) {
-      if (!rough.contains(end)) ends[end].push_back(gap.point);
-    }
-  }
-  for (const auto& [p, from] : ends) {
-    if (from.size() != 2) continue;
-    at[{p, from[0]}] = at[{p, from[1]}] = gaps.size();
-    gaps.push_back({p, from[0], from[1], 0, 0});
   }
   std::vector<std::pair<std::vector<PointId>, double>> rims;
   std::vector<bool> is_done(gaps.size(), false);
@@ -825,17 +833,14 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
     if (is_done[start]) continue;
     std::vector<RimPoint> rim;
     std::size_t g = start;
-    bool goes_on = true;
     do {
       const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back({gaps[g].point, gaps[g].room, gaps[g].unevenness});
-      const auto found = at.find({next, rim.back().point});
-      goes_on = found != at.end();
-      if (goes_on) g = found->second;
-    } while (goes_on && g != start);
-    if (!goes_on || rim.size() < 8) continue;
+      g = at.at({next, rim.back().point});  // rims are closed
+    } while (g != start);
+    if (rim.size() < 8) continue;
     for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
       if (curve.size() < 8) continue;
       std::vector<PointId> loop;

@@ -1,7 +1,6 @@
 #include "engine/stages/rims.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <catch2/catch.hpp>
 
@@ -60,59 +59,6 @@ std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
 }
 
 }  // namespace
-
-TEST_CASE("a rim that comes to an inner point is a crack, from whichever gap it is followed") {
-  std::vector<Gap> gaps = ring({3, 9, 4, 8, 1, 7});
-  CHECK_FALSE(follow(gaps, 0, 20)[0].is_crack);
-  std::erase_if(gaps, [](const auto& gap) { return value(gap.point.row) == 9; });
-  REQUIRE(follow(gaps, 0, 20).size() == 1);
-  CHECK(follow(gaps, 0, 20)[0].is_crack);
-  CHECK(follow(gaps, 0, 20)[0].points.size() == 5);
-  // Across tiles each part knows by itself only of its own ends.
-  REQUIRE(follow(gaps, 2, 20).size() == 2);
-  CHECK(follow(gaps, 2, 20)[0].is_crack);
-  CHECK(follow(gaps, 2, 20)[1].is_crack);
-}
-
-TEST_CASE("a point without a star to which just two gaps lead is on the rim between them") {
-  const auto without = [](std::vector<Gap> gaps, const std::vector<std::uint64_t>& left_out) {
-    std::erase_if(gaps, [&](const auto& gap) {
-      return std::find(left_out.begin(), left_out.end(), value(gap.point.row)) != left_out.end();
-    });
-    return gaps;
-  };
-  const auto found = [](const std::vector<Gap>& gaps, std::uint64_t first, std::uint64_t last) {
-    std::vector<GapEnd> elsewhere;
-    std::vector<Gap> here;
-    const auto is_here = [&](const Vertex& v) { return first <= value(v.row) && value(v.row) < last; };
-    for (const Gap& gap : gaps) {
-      if (is_here(gap.point)) here.push_back(gap);
-      for (const Vertex& end : {gap.from, gap.to}) {
-        const bool has_gap =
-            std::any_of(gaps.begin(), gaps.end(), [&](const Gap& g) { return g.point == end; });
-        if (!is_here(gap.point) && is_here(end) && !has_gap) elsewhere.push_back({end, gap.point});
-      }
-    }
-    std::vector<std::array<std::uint64_t, 3>> rows;
-    for (const Gap& g : gaps_of_inner_points(here, elsewhere, Row{first}, Row{last})) {
-      CHECK(g.room == 0);
-      rows.push_back({value(g.point.row), value(g.from.row), value(g.to.row)});
-    }
-    return rows;
-  };
-  using Found = std::vector<std::array<std::uint64_t, 3>>;
-  const std::vector<Gap> rim = ring({3, 9, 4, 8, 1, 7});
-  CHECK(found(rim, 0, 20).empty());
-  CHECK(found(without(rim, {9}), 0, 20) == Found{{9, 3, 4}});
-  CHECK(found(without(rim, {9, 1}), 0, 20) == Found{{1, 7, 8}, {9, 3, 4}});
-  CHECK(found(without(rim, {9}), 4, 20) == Found{{9, 3, 4}});  // one or both gaps in another tile
-  CHECK(found(without(rim, {9}), 5, 20) == Found{{9, 3, 4}});
-  CHECK(found(without(rim, {9}), 0, 5).empty());
-  CHECK(found(without(rim, {9, 4}), 0, 20).empty());  // one gap leads to each
-  std::vector<Gap> two = without(rim, {9});
-  for (const Gap& gap : without(ring({9, 10, 11}), {9})) two.push_back(gap);
-  CHECK(found(two, 0, 20).empty());  // four gaps
-}
 
 TEST_CASE("a rim within the rows is closed, through a point that it passes twice too") {
   std::vector<Gap> gaps = ring({3, 9, 4, 8, 1, 7});

@@ -1,14 +1,9 @@
 // Stars found side by side are those found with care, from every instruction set and beside whatever others.
 #include "engine/stages/stars.hpp"
 
-#include "engine/stages/ball_sizes.hpp"
-#include "engine/stages/evaluate.hpp"
-#include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/tile.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -118,13 +113,6 @@ std::vector<FindBundledStars*> available_sets() {
   return sets;
 }
 
-std::vector<Seat> seats_of(const TilePoints& points, std::span<const Evaluation> evaluations) {
-  std::vector<Seat> seats;
-  for (LocalIndex p = 0; p < points.owned; ++p)
-    seats.push_back(seat_of(points.positions[p], points.ids[p], evaluations[p]));
-  return seats;
-}
-
 // A point with neighbours at these places of its tangent plane, all on the unit length.
 Star star_among(const std::vector<Eigen::Vector2d>& places) {
   Neighbourhood drawn{{{0, 0, 0}, {0, 0, 0}, 1, 0}, {0, 0, 1}, {}};
@@ -225,99 +213,6 @@ TEST_CASE("a star is the same wherever its point stands in a bundle, and whateve
     }
   }
   CHECK(different == 0);
-}
-
-TEST_CASE(
-    "points with a suspect in sight are rough, others inner; the border waits, and rough ones beside it") {
-  std::array<std::size_t, 4> counts{};
-  std::size_t wrong = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Cloud cloud = seed == 1 ? plane(40) : random_cloud(3100 + seed);
-    const TilePoints points = whole_tile(cloud);
-    const Rows rows = find_neighbourhoods(points, 15, 0);
-    const Config config;
-    const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
-    Random random(seed);
-    std::vector<std::uint8_t> is_border(points.owned);
-    for (auto& border : is_border) border = random.chance(0.02);
-    const std::vector<Standing> standings = find_standings(rows, evaluations, is_border);
-    REQUIRE(standings.size() == points.owned);
-    for (LocalIndex p = 0; p < points.owned; ++p) {
-      const auto is_weak = [&](LocalIndex q) {
-        return evaluations[q].criteria[0] + evaluations[q].criteria[1] > 2 * kSuspicion;
-      };
-      bool sees_suspect = is_weak(p), sees_border = false;
-      for (const LocalIndex q : rows[p]) {
-        sees_suspect |= is_weak(q);
-        sees_border |= is_border[q] != 0;
-      }
-      const Standing rough = sees_border ? Standing::kBeside : Standing::kRough;
-      wrong += standings[p] != (is_border[p] ? Standing::kBorder : sees_suspect ? rough : Standing::kInner);
-      ++counts[static_cast<std::size_t>(standings[p])];
-    }
-  }
-  CHECK(wrong == 0);
-  for (const std::size_t count : counts) CHECK(count > 100);
-}
-
-TEST_CASE("a triangle is agreed where the stars of all its rough corners have it, open where one waits") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Cloud cloud = seed == 1 ? plane(40) : seed == 2 ? hard_cloud(5) : random_cloud(3000 + seed);
-    const TilePoints points = whole_tile(cloud);
-    const Rows rows = find_neighbourhoods(points, 15, 0);
-    const Config config;
-    const std::vector<Evaluation> evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
-    const std::vector<Seat> seats = seats_of(points, evaluations);
-    Random random(seed);
-    std::vector<Standing> standings(points.owned, Standing::kRough);
-    for (Standing& standing : standings) {
-      if (random.chance(0.05)) standing = Standing::kBorder;
-      if (random.chance(0.05)) standing = Standing::kBeside;
-      if (random.chance(0.1)) standing = Standing::kInner;
-    }
-
-    const auto [stars, samplings, unevenness] = find_stars(rows, evaluations, seats, standings);
-    std::size_t wrong_stars = 0, wrong_agreements = 0;
-    REQUIRE(stars.size() == points.owned);
-    REQUIRE(stars.corners.size() == stars.offsets.back());
-    REQUIRE(stars.agreements.size() == stars.corners.size());
-    REQUIRE(samplings.size() == points.owned);
-    REQUIRE(unevenness.size() == points.owned);
-    BallSizer sizer(samplings);
-    for (LocalIndex p = 0; p < points.owned; ++p) {
-      Star expected;
-      if (has_star(standings[p]))
-        expected = find_star_carefully(seats, {p, evaluations[p].normal, rows[p]}).corners;
-      for (auto& corner : expected) corner.point = rows[p][corner.point];
-      if (standings[p] == Standing::kRough && !expected.empty()) {
-        const Surroundings surroundings{p, rows[p]};
-        sizer.for_each(
-            1, [&](std::size_t) { return surroundings; },
-            [&](std::size_t, const BallSize& size) {
-              wrong_stars += unevenness[p] != size.unevenness;
-              for (auto& corner : expected) corner.room = room_beyond(size, samplings[p], corner.room);
-            });
-      }
-      const auto star = stars[p];
-      wrong_stars += !same_bits({star.begin(), star.end()}, expected);
-      for (std::size_t i = 0; i < star.size(); ++i) {
-        const LocalIndex a = star[i].point, b = star[(i + 1) % star.size()].point;
-        const auto refuses = [&](LocalIndex q, LocalIndex other) {
-          return standings[q] == Standing::kRough && !has_triangle(stars[q], p, other);
-        };
-        const bool refused = star[i].room > 0 || refuses(a, b) || refuses(b, a);
-        const bool open = waits(standings[a]) || waits(standings[b]);
-        const Agreement settled = refused ? Agreement::kRefused
-                                  : open  ? Agreement::kOpen
-                                          : Agreement::kAgreed;
-        const Agreement agreement = waits(standings[p]) ? Agreement::kOpen : settled;
-        wrong_agreements += stars.agreements[stars.offsets[p] + i] != agreement;
-      }
-    }
-    INFO("seed " << seed);
-    CHECK(wrong_stars == 0);
-    CHECK(wrong_agreements == 0);
-  }
 }
 
 }  // namespace lacuna

@@ -1,0 +1,296 @@
+#include "engine/stages/tile_stars.hpp"
+
+#include "engine/stages/ball_sizes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+// Finds the points and measures their stars.
+class TileStarFinder {
+ public:
+  TileStarFinder(const TilePoints& points, const Rows& neighbourhoods,
+                 std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border)
+      : points_(points),
+        neighbourhoods_(neighbourhoods),
+        evaluations_(evaluations),
+        seats_(std::make_unique_for_overwrite<Seat[]>(points.owned)),
+        marks_(points.owned),
+        is_around_(points.size()),
+        watches_of_(points.owned, kNone) {
+    found_.standings.resize(points.owned, Standing::kInner);
+    found_.is_rough.resize(points.owned);
+    found_.stars.places.resize(points.owned);
+    found_.samplings.resize(points.owned);
+    found_.unevenness.resize(points.owned);
+    mark_waiting(is_border);
+  }
+
+  TileStars find() && {
+    for (LocalIndex p = points_.owned; p-- > 0;) {
+      if (is_suspect(evaluations_[p])) enter(p);
+    }
+    search();
+    // From here on: whatever other tiles may tell.
+    is_certain_ = false;
+    for (LocalIndex p = points_.owned; p-- > 0;) {
+      if (waits(found_.standings[p])) entering_.push_back(p);
+    }
+    search();
+    found_.stars.corners.resize(corners_ + kFewCorners);
+    return std::move(found_);
+  }
+
+ private:
+  // What has become of a point.
+  enum Mark : std::uint8_t {
+    kSeated = 1,  // it has a seat
+    kFound = 2,   // its star is found
+    kEntered = 4  // it is rough or unsure
+  };
+
+  // The triangle that begins at a corner of a star, asked for as soon as another point can be.
+  struct Watch {
+    LocalIndex star;
+    std::uint32_t corner;  // of the star
+    std::uint32_t next;    // of the same point
+  };
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  Standing standing(LocalIndex p) const { return found_.standings[p]; }
+
+  void mark_waiting(std::span<const std::uint8_t> is_border) {
+    for (LocalIndex p = 0; p < points_.owned; ++p) {
+      if (!is_border[p]) continue;
+      found_.standings[p] = Standing::kBorder;
+      for (const LocalIndex q : neighbourhoods_[p]) {
+        if (points_.is_owned(q) && !is_border[q]) found_.standings[q] = Standing::kBeside;
+      }
+    }
+  }
+
+  // An owned point is found rough, or unsure. Its star is asked once it is measured.
+  void enter(LocalIndex p) {
+    if (is_certain_) found_.is_rough[p] = 1;
+    if (waits(standing(p)) || (marks_[p] & kEntered) != 0) return;
+    marks_[p] |= kEntered;
+    entering_.push_back(p);
+  }
+
+  // Those that were entered last first: what is near them is in the cache.
+  void search() {
+    constexpr std::size_t kAtOnce = 512;
+    std::vector<LocalIndex> points;
+    while (!entering_.empty()) {
+      const std::size_t left = entering_.size() - std::min(entering_.size(), kAtOnce);
+      points.assign(entering_.rbegin(), entering_.rend() - static_cast<std::ptrdiff_t>(left));
+      entering_.resize(left);
+      find_stars_around(points);
+      measure(points);
+      for (const LocalIndex p : points) follow_own_triangles(p);
+      for (const LocalIndex p : points) follow_watched_triangles(p);
+    }
+  }
+
+  // Of the points and of all their neighbours: these tell of the sampling.
+  void find_stars_around(std::span<const LocalIndex> points) {
+    const std::vector<LocalIndex> wanted = all_around(
+        points, [&](LocalIndex p) { return (marks_[p] & kFound) == 0 && standing(p) != Standing::kBorder; });
+    const auto not_seated = [&](LocalIndex p) { return (marks_[p] & kSeated) == 0; };
+    for (const LocalIndex p : all_around(wanted, not_seated)) {
+      seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+      marks_[p] |= kSeated;
+    }
+    const auto query = [&](std::size_t i) {
+      return StarQuery{wanted[i], evaluations_[wanted[i]].normal, neighbourhoods_[wanted[i]]};
+    };
+    StarFinder({seats_.get(), points_.owned})
+        .for_each_bundle(wanted.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
+          const std::array<Sampling, kEight> samplings = samplings_of(bundle);
+          for (std::size_t i = 0; i < bundle.size(); ++i) {
+            found_.samplings[wanted[first + i]] = samplings[i];
+            add(wanted[first + i], bundle[i]);
+          }
+        });
+  }
+
+  // Those of the points and their neighbours for which that is so, if they are owned.
+  template <class IsSo>
+  std::vector<LocalIndex> all_around(std::span<const LocalIndex> points, IsSo&& is_so) {
+    std::vector<LocalIndex> around;
+    const auto look_at = [&](LocalIndex p) {
+      if (points_.is_owned(p) && std::exchange(is_around_[p], 0) != 0 && is_so(p)) around.push_back(p);
+    };
+    for (const LocalIndex p : points) {
+      is_around_[p] = 1;
+      for (const LocalIndex q : neighbourhoods_[p]) is_around_[q] = 1;
+    }
+    for (const LocalIndex p : points) {
+      look_at(p);
+      for (const LocalIndex q : neighbourhoods_[p]) look_at(q);
+    }
+    return around;
+  }
+
+  void add(LocalIndex p, const FoundStar& star) {
+    Stars<LocalIndex>& stars = found_.stars;
+    const std::size_t end = corners_ + star.size();
+    if (stars.corners.size() < end + kFewCorners) stars.corners.resize(2 * end + 1024);
+    StarCorner<LocalIndex>* to = stars.corners.data() + corners_;
+    for (std::size_t c = 0; c < star.size(); ++c) *to++ = {neighbourhoods_[p][star[c].point], star[c].room};
+    stars.places[p] = {corners_, static_cast<std::uint32_t>(star.size())};
+    corners_ = static_cast<std::uint32_t>(end);
+    marks_[p] |= kFound;
+  }
+
+  void measure(std::span<const LocalIndex> points) {
+    std::vector<LocalIndex> measurable;
+    for (const LocalIndex p : points) {
+      if (waits(standing(p))) continue;
+      found_.standings[p] = is_certain_ ? Standing::kRough : Standing::kUnsure;
+      measurable.push_back(p);
+    }
+    const auto surroundings = [&](std::size_t i) {
+      return Surroundings{measurable[i], neighbourhoods_[measurable[i]]};
+    };
+    BallSizer(found_.samplings)
+        .for_each(measurable.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+          const LocalIndex p = measurable[i];
+          found_.unevenness[p] = size.unevenness;
+          const auto [begin, corners] = found_.stars.places[p];
+          for (std::uint32_t c = begin; c < begin + corners; ++c) {
+            float& room = found_.stars.corners[c].room;
+            room = room_beyond(size, found_.samplings[p], room);
+          }
+        });
+  }
+
+  // The corner's star has its triangle with a and b not, or may yet turn out not to.
+  bool may_refuse(LocalIndex corner, LocalIndex a, LocalIndex b) const {
+    if (is_measured(standing(corner))) return !has_triangle(found_.stars[corner], a, b);
+    return waits(standing(corner)) && !is_certain_;
+  }
+
+  // There is nothing more to enter.
+  bool is_known(LocalIndex p) const {
+    return (marks_[p] & kEntered) != 0 || (waits(standing(p)) && (!is_certain_ || found_.is_rough[p]));
+  }
+
+  // Corners of triangles in the point's star that are refused.
+  void follow_own_triangles(LocalIndex p) {
+    if (standing(p) == Standing::kBorder) {  // of a star not known: any of them
+      for (const LocalIndex q : neighbourhoods_[p]) {
+        if (points_.is_owned(q)) enter(q);
+      }
+      return;
+    }
+    const auto star = found_.stars[p];
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      const LocalIndex a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
+      if (is_known(a) && is_known(b)) continue;
+      if (waits(standing(p)) || star[i].room > 0 || may_refuse(a, p, b) || may_refuse(b, p, a)) {
+        enter(a);
+        enter(b);
+      } else {
+        watch(a, p, static_cast<std::uint32_t>(i));
+        watch(b, p, static_cast<std::uint32_t>(i));
+      }
+    }
+  }
+
+  void watch(LocalIndex p, LocalIndex star, std::uint32_t corner) {
+    if (is_measured(standing(p))) return;  // it has been asked
+    watches_.push_back(
+        {star, corner, std::exchange(watches_of_[p], static_cast<std::uint32_t>(watches_.size()))});
+  }
+
+  // Corners of triangles in other stars that this one's refuses.
+  void follow_watched_triangles(LocalIndex p) {
+    for (std::uint32_t i = watches_of_[p]; i != kNone; i = watches_[i].next) {
+      const auto [q, corner, next] = watches_[i];
+      const auto star = found_.stars[q];
+      const LocalIndex a = star[corner].point, b = star[corner + 1 < star.size() ? corner + 1 : 0].point;
+      const LocalIndex third = a == p ? b : a;
+      if (!is_known(third) && may_refuse(p, q, third)) enter(third);
+    }
+  }
+
+  const TilePoints& points_;
+  const Rows& neighbourhoods_;
+  std::span<const Evaluation> evaluations_;
+  std::unique_ptr<Seat[]> seats_;
+  std::vector<std::uint8_t> marks_;
+  std::vector<std::uint8_t> is_around_;  // in `all_around`
+  std::vector<Watch> watches_;
+  std::vector<std::uint32_t> watches_of_;  // by point, the last one
+  std::uint32_t corners_ = 0;              // of all stars so far
+  std::vector<LocalIndex> entering_;
+  bool is_certain_ = true;  // else what may be counts as well
+  TileStars found_;
+};
+
+// The triangles that the stars of points [first, last) ask for, to `asked`: returns how many. Without a
+// branch: which corner asks cannot be foretold.
+std::size_t ask(const TileStars& found, LocalIndex first, LocalIndex last, AskedTriangle* asked) {
+  const Stars<LocalIndex>& stars = found.stars;
+  const auto asks_before = [&](LocalIndex p, LocalIndex q) {
+    return (q < p) & (found.standings[q] == Standing::kRough);
+  };
+  std::size_t count = 0;
+  for (LocalIndex p = first; p < last; ++p) {
+    const auto [begin, size] = stars.places[p];
+    if (size == 0 || found.standings[p] != Standing::kRough) continue;
+    const StarCorner<LocalIndex>* a = &stars.corners[begin + size - 1];
+    bool is_told = asks_before(p, a->point);
+    for (std::uint32_t i = begin; i < begin + size; ++i) {
+      const StarCorner<LocalIndex>* const b = &stars.corners[i];
+      const bool is_told_by_b = asks_before(p, b->point);
+      asked[count] = {static_cast<std::uint32_t>(a - stars.corners.data()), p, a->point, b->point};
+      count += !(is_told | is_told_by_b) & (a->room <= 0);
+      a = b;
+      is_told = is_told_by_b;
+    }
+  }
+  return count;
+}
+
+void agree(TileStars& found) {
+  Stars<LocalIndex>& stars = found.stars;
+  stars.agreements.resize(stars.corners.size(), Agreement::kRefused);
+  const StarTable table{stars.places.data(), stars.corners.data(), found.standings.data(),
+                        stars.agreements.data()};
+  constexpr LocalIndex kRun = 64;
+  const auto points = static_cast<LocalIndex>(stars.size());
+  std::vector<AskedTriangle> asked;
+  for (LocalIndex first = 0; first < points; first += kRun) {
+    const LocalIndex last = std::min(first + kRun, points);
+    std::size_t most = 1;
+    for (LocalIndex p = first; p < last; ++p) most += stars.places[p].size;
+    if (asked.size() < most) asked.resize(2 * most);
+    const std::size_t count = ask(found, first, last, asked.data());
+    fastest::agree_on_triangles(table, asked.data(), count);
+  }
+  for (LocalIndex p = 0; p < points; ++p) {
+    const Standing standing = found.standings[p];
+    if (standing != Standing::kBeside && standing != Standing::kUnsure) continue;
+    const auto star = stars[p];
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (standing == Standing::kBeside || star[i].room <= 0) stars.agreements_of(p)[i] = Agreement::kOpen;
+    }
+  }
+}
+
+}  // namespace
+
+TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
+                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border) {
+  TileStars found = TileStarFinder(points, neighbourhoods, evaluations, is_border).find();
+  agree(found);
+  return found;
+}
+
+}  // namespace lacuna

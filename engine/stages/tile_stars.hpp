@@ -1,0 +1,39 @@
+// tile_stars: which points of a tile are rough, and their stars.
+//
+// A surface ends where triangles are missing. So the search starts at the suspects, and goes on from triangle
+// to triangle along what is missing: suspects are rough, and where a triangle in the star of a rough point is
+// refused (its ball is too large, or the star of another rough corner has it not), all its corners are rough.
+// That is a least fixed point: it does not matter in which order it is reached, nor by which tile. Along a
+// gap between agreed triangles all points are rough, which is what closes the rims.
+#pragma once
+
+#include "engine/data/evaluation.hpp"
+#include "engine/data/neighbourhoods.hpp"
+#include "engine/data/points.hpp"
+#include "engine/stages/stars.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Of a tile's owned points, as far as the tile alone can tell. All those that may be rough, whatever other
+// tiles tell, are measured or wait: the border and its neighbours do, and from them on the search takes any
+// triangle for refused that may be.
+struct TileStars {
+  std::vector<Standing> standings;
+  std::vector<std::uint8_t> is_rough;  // for certain
+  // Measured ones, with an agreement on each triangle, open where a corner waits or is unsure. Those beside
+  // the border as found, and open. Others were found for their samplings only: nothing is agreed.
+  Stars<LocalIndex> stars;
+  std::vector<Sampling> samplings;
+  std::vector<float> unevenness;  // of measured stars
+};
+
+// `is_border`: of owned points, has foreign neighbours. Cost: proportional to the rough points and their
+// neighbours, and a look at each point.
+TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
+                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border);
+
+}  // namespace lacuna
