@@ -19,8 +19,7 @@ class TileStarFinder {
         neighbourhoods_(neighbourhoods),
         evaluations_(evaluations),
         seats_(std::make_unique_for_overwrite<Seat[]>(points.owned)),
-        marks_(points.owned),
-        is_around_(points.size()),
+        marks_(points.size()),
         watches_of_(points.owned, kNone) {
     found_.standings.resize(points.owned, Standing::kInner);
     found_.is_rough.resize(points.owned);
@@ -28,6 +27,7 @@ class TileStarFinder {
     found_.samplings.resize(points.owned);
     found_.unevenness.resize(points.owned);
     mark_waiting(is_border);
+    std::fill(marks_.begin() + points.owned, marks_.end(), kWanted);
   }
 
   TileStars find() && {
@@ -49,7 +49,7 @@ class TileStarFinder {
   // What has become of a point.
   enum Mark : std::uint8_t {
     kSeated = 1,  // it has a seat
-    kFound = 2,   // its star is found
+    kWanted = 2,  // its star has been asked for, or is not found here
     kEntered = 4  // it is rough or unsure
   };
 
@@ -67,6 +67,7 @@ class TileStarFinder {
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       if (!is_border[p]) continue;
       found_.standings[p] = Standing::kBorder;
+      marks_[p] = kWanted;
       for (const LocalIndex q : neighbourhoods_[p]) {
         if (points_.is_owned(q) && !is_border[q]) found_.standings[q] = Standing::kBeside;
       }
@@ -98,42 +99,36 @@ class TileStarFinder {
 
   // Of the points and of all their neighbours: these tell of the sampling.
   void find_stars_around(std::span<const LocalIndex> points) {
-    const std::vector<LocalIndex> wanted = all_around(
-        points, [&](LocalIndex p) { return (marks_[p] & kFound) == 0 && standing(p) != Standing::kBorder; });
-    const auto not_seated = [&](LocalIndex p) { return (marks_[p] & kSeated) == 0; };
-    for (const LocalIndex p : all_around(wanted, not_seated)) {
-      seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
-      marks_[p] |= kSeated;
+    wanted_.clear();
+    for (const LocalIndex p : points) {
+      want(p);
+      for (const LocalIndex q : neighbourhoods_[p]) want(q);
     }
     const auto query = [&](std::size_t i) {
-      return StarQuery{wanted[i], evaluations_[wanted[i]].normal, neighbourhoods_[wanted[i]]};
+      return StarQuery{wanted_[i], evaluations_[wanted_[i]].normal, neighbourhoods_[wanted_[i]]};
     };
     StarFinder({seats_.get(), points_.owned})
-        .for_each_bundle(wanted.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
+        .for_each_bundle(wanted_.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
           const std::array<Sampling, kEight> samplings = samplings_of(bundle);
           for (std::size_t i = 0; i < bundle.size(); ++i) {
-            found_.samplings[wanted[first + i]] = samplings[i];
-            add(wanted[first + i], bundle[i]);
+            found_.samplings[wanted_[first + i]] = samplings[i];
+            add(wanted_[first + i], bundle[i]);
           }
         });
   }
 
-  // Those of the points and their neighbours for which that is so, if they are owned.
-  template <class IsSo>
-  std::vector<LocalIndex> all_around(std::span<const LocalIndex> points, IsSo&& is_so) {
-    std::vector<LocalIndex> around;
-    const auto look_at = [&](LocalIndex p) {
-      if (points_.is_owned(p) && std::exchange(is_around_[p], 0) != 0 && is_so(p)) around.push_back(p);
-    };
-    for (const LocalIndex p : points) {
-      is_around_[p] = 1;
-      for (const LocalIndex q : neighbourhoods_[p]) is_around_[q] = 1;
-    }
-    for (const LocalIndex p : points) {
-      look_at(p);
-      for (const LocalIndex q : neighbourhoods_[p]) look_at(q);
-    }
-    return around;
+  void want(LocalIndex p) {
+    if ((marks_[p] & kWanted) != 0) return;
+    marks_[p] |= kWanted;
+    wanted_.push_back(p);
+    seat(p);
+    for (const LocalIndex q : neighbourhoods_[p]) seat(q);
+  }
+
+  void seat(LocalIndex p) {
+    if ((marks_[p] & kSeated) != 0) return;
+    marks_[p] |= kSeated;
+    seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
   }
 
   void add(LocalIndex p, const FoundStar& star) {
@@ -144,7 +139,6 @@ class TileStarFinder {
     for (std::size_t c = 0; c < star.size(); ++c) *to++ = {neighbourhoods_[p][star[c].point], star[c].room};
     stars.places[p] = {corners_, static_cast<std::uint32_t>(star.size())};
     corners_ = static_cast<std::uint32_t>(end);
-    marks_[p] |= kFound;
   }
 
   void measure(std::span<const LocalIndex> points) {
@@ -224,11 +218,10 @@ class TileStarFinder {
   std::span<const Evaluation> evaluations_;
   std::unique_ptr<Seat[]> seats_;
   std::vector<std::uint8_t> marks_;
-  std::vector<std::uint8_t> is_around_;  // in `all_around`
   std::vector<Watch> watches_;
   std::vector<std::uint32_t> watches_of_;  // by point, the last one
   std::uint32_t corners_ = 0;              // of all stars so far
-  std::vector<LocalIndex> entering_;
+  std::vector<LocalIndex> entering_, wanted_;
   bool is_certain_ = true;  // else what may be counts as well
   TileStars found_;
 };
