@@ -1,6 +1,7 @@
 // Files of the workspace: positioned reads and writes, every one checked.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +73,45 @@ class Column {
 
  private:
   StripedFile bytes_;
+};
+
+// A column that grows at its end, written in long runs. Appends may come from several threads.
+template <class Record>
+class GrowingColumn {
+ public:
+  explicit GrowingColumn(std::filesystem::path path) : column_(std::move(path)) {}
+
+  // Returns the row of the first.
+  std::uint64_t append(std::span<const Record> records) {
+    const std::lock_guard lock(*mutex_);
+    constexpr std::size_t kRun = 1 << 15;
+    const std::uint64_t row = size();
+    last_.insert(last_.end(), records.begin(), records.end());
+    if (last_.size() >= kRun) {
+      column_.write(written_, last_);
+      written_ += last_.size();
+      last_.clear();
+    }
+    return row;
+  }
+  std::uint64_t size() const { return written_ + last_.size(); }
+
+  // Not while others append.
+  std::vector<Record> read(std::uint64_t row, std::size_t count) const {
+    std::vector<Record> records(count);
+    const std::size_t before = row < written_ ? std::min<std::uint64_t>(count, written_ - row) : 0;
+    column_.read(row, std::span(records).first(before));
+    const auto from = last_.begin() + static_cast<std::ptrdiff_t>(row + before - written_);
+    if (before < count)
+      std::copy_n(from, count - before, records.begin() + static_cast<std::ptrdiff_t>(before));
+    return records;
+  }
+
+ private:
+  Column<Record> column_;
+  std::uint64_t written_ = 0;
+  std::vector<Record> last_;  // after those
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
 
 // Records of rows in ascending order, read in runs: for a few here and there.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -25,28 +28,23 @@ Loop to_loop(std::span<const StoredLoopPoint> stored) {
   return loop;
 }
 
-// Tiles' vertices are read once each, in order.
-std::vector<StoredLoopPoint> gather(std::vector<Wanted> wanted, const EvaluatedScan& scan,
-                                    const Tiling& tiling) {
+// Joins what is wanted of a tile with its vertices.
+void gather(std::vector<Wanted> wanted, const EvaluatedScan& scan, const Tiling& tiling, TileIndex t,
+            std::span<StoredLoopPoint> points) {
+  if (wanted.empty()) return;
   std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.row < b.row; });
-  std::vector<StoredLoopPoint> points(wanted.size());
-  for (auto next = wanted.begin(); next != wanted.end();) {
-    const TileIndex t = tiling.tile_of_row(next->row);
-    const Tile& tile = tiling.tiles[t];
-    const std::vector<StoredVertex> vertices = scan.vertices.read(t);
-    auto vertex = vertices.begin();
-    for (; next != wanted.end() && value(next->row) < value(tile.first_row) + tile.points; ++next) {
-      const auto owned = static_cast<LocalIndex>(value(next->row) - value(tile.first_row));
-      vertex = std::lower_bound(vertex, vertices.end(), owned,
-                                [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
-      assert(vertex != vertices.end() && vertex->owned == owned);
-      points[next->slot] = {vertex->point,
-                            next->row,
-                            {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
-                            vertex->probability};
-    }
+  const std::vector<StoredVertex> vertices = scan.vertices.read(t);
+  auto vertex = vertices.begin();
+  for (const Wanted& w : wanted) {
+    const auto owned = static_cast<LocalIndex>(value(w.row) - value(tiling.tiles[t].first_row));
+    vertex = std::lower_bound(vertex, vertices.end(), owned,
+                              [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
+    assert(vertex != vertices.end() && vertex->owned == owned);
+    points[w.slot] = {vertex->point,
+                      w.row,
+                      {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
+                      vertex->probability};
   }
-  return points;
 }
 
 // Cubes of 64 mean edges, as a power of two.
@@ -68,18 +66,23 @@ MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, co
   const double edge = lattice_edge(mean_edge_length);
   const std::uint64_t most = job.memory.global / (2 * sizeof(StoredLoopPoint) + 2 * sizeof(Wanted));
   for (std::size_t begin = 0, end; begin < loops.size(); begin = end) {
-    std::vector<Wanted> wanted;
-    for (end = begin; end < loops.size() && (end == begin || wanted.size() + loops.points(end) <= most);
-         ++end) {
-      for (const Vertex& v : loops.read(end)) wanted.push_back({v.row, wanted.size()});
+    const Tiling& tiling = store.tiling();
+    std::vector<std::vector<Wanted>> wanted(tiling.tiles.size());
+    std::size_t count = 0;
+    for (end = begin; end < loops.size() && (end == begin || count + loops.points(end) <= most); ++end) {
+      for (const Vertex& v : loops.read(end)) wanted[tiling.tile_of_row(v.row)].push_back({v.row, count++});
       measured.offsets.push_back(measured.offsets.back() + loops.points(end));
     }
     const std::uint64_t first = measured.offsets[begin];
-    const std::vector<StoredLoopPoint> points = gather(std::move(wanted), scan, store.tiling());
+    const auto memory = std::make_unique_for_overwrite<StoredLoopPoint[]>(count);
+    const std::span<StoredLoopPoint> points(memory.get(), count);
+    job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
+      gather(std::move(wanted[t]), scan, tiling, static_cast<TileIndex>(t), points);
+    });
     measured.points.write(first, points);
     job.crew.for_each(end - begin, [&](std::size_t i) {
       const std::uint64_t from = measured.offsets[begin + i] - first;
-      const Loop loop = to_loop(std::span(points).subspan(from, loops.points(begin + i)));
+      const Loop loop = to_loop(points.subspan(from, loops.points(begin + i)));
       measured.measures[begin + i] = measure_loop(loop, edge);
       measured.measures[begin + i].confidence = loops.confidence(begin + i);
     });

@@ -122,6 +122,12 @@ class WorkspaceDetection final : public Detection {
 // Every point on a loop that is sure enough, to its tile.
 void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, double min_confidence,
                 const Tiling& tiling, Spill<Mark>& marks) {
+  constexpr std::size_t kLetter = 1024;
+  std::vector<std::vector<Mark>> letters(tiling.tiles.size());
+  const auto send = [&](TileIndex t) {
+    marks.append(t, letters[t]);
+    letters[t].clear();
+  };
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
     if (loops.measures[i].confidence < min_confidence) continue;
@@ -131,9 +137,11 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
          loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = static_cast<LocalIndex>(value(p.row) - value(tiling.tiles[t].first_row));
-      marks.append(t, {owned, name, p.probability, 0, p.point});
+      letters[t].push_back({owned, name, p.probability, 0, p.point});
+      if (letters[t].size() == kLetter) send(t);
     }
   }
+  for (TileIndex t = 0; t < letters.size(); ++t) send(t);
 }
 
 // A tile's boundary points, each once: coherent or on a loop.

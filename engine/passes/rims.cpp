@@ -1,5 +1,6 @@
 #include "engine/passes/rims.hpp"
 
+#include "engine/core/merge_runs.hpp"
 #include "engine/passes/seams.hpp"
 #include "engine/stages/rims.hpp"
 
@@ -17,24 +18,24 @@ class OpenRims {
   explicit OpenRims(std::filesystem::path file) : points_(std::move(file)) {}
 
   void add(const RimPart& part) {
+    const std::uint64_t offset = points_.append(part.points);
     const std::lock_guard lock(mutex_);
-    points_.write(end_, part.points);
-    parts_.push_back({end_, part.points.size()});
+    parts_.push_back({offset, part.points.size()});
     const auto index = static_cast<std::uint32_t>(parts_.size() - 1);
     ends_.push_back(end_of(part.before, part.points.front().vertex, index, 0));
     ends_.push_back(end_of(part.after, part.points.back().vertex, index, 1));
-    end_ += part.points.size();
   }
 
-  // visit(points): each closed rim.
-  template <class Visit>
-  void for_each_rim(Visit&& visit) {
+  using Side = std::uint32_t;  // 2 * part, + 1: its end
+
+  // Of each rim the sides at which its parts are entered, in their order.
+  std::vector<std::vector<Side>> join() {
     const std::vector<Side> partners = find_partners();
     std::vector<bool> is_done(parts_.size());
-    std::vector<Side> entries;  // of the parts of a rim, in their order
+    std::vector<std::vector<Side>> rims;
     for (std::uint32_t start = 0; start < parts_.size(); ++start) {
       if (is_done[start]) continue;
-      entries.clear();
+      std::vector<Side>& entries = rims.emplace_back();
       Side enter = 2 * start;
       do {
         entries.push_back(enter);
@@ -43,15 +44,22 @@ class OpenRims {
         assert(enter != kNone);  // rims are closed
       } while (!is_done[enter / 2]);
       assert(enter == entries.front());
-      std::vector<RimPoint> rim;
-      for (const Side entry : entries) append(entry, rim);
-      visit(rim);
     }
+    return rims;
+  }
+
+  std::vector<RimPoint> read(std::span<const Side> entries) const {
+    std::vector<RimPoint> rim;
+    for (const Side entry : entries) {
+      const Part& part = parts_[entry / 2];
+      std::vector<RimPoint> points = points_.read(part.offset, part.count);
+      if (entry % 2 == 1) std::reverse(points.begin(), points.end());
+      rim.insert(rim.end(), points.begin(), points.end());
+    }
+    return rim;
   }
 
  private:
-  using Side = std::uint32_t;  // 2 * part, + 1: its end
-
   struct Part {
     std::uint64_t offset, count;
   };
@@ -83,21 +91,13 @@ class OpenRims {
     return partners;
   }
 
-  void append(Side entry, std::vector<RimPoint>& rim) const {
-    const Part& part = parts_[entry / 2];
-    std::vector<RimPoint> points = points_.read(part.offset, part.count);
-    if (entry % 2 == 1) std::reverse(points.begin(), points.end());
-    rim.insert(rim.end(), points.begin(), points.end());
-  }
-
-  Column<RimPoint> points_;
-  std::uint64_t end_ = 0;
+  GrowingColumn<RimPoint> points_;
   std::vector<Part> parts_;
   std::vector<End> ends_;
   std::mutex mutex_;
 };
 
-void report(std::vector<RimPoint>& rim, RawLoops& loops) {
+void report(std::vector<RimPoint> rim, RawLoops& loops) {
   if (rim.size() < kLeastRim) return;
   normalise(rim);
   for (const std::vector<RimPoint>& curve : split_at_pinches(std::move(rim))) {
@@ -117,12 +117,10 @@ void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops
   const std::vector<Gap> open_gaps = lists.open_gaps.read(t);
   lists.open_gaps.drop(t);
   gaps.insert(gaps.end(), open_gaps.begin(), open_gaps.end());
-  std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.point.row, a.from.row) < std::tie(b.point.row, b.from.row);
-  });
+  merge_runs(gaps, [](const Gap& a, const Gap& b) { return a.point.row < b.point.row; });
   follow_rims(gaps, first, last, [&](RimPart& part) {
     if (part.is_closed) {
-      report(part.points, loops);
+      report(std::move(part.points), loops);
     } else {
       open.add(part);
     }
@@ -137,7 +135,8 @@ RawLoops trace_rims(StarLists& lists, const Tiling& tiling, Job& job) {
   RawLoops loops(job.file("raw-loops"));
   OpenRims open(job.file("open-rims"));
   job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) { follow_tile(lists, tiling, t, loops, open); });
-  open.for_each_rim([&](std::vector<RimPoint>& rim) { report(rim, loops); });
+  const auto rims = open.join();
+  job.crew.for_each(rims.size(), [&](std::size_t i) { report(open.read(rims[i]), loops); });
   loops.sort();
   return loops;
 }

@@ -1,5 +1,6 @@
 #include "engine/passes/seams.hpp"
 
+#include "engine/core/merge_runs.hpp"
 #include "engine/stages/ball_sizes.hpp"
 #include "engine/stages/stars.hpp"
 
@@ -172,14 +173,8 @@ std::vector<Sampling> all_samplings(std::span<const SeenPoint> in_sight, std::ve
   return samplings;
 }
 
-// Corners by star: they come in a few runs that are.
 void sort_by_star(std::vector<StoredCorner>& corners) {
-  const auto comes_first = [](const StoredCorner& a, const StoredCorner& b) { return a.owned < b.owned; };
-  for (auto end = corners.begin(); end != corners.end();) {
-    const auto next = std::is_sorted_until(end, corners.end(), comes_first);
-    std::inplace_merge(corners.begin(), end, next, comes_first);
-    end = next;
-  }
+  merge_runs(corners, [](const StoredCorner& a, const StoredCorner& b) { return a.owned < b.owned; });
 }
 
 // A star that waited to be measured.

@@ -405,10 +405,9 @@ class Tracer {
 }  // namespace
 
 void RawLoops::add(std::span<const Vertex> loop, double confidence) {
+  const std::uint64_t offset = vertices_.append(loop);
   const std::lock_guard lock(*mutex_);
-  vertices_.write(end_, loop);
-  index_.push_back({end_, loop.size(), loop.front().id, confidence});
-  end_ += loop.size();
+  index_.push_back({offset, loop.size(), loop.front().id, confidence});
 }
 
 std::vector<Vertex> RawLoops::read(std::size_t loop) const {

@@ -21,7 +21,7 @@ class RawLoops {
   // May be called from any thread.
   void add(std::span<const Vertex> loop, double confidence);
   std::size_t size() const { return index_.size(); }
-  std::uint64_t points() const { return end_; }
+  std::uint64_t points() const { return vertices_.size(); }
   std::uint64_t points(std::size_t loop) const { return index_[loop].points; }
   double confidence(std::size_t loop) const { return index_[loop].confidence; }
   std::vector<Vertex> read(std::size_t loop) const;
@@ -34,8 +34,7 @@ class RawLoops {
     PointId first;
     double confidence;
   };
-  Column<Vertex> vertices_;
-  std::uint64_t end_ = 0;
+  GrowingColumn<Vertex> vertices_;
   std::vector<Entry> index_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };

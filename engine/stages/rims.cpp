@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
 #include <numeric>
 #include <optional>
 
@@ -31,8 +30,7 @@ class Follower {
     for (const bool ends_only : {true, false}) {
       for (std::size_t g = 0; g < gaps_.size(); ++g) {
         if (is_done_[g]) continue;
-        const bool enters = next(gaps_[g].from, gaps_[g].point) == kNone;
-        const bool leaves = next(gaps_[g].to, gaps_[g].point) == kNone;
+        const bool enters = !is_here(gaps_[g].from), leaves = !is_here(gaps_[g].to);
         if (ends_only && !enters && !leaves) continue;
         RimPart part = walk(g, /*forwards=*/enters || !leaves);
         visit(part);
@@ -126,24 +124,38 @@ void normalise(std::vector<RimPoint>& rim) {
 }
 
 std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
-  std::vector<Row> rows;
+  std::vector<Row> rows;  // then: those that are passed again
   for (const RimPoint& p : rim) rows.push_back(p.vertex.row);
   std::sort(rows.begin(), rows.end());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    if (rows[i] == rows[i + 1] && (count == 0 || rows[count - 1] != rows[i])) rows[count++] = rows[i];
+  }
+  rows.resize(count);
   std::vector<std::vector<RimPoint>> curves;
-  if (std::adjacent_find(rows.begin(), rows.end()) == rows.end()) {
+  if (rows.empty()) {
     curves.push_back(std::move(rim));
     return curves;
   }
+  constexpr std::size_t kNone = SIZE_MAX;
+  std::vector<std::size_t> places(rows.size(), kNone);  // on the way
+  const auto place_of = [&](const RimPoint& p) -> std::size_t* {
+    const auto at = std::lower_bound(rows.begin(), rows.end(), p.vertex.row);
+    return at != rows.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - rows.begin())]
+                                                   : nullptr;
+  };
   std::vector<RimPoint> way;
-  std::map<Row, std::size_t> places;  // on the way
   for (const RimPoint& p : rim) {
-    if (const auto been = places.find(p.vertex.row); been != places.end()) {
-      const auto back = way.begin() + static_cast<std::ptrdiff_t>(been->second);
+    std::size_t* const place = place_of(p);
+    if (place != nullptr && *place != kNone) {
+      const auto back = way.begin() + static_cast<std::ptrdiff_t>(*place);
       curves.emplace_back(back, way.end());
-      for (const RimPoint& left : curves.back()) places.erase(left.vertex.row);
+      for (const RimPoint& left : curves.back()) {
+        if (std::size_t* const of_left = place_of(left); of_left != nullptr) *of_left = kNone;
+      }
       way.erase(back, way.end());
     }
-    places[p.vertex.row] = way.size();
+    if (place != nullptr) *place = way.size();
     way.push_back(p);
   }
   curves.push_back(std::move(way));
