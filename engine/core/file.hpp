@@ -101,9 +101,10 @@ class GrowingColumn {
     std::vector<Record> records(count);
     const std::size_t before = row < written_ ? std::min<std::uint64_t>(count, written_ - row) : 0;
     column_.read(row, std::span(records).first(before));
-    const auto from = last_.begin() + static_cast<std::ptrdiff_t>(row + before - written_);
-    if (before < count)
-      std::copy_n(from, count - before, records.begin() + static_cast<std::ptrdiff_t>(before));
+    if (before < count) {
+      const auto left = std::span(last_).subspan(row + before - written_, count - before);
+      std::copy(left.begin(), left.end(), records.begin() + static_cast<std::ptrdiff_t>(before));
+    }
     return records;
   }
 

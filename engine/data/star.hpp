@@ -67,7 +67,8 @@ enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
 // A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,
 // there is no agreed triangle.
 struct Gap {
-  Vertex point, from, to;
+  Vertex point;
+  Row from, to;
   float room;        // of the largest ball that rests there
   float unevenness;  // `BallSize::unevenness` of the point
 };

@@ -196,7 +196,8 @@ class TileRecorder {
 
   void record_stars() {
     const TileStars found = find_stars(points_, neighbourhoods_, evaluations_, is_border_);
-    std::vector<StoredCorner> open;
+    std::vector<StoredStar> open;
+    std::vector<StoredCorner> corners;
     std::vector<Gap> gaps;
     std::vector<std::uint8_t> is_vertex = is_border_;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
@@ -214,15 +215,18 @@ class TileRecorder {
       is_vertex[p] = 1;
       if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
         for_each_gap(star, agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({vertex(p), vertex(from), vertex(to), room, unevenness});
+          gaps.push_back({vertex(p), points_.rows[from], points_.rows[to], room, unevenness});
         });
       } else {
+        const auto begin = static_cast<std::uint32_t>(corners.size());
+        open.push_back({points_.ids[p], p, {begin, static_cast<std::uint32_t>(star.size())}, unevenness});
         for (std::size_t i = 0; i < star.size(); ++i)
-          open.push_back({points_.ids[p], p, agreements[i], vertex(star[i].point), star[i].room, unevenness});
+          corners.push_back({points_.rows[star[i].point], star[i].room, agreements[i]});
       }
     }
     record_waiting(found);
     scan_.stars.open.append(tile_, open);
+    scan_.stars.open_corners.append(tile_, corners);
     scan_.stars.gaps.append(tile_, gaps);
     record_vertices(is_vertex);
   }
@@ -409,7 +413,8 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       rough(store.tiling().row_count()),
-      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 8),
+      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 32),
+      open_corners(job.file("open-corners"), store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 

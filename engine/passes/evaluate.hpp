@@ -9,6 +9,7 @@
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"
 #include "engine/stages/eligible_edges.hpp"
+#include "engine/stages/star_bundle.hpp"
 
 #include <cstdint>
 
@@ -69,15 +70,19 @@ struct SeenPoint {
   Sampling sampling;  // none of border points: theirs come later
 };
 
-// A corner of a star that is not settled within its tile, and the agreement on the triangle that begins
-// there.
-struct StoredCorner {
-  PointId id;  // of the star's point
+// A star that is not settled within its tile.
+struct StoredStar {
+  PointId id;
   LocalIndex owned;
-  Agreement agreement;
-  Vertex corner;
+  StarPlace place;   // among the tile's stored corners
+  float unevenness;  // once it is measured
+};
+
+// A corner of one, and the agreement on the triangle that begins there.
+struct StoredCorner {
+  Row point;
   float room;
-  float unevenness;  // of the star, once it is measured
+  Agreement agreement;
 };
 
 __extension__ using Int128 = __int128;
@@ -111,9 +116,10 @@ struct StarLists {
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   Column<Seat> seats;                    // by row, of border points and their neighbours
   RowSet rough;
-  Spill<StoredCorner> open;  // stars of points that are not settled, each in one piece
-  Spill<Gap> gaps;           // of settled ones
-  Spill<Gap> open_gaps;      // of the others (passes/seams)
+  Spill<StoredStar> open;
+  Spill<StoredCorner> open_corners;
+  Spill<Gap> gaps;       // of settled ones
+  Spill<Gap> open_gaps;  // of the others (passes/seams)
 };
 
 struct EvaluatedScan {

@@ -22,8 +22,8 @@ class OpenRims {
     const std::lock_guard lock(mutex_);
     parts_.push_back({offset, part.points.size()});
     const auto index = static_cast<std::uint32_t>(parts_.size() - 1);
-    ends_.push_back(end_of(part.before, part.points.front().vertex, index, 0));
-    ends_.push_back(end_of(part.after, part.points.back().vertex, index, 1));
+    ends_.push_back(end_of(part.before, part.points.front().vertex.row, index, 0));
+    ends_.push_back(end_of(part.after, part.points.back().vertex.row, index, 1));
   }
 
   using Side = std::uint32_t;  // 2 * part, + 1: its end
@@ -74,8 +74,8 @@ class OpenRims {
   };
   static constexpr Side kNone = UINT32_MAX;
 
-  static End end_of(const Vertex& a, const Vertex& b, std::uint32_t part, Side side) {
-    return {std::min(a.row, b.row), std::max(a.row, b.row), 2 * part + side};
+  static End end_of(Row a, Row b, std::uint32_t part, Side side) {
+    return {std::min(a, b), std::max(a, b), 2 * part + side};
   }
 
   // Of each side that of the other part at the same edge.

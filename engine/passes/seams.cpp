@@ -32,8 +32,8 @@ class Here {
   Here(const Tiling& tiling, TileIndex tile)
       : first_(value(tiling.tiles[tile].first_row)), points_(tiling.tiles[tile].points) {}
 
-  bool owns(const Vertex& v) const { return value(v.row) - first_ < points_; }
-  LocalIndex local(const Vertex& v) const { return static_cast<LocalIndex>(value(v.row) - first_); }
+  bool owns(Row row) const { return value(row) - first_ < points_; }
+  LocalIndex local(Row row) const { return static_cast<LocalIndex>(value(row) - first_); }
   Row row(LocalIndex owned) const { return Row{first_ + owned}; }
   std::uint64_t points() const { return points_; }
 
@@ -132,19 +132,21 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
   const std::vector<StarQuery> queries = border_points(waiting);
   const std::vector<Seat> seats = read_seats(queries, waiting, lists.seats);
 
-  std::vector<StoredCorner> stars;
+  const auto before = static_cast<std::uint32_t>(lists.open_corners.count(t));
+  std::vector<StoredStar> stars;
+  std::vector<StoredCorner> corners;
   Letters<ToldSampling> letters;
   std::vector<TileIndex> tiles;
   const auto tell = [&](const StarQuery& query, const FoundStar& star, const Sampling& sampling) {
     const Vertex& point = waiting.in_sight[query.point].vertex;
-    for (std::size_t c = 0; c < star.size(); ++c) {
-      const LocalIndex corner = query.neighbours[star[c].point];
-      stars.push_back(
-          {point.id, here.local(point), Agreement::kOpen, waiting.in_sight[corner].vertex, star[c].room, 0});
-    }
+    const auto begin = before + static_cast<std::uint32_t>(corners.size());
+    if (star.size() > 0)
+      stars.push_back({point.id, here.local(point.row), {begin, static_cast<std::uint32_t>(star.size())}, 0});
+    for (std::size_t c = 0; c < star.size(); ++c)
+      corners.push_back({waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
     tiles.assign(1, t);
     for (const LocalIndex q : query.neighbours) {
-      if (!here.owns(waiting.in_sight[q].vertex)) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
+      if (!here.owns(waiting.row(q))) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
     }
     std::sort(tiles.begin(), tiles.end());
     tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
@@ -157,6 +159,7 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
         for (std::size_t i = 0; i < bundle.size(); ++i) tell(queries[first + i], bundle[i], samplings[i]);
       });
   lists.open.append(t, stars);
+  lists.open_corners.append(t, corners);
   letters.send(post);
 }
 
@@ -173,43 +176,42 @@ std::vector<Sampling> all_samplings(std::span<const SeenPoint> in_sight, std::ve
   return samplings;
 }
 
-void sort_by_star(std::vector<StoredCorner>& corners) {
-  merge_runs(corners, [](const StoredCorner& a, const StoredCorner& b) { return a.owned < b.owned; });
+// In ascending owned index: they were stored in runs that are.
+std::vector<StoredStar> read_open_stars(const StarLists& lists, TileIndex t) {
+  std::vector<StoredStar> stars = lists.open.read(t);
+  merge_runs(stars, [](const StoredStar& a, const StoredStar& b) { return a.owned < b.owned; });
+  return stars;
 }
 
 // A star that waited to be measured.
 struct WaitingStar {
   Surroundings seen;  // by their places in sight
-  std::span<StoredCorner> corners;
+  StoredStar* star;
 };
 
-// The stars of waiting points. `corners`: of these and of other points, by star.
-std::vector<WaitingStar> waiting_stars(const Waiting& waiting, const Here& here,
-                                       std::span<StoredCorner> corners) {
+// The stars of waiting points, among these and others.
+std::vector<WaitingStar> waiting_stars(const Waiting& waiting, const Here& here, std::span<StoredStar> open) {
   std::vector<WaitingStar> stars;
+  auto star = open.begin();
   for (const Waiting::Point& p : waiting.points) {
-    const LocalIndex owned = here.local(waiting.in_sight[p.place].vertex);
-    const auto is_before = [&](const StoredCorner& c) { return c.owned < owned; };
-    corners = corners.subspan(static_cast<std::size_t>(
-        std::find_if_not(corners.begin(), corners.end(), is_before) - corners.begin()));
-    std::size_t count = 0;
-    while (count < corners.size() && corners[count].owned == owned) ++count;
-    if (count > 0) stars.push_back({{p.place, p.neighbours}, corners.first(count)});
+    const LocalIndex owned = here.local(waiting.in_sight[p.place].vertex.row);
+    while (star != open.end() && star->owned < owned) ++star;
+    if (star != open.end() && star->owned == owned) stars.push_back({{p.place, p.neighbours}, &*star});
   }
   return stars;
 }
 
 // Tells the tiles of a star's foreign corners of the triangles that it has with them.
-void tell_triangles(const Vertex& point, std::span<const StoredCorner> star, const Tiling& tiling,
-                    const Here& here, Letters<Claim>& letters) {
-  const auto tell = [&](const Vertex& to, const Vertex& other) {
+void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling& tiling, const Here& here,
+                    Letters<Claim>& letters) {
+  const auto tell = [&](Row to, Row other) {
     if (here.owns(to)) return;
-    const TileIndex tile = tiling.tile_of_row(to.row);
-    letters.add(tile, {Here(tiling, tile).local(to), 0, point.row, other.row});
+    const TileIndex tile = tiling.tile_of_row(to);
+    letters.add(tile, {Here(tiling, tile).local(to), 0, point, other});
   };
   for (std::size_t i = 0; i < star.size(); ++i) {
     if (star[i].room > 0) continue;
-    const Vertex &a = star[i].corner, &b = star[i + 1 < star.size() ? i + 1 : 0].corner;
+    const Row a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
     tell(a, b);
     tell(b, a);
   }
@@ -224,23 +226,26 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
   lists.waiting_sight.drop(t);
   const std::vector<Sampling> samplings = all_samplings(waiting.in_sight, post.read(t));
   post.drop(t);
-  std::vector<StoredCorner> corners = lists.open.read(t);
+  std::vector<StoredStar> open = read_open_stars(lists, t);
+  std::vector<StoredCorner> corners = lists.open_corners.read(t);
   lists.open.drop(t);
-  sort_by_star(corners);
-  const std::vector<WaitingStar> stars = waiting_stars(waiting, here, corners);
+  lists.open_corners.drop(t);
+  const std::vector<WaitingStar> stars = waiting_stars(waiting, here, open);
 
   Letters<Claim> letters;
   const auto surroundings = [&](std::size_t i) { return stars[i].seen; };
   BallSizer(samplings).for_each(stars.size(), surroundings, [&](std::size_t i, const BallSize& size) {
     const LocalIndex point = stars[i].seen.point;
-    for (StoredCorner& corner : stars[i].corners) {
+    const auto star = std::span(corners).subspan(stars[i].star->place.begin, stars[i].star->place.size);
+    stars[i].star->unevenness = size.unevenness;
+    for (StoredCorner& corner : star) {
       corner.room = room_beyond(size, samplings[point], corner.room);
-      corner.unevenness = size.unevenness;
       if (corner.room > 0) corner.agreement = Agreement::kRefused;
     }
-    tell_triangles(waiting.in_sight[point].vertex, stars[i].corners, tiling, here, letters);
+    tell_triangles(waiting.row(point), star, tiling, here, letters);
   });
-  lists.open.append(t, corners);
+  lists.open.append(t, open);
+  lists.open_corners.append(t, corners);
   letters.send(claims);
 }
 
@@ -249,39 +254,34 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
 // The stars of a tile that were not settled when it was evaluated: all points are here that may become rough.
 class OpenStars {
  public:
-  OpenStars(const Here& here, const RowSet& rough, std::vector<StoredCorner> corners,
-            std::span<const Claim> claims)
-      : here_(here), rough_(rough), claims_(claims), star_of_(here.points(), kNone) {
-    sort_by_star(corners);
+  OpenStars(const Here& here, const RowSet& rough, std::span<const StoredStar> stars,
+            std::span<const StoredCorner> corners, std::span<const Claim> claims)
+      : here_(here), rough_(rough), claims_(claims), points_(stars), star_of_(here.points(), kNone) {
+    for (const StoredStar& star : stars) {
+      star_of_[star.owned] = static_cast<std::uint32_t>(stars_.places.size());
+      stars_.places.push_back(star.place);
+    }
     stars_.corners.reserve(corners.size());
     stars_.agreements.reserve(corners.size());
-    for (const StoredCorner& c : corners) {
-      if (points_.empty() || points_.back() != c.owned) {
-        star_of_[c.owned] = static_cast<std::uint32_t>(points_.size());
-        points_.push_back(c.owned);
-        vertices_.push_back({c.id, here.row(c.owned)});
-        unevenness_.push_back(c.unevenness);
-        stars_.places.push_back({static_cast<std::uint32_t>(stars_.corners.size()), 0});
-      }
-      stars_.corners.push_back({c.corner, c.room});
-      stars_.agreements.push_back(c.agreement);
-      ++stars_.places.back().size;
+    for (const StoredCorner& corner : corners) {
+      stars_.corners.push_back({corner.point, corner.room});
+      stars_.agreements.push_back(corner.agreement);
     }
   }
 
-  // Corners of refused triangles of rough points are rough: until there are no more. visit(vertex): each
+  // Corners of refused triangles of rough points are rough: until there are no more. visit(row): each
   // point found.
   template <class Visit>
   void find_rough_points(Visit&& visit) {
     for (bool go_on = true; go_on;) {
       go_on = false;
       for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (!rough_.contains(vertices_[s].row)) continue;
+        if (!rough_.contains(row(s))) continue;
         const auto [begin, size] = stars_.places[s];
         for (std::uint32_t c = begin; c < begin + size; ++c) {
           const std::uint32_t next = c + 1 < begin + size ? c + 1 : begin;
-          const Vertex &a = stars_.corners[c].point, &b = stars_.corners[next].point;
-          const bool is_a_rough = rough_.contains(a.row), is_b_rough = rough_.contains(b.row);
+          const Row a = stars_.corners[c].point, b = stars_.corners[next].point;
+          const bool is_a_rough = rough_.contains(a), is_b_rough = rough_.contains(b);
           if ((is_a_rough && is_b_rough) || !is_refused(s, c, next)) continue;
           if (!is_a_rough) visit(a);
           if (!is_b_rough) visit(b);
@@ -295,21 +295,23 @@ class OpenStars {
   template <class Visit>
   void for_each_gap(Visit&& visit) {
     for (std::size_t s = 0; s < points_.size(); ++s) {
-      if (!rough_.contains(vertices_[s].row)) continue;
+      if (!rough_.contains(row(s))) continue;
       const auto [begin, size] = stars_.places[s];
       for (std::uint32_t c = begin; c < begin + size; ++c) {
         if (!is_refused(s, c, c + 1 < begin + size ? c + 1 : begin))
           stars_.agreements[c] = Agreement::kAgreed;
       }
       lacuna::for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s),
-                           [&](const Vertex& from, const Vertex& to, float room) {
-                             visit(Gap{vertices_[s], from, to, room, unevenness_[s]});
+                           [&](Row from, Row to, float room) {
+                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].unevenness});
                            });
     }
   }
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  Row row(std::size_t s) const { return here_.row(points_[s].owned); }
 
   // The triangle that begins at corner a of star s.
   bool is_refused(std::size_t s, std::uint32_t a, std::uint32_t b) {
@@ -322,22 +324,19 @@ class OpenStars {
   // The star of a corner is asked for its triangle with the point of star s and the other corner. If it has
   // it, it is here: the triangle could not be settled before.
   bool refuses(std::uint32_t corner, std::size_t s, std::uint32_t other) const {
-    const Vertex& point = stars_.corners[corner].point;
-    const Vertex& third = stars_.corners[other].point;
-    if (!rough_.contains(point.row)) return false;
+    const Row point = stars_.corners[corner].point, third = stars_.corners[other].point;
+    if (!rough_.contains(point)) return false;
     if (!here_.owns(point))
-      return !std::binary_search(claims_.begin(), claims_.end(), Claim{points_[s], 0, point.row, third.row});
+      return !std::binary_search(claims_.begin(), claims_.end(), Claim{points_[s].owned, 0, point, third});
     const std::uint32_t star = star_of_[here_.local(point)];
-    return star == kNone || !has_triangle(stars_[star], vertices_[s], third);
+    return star == kNone || !has_triangle(stars_[star], row(s), third);
   }
 
   const Here& here_;
   const RowSet& rough_;
   std::span<const Claim> claims_;
-  std::vector<LocalIndex> points_;  // ascending
-  std::vector<Vertex> vertices_;    // the same
-  std::vector<float> unevenness_;
-  Stars<Vertex> stars_;
+  std::span<const StoredStar> points_;
+  Stars<Row> stars_;
   std::vector<std::uint32_t> star_of_;  // by owned index
 };
 
@@ -365,10 +364,11 @@ void settle_tile(StarLists& lists, const Tiling& tiling, TileIndex t, const Spil
   const Here here(tiling, t);
   std::vector<Claim> here_claimed = claims.read(t);
   std::sort(here_claimed.begin(), here_claimed.end());
-  OpenStars stars(here, lists.rough, lists.open.read(t), here_claimed);
-  stars.find_rough_points([&](const Vertex& v) {
-    const bool is_new = lists.rough.insert(v.row);
-    if (is_new && !here.owns(v)) again.add(tiling.tile_of_row(v.row));
+  const std::vector<StoredStar> open = read_open_stars(lists, t);
+  OpenStars stars(here, lists.rough, open, lists.open_corners.read(t), here_claimed);
+  stars.find_rough_points([&](Row row) {
+    const bool is_new = lists.rough.insert(row);
+    if (is_new && !here.owns(row)) again.add(tiling.tile_of_row(row));
   });
   for (auto claim = here_claimed.begin(); claim != here_claimed.end();) {
     const Row row = here.row(claim->to);
@@ -404,7 +404,10 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
                       [&](std::size_t i) { settle_tile(lists, tiling, unsettled[i], claims, told, again); });
     unsettled = again.take();
   }
-  for (std::size_t t = 0; t < tiles; ++t) lists.open.drop(t);
+  for (std::size_t t = 0; t < tiles; ++t) {
+    lists.open.drop(t);
+    lists.open_corners.drop(t);
+  }
 }
 
 }  // namespace lacuna

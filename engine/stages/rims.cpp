@@ -41,7 +41,7 @@ class Follower {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  bool is_here(const Vertex& v) const { return first_ <= v.row && v.row < last_; }
+  bool is_here(Row row) const { return first_ <= row && row < last_; }
 
   // From an end on, where there is one.
   RimPart walk(std::size_t start, bool forwards) {
@@ -52,12 +52,12 @@ class Follower {
       is_done_[g] = true;
       part.points.push_back({gap.point, gap.room, gap.unevenness});
       part.after = forwards ? gap.to : gap.from;
-      g = next(part.after, gap.point);
+      g = next(part.after, gap.point.row);
       if (g == kNone) {
         assert(!is_here(part.before) && !is_here(part.after));
         return part;
       }
-      forwards = gaps_[g].from == gap.point;
+      forwards = gaps_[g].from == gap.point.row;
       if (g == start) {
         part.is_closed = true;
         return part;
@@ -66,9 +66,9 @@ class Follower {
   }
 
   // The gap at `point` that ends at `neighbour`; there is at most one.
-  std::size_t next(const Vertex& point, const Vertex& neighbour) const {
+  std::size_t next(Row point, Row neighbour) const {
     if (!is_here(point)) return kNone;
-    const std::size_t row = value(point.row) - value(first_);
+    const std::size_t row = value(point) - value(first_);
     for (std::size_t g = begins_[row]; g < begins_[row + 1]; ++g) {
       if (gaps_[g].from == neighbour || gaps_[g].to == neighbour) return g;
     }

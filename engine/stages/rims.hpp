@@ -21,7 +21,7 @@ struct RimPoint {
 struct RimPart {
   std::vector<RimPoint> points;
   bool is_closed = false;
-  Vertex before{}, after{};  // unless closed: what the rim comes from and goes to
+  Row before{}, after{};  // unless closed: what the rim comes from and goes to
 };
 
 // `gaps`: of points with rows in [first, last), in ascending row of the point. Each rim and part once, in any

@@ -16,7 +16,7 @@ Vertex vertex(std::uint64_t row) {
 std::vector<Gap> ring(const std::vector<std::uint64_t>& rows) {
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    Vertex from = vertex(rows[(i + rows.size() - 1) % rows.size()]), to = vertex(rows[(i + 1) % rows.size()]);
+    Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
     if (i % 2 == 1) std::swap(from, to);
     gaps.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
   }
@@ -86,12 +86,12 @@ TEST_CASE("of a rim that leaves the rows there are the parts, with what comes be
   REQUIRE(parts.size() == 2);
   if (parts[0].points.size() == 1) std::swap(parts[0], parts[1]);
   CHECK_FALSE(parts[0].is_closed);
-  const bool forwards = parts[0].before.row == Row{12};
+  const bool forwards = parts[0].before == Row{12};
   CHECK(rows(parts[0]) == (forwards ? std::vector<std::uint64_t>{3, 4} : std::vector<std::uint64_t>{4, 3}));
-  CHECK(std::pair(parts[0].before.row, parts[0].after.row) ==
+  CHECK(std::pair(parts[0].before, parts[0].after) ==
         (forwards ? std::pair(Row{12}, Row{15}) : std::pair(Row{15}, Row{12})));
   CHECK(rows(parts[1]) == std::vector<std::uint64_t>{5});
-  CHECK(std::minmax({parts[1].before.row, parts[1].after.row}) == std::pair(Row{16}, Row{17}));
+  CHECK(std::minmax({parts[1].before, parts[1].after}) == std::pair(Row{16}, Row{17}));
 }
 
 TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour") {
