@@ -219,7 +219,8 @@ class TileRecorder {
         });
       } else {
         const auto begin = static_cast<std::uint32_t>(corners.size());
-        open.push_back({points_.ids[p], p, {begin, static_cast<std::uint32_t>(star.size())}, unevenness});
+        open.push_back({points_.ids[p], p, {begin, static_cast<std::uint32_t>(star.size())}, kMeasured, 1});
+        open.back().size.unevenness = unevenness;
         for (std::size_t i = 0; i < star.size(); ++i)
           corners.push_back({points_.rows[star[i].point], star[i].room, agreements[i]});
       }
@@ -413,7 +414,7 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       rough(store.tiling().row_count()),
-      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 32),
+      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 16),
       open_corners(job.file("open-corners"), store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}

@@ -70,18 +70,22 @@ struct SeenPoint {
   Sampling sampling;  // none of border points: theirs come later
 };
 
+// Of stars whose corners have their room already.
+inline constexpr BallSize kMeasured{.radius = 0, .unit = 1, .unevenness = 0};
+
 // A star that is not settled within its tile.
 struct StoredStar {
   PointId id;
   LocalIndex owned;
-  StarPlace place;   // among the tile's stored corners
-  float unevenness;  // once it is measured
+  StarPlace place;  // among the tile's stored corners
+  BallSize size;    // of one that waited, once it is measured
+  double distance;  // of one that waits, `Sampling::distance`
 };
 
 // A corner of one, and the agreement on the triangle that begins there.
 struct StoredCorner {
   Row point;
-  float room;
+  float room;  // as in `StarCorner`: a ball where the star waited
   Agreement agreement;
 };
 

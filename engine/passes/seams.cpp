@@ -103,9 +103,9 @@ std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& 
     is_needed[query.point] = 1;
     for (const LocalIndex q : query.neighbours) is_needed[q] = 1;
   }
-  // In runs of rows that are near each other. Between them most were never written: reading those, too, would
-  // fill the system's cache with zeros.
-  constexpr std::uint64_t kNear = 8;
+  // In runs of rows that are near each other. What is farther between them was mostly never written: reading
+  // that, too, would fill the system's cache with zeros.
+  constexpr std::uint64_t kNear = 64;
   const auto row = [&](std::size_t i) { return value(waiting.row(static_cast<LocalIndex>(i))); };
   std::vector<Seat> seats(waiting.in_sight.size());
   std::vector<Seat> run;
@@ -141,7 +141,8 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
     const Vertex& point = waiting.in_sight[query.point].vertex;
     const auto begin = before + static_cast<std::uint32_t>(corners.size());
     if (star.size() > 0)
-      stars.push_back({point.id, here.local(point.row), {begin, static_cast<std::uint32_t>(star.size())}, 0});
+      stars.push_back(
+          {point.id, here.local(point.row), {begin, static_cast<std::uint32_t>(star.size())}, kMeasured, 1});
     for (std::size_t c = 0; c < star.size(); ++c)
       corners.push_back({waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
     tiles.assign(1, t);
@@ -201,17 +202,23 @@ std::vector<WaitingStar> waiting_stars(const Waiting& waiting, const Here& here,
   return stars;
 }
 
+// As in a measured star.
+float room(const StoredStar& star, const StoredCorner& corner) {
+  return room_beyond(star.size, {.distance = star.distance}, corner.room);
+}
+
 // Tells the tiles of a star's foreign corners of the triangles that it has with them.
-void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling& tiling, const Here& here,
-                    Letters<Claim>& letters) {
+void tell_triangles(Row point, const StoredStar& star, std::span<const StoredCorner> corners,
+                    const Tiling& tiling, const Here& here, Letters<Claim>& letters) {
   const auto tell = [&](Row to, Row other) {
     if (here.owns(to)) return;
     const TileIndex tile = tiling.tile_of_row(to);
     letters.add(tile, {Here(tiling, tile).local(to), 0, point, other});
   };
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    if (star[i].room > 0) continue;
-    const Row a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
+  corners = corners.subspan(star.place.begin, star.place.size);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (room(star, corners[i]) > 0) continue;
+    const Row a = corners[i].point, b = corners[i + 1 < corners.size() ? i + 1 : 0].point;
     tell(a, b);
     tell(b, a);
   }
@@ -227,25 +234,19 @@ void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<To
   const std::vector<Sampling> samplings = all_samplings(waiting.in_sight, post.read(t));
   post.drop(t);
   std::vector<StoredStar> open = read_open_stars(lists, t);
-  std::vector<StoredCorner> corners = lists.open_corners.read(t);
   lists.open.drop(t);
-  lists.open_corners.drop(t);
+  const std::vector<StoredCorner> corners = lists.open_corners.read(t);
   const std::vector<WaitingStar> stars = waiting_stars(waiting, here, open);
 
   Letters<Claim> letters;
   const auto surroundings = [&](std::size_t i) { return stars[i].seen; };
   BallSizer(samplings).for_each(stars.size(), surroundings, [&](std::size_t i, const BallSize& size) {
     const LocalIndex point = stars[i].seen.point;
-    const auto star = std::span(corners).subspan(stars[i].star->place.begin, stars[i].star->place.size);
-    stars[i].star->unevenness = size.unevenness;
-    for (StoredCorner& corner : star) {
-      corner.room = room_beyond(size, samplings[point], corner.room);
-      if (corner.room > 0) corner.agreement = Agreement::kRefused;
-    }
-    tell_triangles(waiting.row(point), star, tiling, here, letters);
+    stars[i].star->size = size;
+    stars[i].star->distance = samplings[point].distance;
+    tell_triangles(waiting.row(point), *stars[i].star, corners, tiling, here, letters);
   });
   lists.open.append(t, open);
-  lists.open_corners.append(t, corners);
   letters.send(claims);
 }
 
@@ -261,11 +262,13 @@ class OpenStars {
       star_of_[star.owned] = static_cast<std::uint32_t>(stars_.places.size());
       stars_.places.push_back(star.place);
     }
-    stars_.corners.reserve(corners.size());
-    stars_.agreements.reserve(corners.size());
-    for (const StoredCorner& corner : corners) {
-      stars_.corners.push_back({corner.point, corner.room});
-      stars_.agreements.push_back(corner.agreement);
+    stars_.corners.resize(corners.size());
+    stars_.agreements.resize(corners.size());
+    for (const StoredStar& star : stars) {
+      for (std::uint32_t c = star.place.begin; c < star.place.begin + star.place.size; ++c) {
+        stars_.corners[c] = {corners[c].point, room(star, corners[c])};
+        stars_.agreements[c] = stars_.corners[c].room > 0 ? Agreement::kRefused : corners[c].agreement;
+      }
     }
   }
 
@@ -303,7 +306,7 @@ class OpenStars {
       }
       lacuna::for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s),
                            [&](Row from, Row to, float room) {
-                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].unevenness});
+                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].size.unevenness});
                            });
     }
   }
