@@ -121,7 +121,7 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   estimate.summary.phases = job.phases;
   estimate.cell_size = tiling.grid.edge();
   estimate.cells = tiling.cells.size();
-  // Stored points, then links, seats and the lists of the global stage: where memory is short 47 to 58 bytes
+  // Stored points, then links, seats and the lists of the global stage: where memory is short 47 to 59 bytes
   // a point of single precision were measured on clean surfaces, 115 to 365 on noisy scans.
   const std::uint64_t normals = scan.has_normals() ? 2 * sizeof(StoredNormal) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
