@@ -282,7 +282,7 @@ class TileRecorder {
     const std::vector<std::uint8_t> is_seated =
         with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
     record_runs(scan_.stars.seats, std::span(is_seated).first(points_.owned),
-                [&](LocalIndex p) { return seat_of(points_.positions[p], points_.ids[p], evaluations_[p]); });
+                [&](LocalIndex p) { return seat(p); });
   }
 
   // Points that may end up on a loop.
