@@ -46,6 +46,11 @@ struct StarCorner {
   float room;
 };
 
+// Where a star is among the corners of all.
+struct StarPlace {
+  std::uint32_t begin = 0, size = 0;
+};
+
 // How points lie around one.
 struct Sampling {
   double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from

@@ -1,7 +1,6 @@
 #include "engine/passes/coherence.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include "engine/passes/rounds.hpp"
 
 namespace lacuna {
 namespace {
@@ -20,25 +19,14 @@ RowSet make_coherent(const EvaluatedScan& scan, const TileStore& store, Job& job
   RowSet boundary(store.tiling().row_count());
   job.crew.for_each(tiles, [&](std::size_t t) {
     for (const Candidate& c : read_candidates(scan, static_cast<TileIndex>(t))) boundary.insert(c.row);
+    phase.advance(scan.candidates.count(t));
   });
 
-  std::vector<TileIndex> unsettled(tiles);
-  std::iota(unsettled.begin(), unsettled.end(), TileIndex{0});
-  for (bool first = true; !unsettled.empty(); first = false) {
-    std::vector<std::uint8_t> changed(unsettled.size());
-    job.crew.for_each(unsettled.size(), [&](std::size_t i) {
-      const std::vector<Candidate> candidates = read_candidates(scan, unsettled[i]);
-      changed[i] = settle_coherence(candidates, boundary);
-      if (first) phase.advance(candidates.size());
+  for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
+    job.crew.for_each(rounds.tiles().size(), [&](std::size_t i) {
+      const TileIndex tile = rounds.tiles()[i];
+      if (settle_coherence(read_candidates(scan, tile), boundary)) rounds.ask_for(scan.leaning[tile]);
     });
-    std::vector<TileIndex> next;
-    for (std::size_t i = 0; i < unsettled.size(); ++i) {
-      if (changed[i])
-        next.insert(next.end(), scan.leaning[unsettled[i]].begin(), scan.leaning[unsettled[i]].end());
-    }
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    unsettled = std::move(next);
   }
   return boundary;
 }

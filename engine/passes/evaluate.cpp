@@ -1,6 +1,7 @@
 #include "engine/passes/evaluate.hpp"
 
 #include "engine/core/dispatch.hpp"
+#include "engine/core/merge_runs.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/orient.hpp"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -196,17 +198,15 @@ class TileRecorder {
 
   void record_stars() {
     const TileStars found = find_stars(points_, neighbourhoods_, evaluations_, is_border_);
-    std::vector<StoredStar> open;
-    std::vector<StoredCorner> corners;
+    StoredStars as_found, open;
     std::vector<Gap> gaps;
     std::vector<std::uint8_t> is_vertex = is_border_;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       const Standing standing = found.standings[p];
       if (found.is_rough[p]) scan_.stars.rough.insert(points_.rows[p]);
+      if (waits(standing)) scan_.stars.unmeasured.insert(points_.rows[p]);
       if (standing == Standing::kInner || standing == Standing::kBorder) continue;
-      const auto star = found.stars[p];
       const auto agreements = found.stars.agreements_of(p);
-      const float unevenness = found.unevenness[p];
       const auto all_are = [&](auto... these) {
         return std::all_of(agreements.begin(), agreements.end(),
                            [&](Agreement a) { return ((a == these) || ...); });
@@ -214,22 +214,27 @@ class TileRecorder {
       if (standing == Standing::kRough && all_are(Agreement::kAgreed)) continue;
       is_vertex[p] = 1;
       if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
-        for_each_gap(star, agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({vertex(p), points_.rows[from], points_.rows[to], room, unevenness});
+        for_each_gap(found.stars[p], agreements, [&](LocalIndex from, LocalIndex to, float room) {
+          gaps.push_back({vertex(p), points_.rows[from], points_.rows[to], room, found.unevenness[p]});
         });
       } else {
-        const auto begin = static_cast<std::uint32_t>(corners.size());
-        open.push_back({points_.ids[p], p, {begin, static_cast<std::uint32_t>(star.size())}, kMeasured, 1});
-        open.back().size.unevenness = unevenness;
-        for (std::size_t i = 0; i < star.size(); ++i)
-          corners.push_back({points_.rows[star[i].point], star[i].room, agreements[i]});
+        add_star(found, p, standing == Standing::kBeside ? as_found : open);
       }
     }
     record_waiting(found);
-    scan_.stars.open.append(tile_, open);
-    scan_.stars.open_corners.append(tile_, corners);
+    scan_.stars.found.append(tile_, std::move(as_found));
+    scan_.stars.open.append(tile_, std::move(open));
     scan_.stars.gaps.append(tile_, gaps);
     record_vertices(is_vertex);
+  }
+
+  void add_star(const TileStars& found, LocalIndex p, StoredStars& stars) const {
+    const auto star = found.stars[p];
+    const auto agreements = found.stars.agreements_of(p);
+    if (star.empty()) return;
+    stars.add(points_.ids[p], p, found.unevenness[p]);
+    for (std::size_t i = 0; i < star.size(); ++i)
+      stars.add_corner({points_.rows[star[i].point], star[i].room, agreements[i]});
   }
 
   // Marks owned points, by is_wanted(p), and all of their neighbours.
@@ -408,14 +413,37 @@ EdgeLists::EdgeLists(const TileStore& store, const Job& job)
       crossings(job.file("crossings"), store.tiling().tiles.size(), job.memory.spills / 4),
       strengths(job.file("strengths")) {}
 
+StarSpill::StarSpill(const Job& job, const std::string& name, std::size_t tiles, std::uint64_t budget)
+    : stars_(job.file(name + "-stars"), tiles, budget / 4),
+      corners_(job.file(name + "-corners"), tiles, budget - budget / 4) {}
+
+void StarSpill::append(TileIndex tile, StoredStars stars) {
+  const auto before = static_cast<std::uint32_t>(corners_.count(tile));
+  for (StoredStar& star : stars.stars) star.place.begin += before;
+  stars_.append(tile, stars.stars);
+  corners_.append(tile, stars.corners);
+}
+
+StoredStars StarSpill::read(TileIndex tile) const {
+  StoredStars stars{stars_.read(tile), corners_.read(tile)};
+  merge_runs(stars.stars, [](const StoredStar& a, const StoredStar& b) { return a.owned < b.owned; });
+  return stars;
+}
+
+void StarSpill::drop(TileIndex tile) {
+  stars_.drop(tile);
+  corners_.drop(tile);
+}
+
 StarLists::StarLists(const TileStore& store, const Job& job)
     : waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
       seats(job.file("seats")),
       rough(store.tiling().row_count()),
-      open(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 16),
-      open_corners(job.file("open-corners"), store.tiling().tiles.size(), job.memory.spills / 8),
+      unmeasured(store.tiling().row_count()),
+      found(job, "found", store.tiling().tiles.size(), job.memory.spills / 16),
+      open(job, "open", store.tiling().tiles.size(), job.memory.spills / 8),
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 

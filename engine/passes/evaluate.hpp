@@ -9,9 +9,11 @@
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"
 #include "engine/stages/eligible_edges.hpp"
-#include "engine/stages/star_bundle.hpp"
 
 #include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace lacuna {
 
@@ -70,23 +72,50 @@ struct SeenPoint {
   Sampling sampling;  // none of border points: theirs come later
 };
 
-// Of stars whose corners have their room already.
-inline constexpr BallSize kMeasured{.radius = 0, .unit = 1, .unevenness = 0};
-
 // A star that is not settled within its tile.
 struct StoredStar {
   PointId id;
   LocalIndex owned;
-  StarPlace place;  // among the tile's stored corners
-  BallSize size;    // of one that waited, once it is measured
-  double distance;  // of one that waits, `Sampling::distance`
+  float unevenness;  // of a measured one
+  StarPlace place;   // among the tile's stored corners
 };
 
 // A corner of one, and the agreement on the triangle that begins there.
 struct StoredCorner {
   Row point;
-  float room;  // as in `StarCorner`: a ball where the star waited
+  float room;
   Agreement agreement;
+};
+
+// Stars of one tile and their corners.
+struct StoredStars {
+  std::vector<StoredStar> stars;
+  std::vector<StoredCorner> corners;
+
+  void add(PointId id, LocalIndex owned, float unevenness) {
+    stars.push_back({id, owned, unevenness, {static_cast<std::uint32_t>(corners.size()), 0}});
+  }
+  void add_corner(const StoredCorner& corner) {  // of the last star
+    corners.push_back(corner);
+    ++stars.back().place.size;
+  }
+  std::span<const StoredCorner> operator[](const StoredStar& star) const {
+    return std::span(corners).subspan(star.place.begin, star.place.size);
+  }
+};
+
+// Stars by tile. Those of a tile are appended in one go or in several, by one thread at a time.
+class StarSpill {
+ public:
+  StarSpill(const Job& job, const std::string& name, std::size_t tiles, std::uint64_t budget);
+
+  void append(TileIndex tile, StoredStars stars);
+  StoredStars read(TileIndex tile) const;  // in ascending owned index
+  void drop(TileIndex tile);
+
+ private:
+  Spill<StoredStar> stars_;
+  Spill<StoredCorner> corners_;
 };
 
 __extension__ using Int128 = __int128;
@@ -120,8 +149,9 @@ struct StarLists {
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   Column<Seat> seats;                    // by row, of border points and their neighbours
   RowSet rough;
-  Spill<StoredStar> open;
-  Spill<StoredCorner> open_corners;
+  RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
+  StarSpill found;       // stars of waiting points as they are found
+  StarSpill open;        // measured stars
   Spill<Gap> gaps;       // of settled ones
   Spill<Gap> open_gaps;  // of the others (passes/seams)
 };

@@ -1,14 +1,11 @@
 #include "engine/passes/seams.hpp"
 
-#include "engine/core/merge_runs.hpp"
+#include "engine/passes/rounds.hpp"
 #include "engine/stages/ball_sizes.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <algorithm>
 #include <map>
-#include <mutex>
-#include <numeric>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -85,12 +82,25 @@ struct Waiting {
   Waiting& operator=(const Waiting&) = delete;
 
   Row row(LocalIndex place) const { return in_sight[place].vertex.row; }
+  LocalIndex place(Row row) const {
+    const auto at = std::partition_point(in_sight.begin(), in_sight.end(),
+                                         [&](const SeenPoint& p) { return p.vertex.row < row; });
+    return static_cast<LocalIndex>(at - in_sight.begin());
+  }
 };
 
-std::vector<StarQuery> border_points(const Waiting& waiting) {
+// ---- stars of border points
+
+// Border points that are rough, or tell rough points of the sampling; those that have not `told` yet.
+std::vector<StarQuery> border_points(const Waiting& waiting, const RowSet& rough, RowSet& told) {
+  std::vector<std::uint8_t> is_rough;
+  for (const SeenPoint& p : waiting.in_sight) is_rough.push_back(rough.contains(p.vertex.row));
   std::vector<StarQuery> points;
   for (const Waiting::Point& p : waiting.points) {
-    if (p.standing == Standing::kBorder) points.push_back({p.place, p.normal, p.neighbours});
+    if (p.standing != Standing::kBorder) continue;
+    const bool is_near = is_rough[p.place] || std::any_of(p.neighbours.begin(), p.neighbours.end(),
+                                                          [&](LocalIndex q) { return is_rough[q] != 0; });
+    if (is_near && told.insert(waiting.row(p.place))) points.push_back({p.place, p.normal, p.neighbours});
   }
   return points;
 }
@@ -126,25 +136,23 @@ std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& 
   return seats;
 }
 
-void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post) {
+// To `post`: what their stars tell of the sampling.
+void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, RowSet& told,
+                       Spill<ToldSampling>& post) {
   const Here here(tiling, t);
   const Waiting waiting(lists, t);
-  const std::vector<StarQuery> queries = border_points(waiting);
+  const std::vector<StarQuery> queries = border_points(waiting, lists.rough, told);
+  if (queries.empty()) return;
   const std::vector<Seat> seats = read_seats(queries, waiting, lists.seats);
 
-  const auto before = static_cast<std::uint32_t>(lists.open_corners.count(t));
-  std::vector<StoredStar> stars;
-  std::vector<StoredCorner> corners;
+  StoredStars stars;
   Letters<ToldSampling> letters;
   std::vector<TileIndex> tiles;
   const auto tell = [&](const StarQuery& query, const FoundStar& star, const Sampling& sampling) {
     const Vertex& point = waiting.in_sight[query.point].vertex;
-    const auto begin = before + static_cast<std::uint32_t>(corners.size());
-    if (star.size() > 0)
-      stars.push_back(
-          {point.id, here.local(point.row), {begin, static_cast<std::uint32_t>(star.size())}, kMeasured, 1});
+    if (star.size() > 0) stars.add(point.id, here.local(point.row), 0);
     for (std::size_t c = 0; c < star.size(); ++c)
-      corners.push_back({waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
+      stars.add_corner({waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
     tiles.assign(1, t);
     for (const LocalIndex q : query.neighbours) {
       if (!here.owns(waiting.row(q))) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
@@ -159,116 +167,93 @@ void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spil
         const std::array<Sampling, kEight> samplings = samplings_of(bundle);
         for (std::size_t i = 0; i < bundle.size(); ++i) tell(queries[first + i], bundle[i], samplings[i]);
       });
-  lists.open.append(t, stars);
-  lists.open_corners.append(t, corners);
+  lists.found.append(t, std::move(stars));
   letters.send(post);
 }
 
+// ---- sizes of balls
+
 // Of all points in sight: what their own tile knew, and what border points have told since.
-std::vector<Sampling> all_samplings(std::span<const SeenPoint> in_sight, std::vector<ToldSampling> told) {
+std::vector<Sampling> all_samplings(const Waiting& waiting, std::span<const ToldSampling> told) {
   std::vector<Sampling> samplings;
-  for (const SeenPoint& p : in_sight) samplings.push_back(p.sampling);
-  std::sort(told.begin(), told.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-  std::size_t i = 0;
-  for (const ToldSampling& news : told) {
-    while (in_sight[i].vertex.row < news.row) ++i;
-    samplings[i] = news.sampling;
-  }
+  for (const SeenPoint& p : waiting.in_sight) samplings.push_back(p.sampling);
+  for (const ToldSampling& news : told) samplings[waiting.place(news.row)] = news.sampling;
   return samplings;
 }
 
-// In ascending owned index: they were stored in runs that are.
-std::vector<StoredStar> read_open_stars(const StarLists& lists, TileIndex t) {
-  std::vector<StoredStar> stars = lists.open.read(t);
-  merge_runs(stars, [](const StoredStar& a, const StoredStar& b) { return a.owned < b.owned; });
-  return stars;
-}
-
-// A star that waited to be measured.
-struct WaitingStar {
-  Surroundings seen;  // by their places in sight
-  StoredStar* star;
-};
-
-// The stars of waiting points, among these and others.
-std::vector<WaitingStar> waiting_stars(const Waiting& waiting, const Here& here, std::span<StoredStar> open) {
-  std::vector<WaitingStar> stars;
-  auto star = open.begin();
-  for (const Waiting::Point& p : waiting.points) {
-    const LocalIndex owned = here.local(waiting.in_sight[p.place].vertex.row);
-    while (star != open.end() && star->owned < owned) ++star;
-    if (star != open.end() && star->owned == owned) stars.push_back({{p.place, p.neighbours}, &*star});
-  }
-  return stars;
-}
-
-// As in a measured star.
-float room(const StoredStar& star, const StoredCorner& corner) {
-  return room_beyond(star.size, {.distance = star.distance}, corner.room);
-}
-
 // Tells the tiles of a star's foreign corners of the triangles that it has with them.
-void tell_triangles(Row point, const StoredStar& star, std::span<const StoredCorner> corners,
-                    const Tiling& tiling, const Here& here, Letters<Claim>& letters) {
+void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling& tiling, const Here& here,
+                    Letters<Claim>& letters) {
   const auto tell = [&](Row to, Row other) {
     if (here.owns(to)) return;
     const TileIndex tile = tiling.tile_of_row(to);
     letters.add(tile, {Here(tiling, tile).local(to), 0, point, other});
   };
-  corners = corners.subspan(star.place.begin, star.place.size);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (room(star, corners[i]) > 0) continue;
-    const Row a = corners[i].point, b = corners[i + 1 < corners.size() ? i + 1 : 0].point;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    if (star[i].room > 0) continue;
+    const Row a = star[i].point, b = star[i + 1 < star.size() ? i + 1 : 0].point;
     tell(a, b);
     tell(b, a);
   }
 }
 
-void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, Spill<ToldSampling>& post,
+// Of waiting points that are rough. What their stars tell of the sampling, and the stars of their neighbours,
+// is known.
+void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, const Spill<ToldSampling>& post,
                    Spill<Claim>& claims) {
   const Here here(tiling, t);
   const Waiting waiting(lists, t);
-  lists.waiting.drop(t);
-  lists.waiting_neighbours.drop(t);
-  lists.waiting_sight.drop(t);
-  const std::vector<Sampling> samplings = all_samplings(waiting.in_sight, post.read(t));
-  post.drop(t);
-  std::vector<StoredStar> open = read_open_stars(lists, t);
-  lists.open.drop(t);
-  const std::vector<StoredCorner> corners = lists.open_corners.read(t);
-  const std::vector<WaitingStar> stars = waiting_stars(waiting, here, open);
+  std::vector<Surroundings> points;
+  for (const Waiting::Point& p : waiting.points) {
+    const Row row = waiting.row(p.place);
+    if (lists.rough.contains(row) && lists.unmeasured.contains(row))
+      points.push_back({p.place, p.neighbours});
+  }
+  if (points.empty()) return;
 
+  const std::vector<Sampling> samplings = all_samplings(waiting, post.read(t));
+  const StoredStars found = lists.found.read(t);
+  StoredStars measured;
   Letters<Claim> letters;
-  const auto surroundings = [&](std::size_t i) { return stars[i].seen; };
-  BallSizer(samplings).for_each(stars.size(), surroundings, [&](std::size_t i, const BallSize& size) {
-    const LocalIndex point = stars[i].seen.point;
-    stars[i].star->size = size;
-    stars[i].star->distance = samplings[point].distance;
-    tell_triangles(waiting.row(point), *stars[i].star, corners, tiling, here, letters);
+  auto star = found.stars.begin();
+  const auto surroundings = [&](std::size_t i) { return points[i]; };
+  BallSizer(samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+    const Vertex& point = waiting.in_sight[points[i].point].vertex;
+    lists.unmeasured.erase(point.row);
+    while (star != found.stars.end() && here.row(star->owned) < point.row) ++star;
+    if (star == found.stars.end() || star->id != point.id) return;
+    measured.add(point.id, star->owned, size.unevenness);
+    for (StoredCorner corner : found[*star]) {
+      corner.room = room_beyond(size, samplings[points[i].point], corner.room);
+      if (corner.room > 0) corner.agreement = Agreement::kRefused;
+      measured.add_corner(corner);
+    }
+    tell_triangles(point.row, measured[measured.stars.back()], tiling, here, letters);
   });
-  lists.open.append(t, open);
+  lists.open.append(t, std::move(measured));
   letters.send(claims);
 }
 
 // ---- rough points, and what all of them agree on
 
-// The stars of a tile that were not settled when it was evaluated: all points are here that may become rough.
+// The measured stars of a tile that were not settled when it was evaluated: of all points that may become
+// rough, but for those that wait.
 class OpenStars {
  public:
-  OpenStars(const Here& here, const RowSet& rough, std::span<const StoredStar> stars,
-            std::span<const StoredCorner> corners, std::span<const Claim> claims)
-      : here_(here), rough_(rough), claims_(claims), points_(stars), star_of_(here.points(), kNone) {
-    for (const StoredStar& star : stars) {
+  OpenStars(const Here& here, const StarLists& lists, const StoredStars& stars, std::span<const Claim> claims)
+      : here_(here),
+        rough_(lists.rough),
+        unmeasured_(lists.unmeasured),
+        claims_(claims),
+        points_(stars.stars),
+        star_of_(here.points(), kNone) {
+    for (const StoredStar& star : stars.stars) {
       star_of_[star.owned] = static_cast<std::uint32_t>(stars_.places.size());
       stars_.places.push_back(star.place);
     }
-    stars_.corners.resize(corners.size());
-    stars_.agreements.resize(corners.size());
-    for (const StoredStar& star : stars) {
-      for (std::uint32_t c = star.place.begin; c < star.place.begin + star.place.size; ++c) {
-        stars_.corners[c] = {corners[c].point, room(star, corners[c])};
-        stars_.agreements[c] = stars_.corners[c].room > 0 ? Agreement::kRefused : corners[c].agreement;
-      }
+    for (const StoredCorner& corner : stars.corners) {
+      stars_.corners.push_back({corner.point, corner.room});
+      stars_.agreements.push_back(corner.agreement);
     }
   }
 
@@ -306,7 +291,7 @@ class OpenStars {
       }
       lacuna::for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s),
                            [&](Row from, Row to, float room) {
-                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].size.unevenness});
+                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].unevenness});
                            });
     }
   }
@@ -325,10 +310,10 @@ class OpenStars {
   }
 
   // The star of a corner is asked for its triangle with the point of star s and the other corner. If it has
-  // it, it is here: the triangle could not be settled before.
+  // it, it is here, or it has told: the triangle could not be settled before.
   bool refuses(std::uint32_t corner, std::size_t s, std::uint32_t other) const {
     const Row point = stars_.corners[corner].point, third = stars_.corners[other].point;
-    if (!rough_.contains(point)) return false;
+    if (!rough_.contains(point) || unmeasured_.contains(point)) return false;
     if (!here_.owns(point))
       return !std::binary_search(claims_.begin(), claims_.end(), Claim{points_[s].owned, 0, point, third});
     const std::uint32_t star = star_of_[here_.local(point)];
@@ -336,55 +321,40 @@ class OpenStars {
   }
 
   const Here& here_;
-  const RowSet& rough_;
+  const RowSet &rough_, &unmeasured_;
   std::span<const Claim> claims_;
   std::span<const StoredStar> points_;
   Stars<Row> stars_;
   std::vector<std::uint32_t> star_of_;  // by owned index
 };
 
-// Tiles that have to look again.
-class Again {
- public:
-  void add(TileIndex tile) {
-    const std::lock_guard lock(mutex_);
-    tiles_.insert(tile);
-  }
-  std::vector<TileIndex> take() {
-    std::vector<TileIndex> tiles(tiles_.begin(), tiles_.end());
-    tiles_.clear();
-    return tiles;
-  }
-
- private:
-  std::mutex mutex_;
-  std::set<TileIndex> tiles_;
-};
-
-// `told`: rough points of which the tiles know whose stars they are corners of.
+// Goes on from rough point to rough point. visit(row): waiting points that are found, here or in other tiles.
+template <class Visit>
 void settle_tile(StarLists& lists, const Tiling& tiling, TileIndex t, const Spill<Claim>& claims,
-                 RowSet& told, Again& again) {
+                 Visit&& visit) {
   const Here here(tiling, t);
   std::vector<Claim> here_claimed = claims.read(t);
   std::sort(here_claimed.begin(), here_claimed.end());
-  const std::vector<StoredStar> open = read_open_stars(lists, t);
-  OpenStars stars(here, lists.rough, open, lists.open_corners.read(t), here_claimed);
+  const StoredStars open = lists.open.read(t);
+  OpenStars stars(here, lists, open, here_claimed);
   stars.find_rough_points([&](Row row) {
-    const bool is_new = lists.rough.insert(row);
-    if (is_new && !here.owns(row)) again.add(tiling.tile_of_row(row));
+    if (lists.rough.insert(row) && lists.unmeasured.contains(row)) visit(row);
   });
-  for (auto claim = here_claimed.begin(); claim != here_claimed.end();) {
-    const Row row = here.row(claim->to);
-    const bool is_news = lists.rough.contains(row) && told.insert(row);
-    const LocalIndex to = claim->to;
-    for (; claim != here_claimed.end() && claim->to == to; ++claim) {
-      if (is_news) again.add(tiling.tile_of_row(claim->from));
-    }
-  }
   std::vector<Gap> gaps;
   stars.for_each_gap([&](const Gap& gap) { gaps.push_back(gap); });
   lists.open_gaps.drop(t);
   lists.open_gaps.append(t, gaps);
+}
+
+// The tile itself and all with neighbours of its points.
+std::vector<TileIndex> tiles_around(const StarLists& lists, const Tiling& tiling, TileIndex t) {
+  std::vector<TileIndex> tiles = {t};
+  lists.waiting_sight.for_each(t, [&](const SeenPoint& p) {
+    const Row row = p.vertex.row;
+    if (Here(tiling, tiles.back()).owns(row)) return;
+    tiles.push_back(tiling.tile_of_row(row));
+  });
+  return tiles;
 }
 
 }  // namespace
@@ -392,24 +362,28 @@ void settle_tile(StarLists& lists, const Tiling& tiling, TileIndex t, const Spil
 void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   const std::size_t tiles = tiling.tiles.size();
   Spill<ToldSampling> samplings(job.file("samplings"), tiles, job.memory.spills / 8);
-  job.crew.for_each(
-      tiles, [&](std::size_t t) { find_border_stars(lists, tiling, static_cast<TileIndex>(t), samplings); });
   Spill<Claim> claims(job.file("claims"), tiles, job.memory.spills / 8);
-  job.crew.for_each(tiles, [&](std::size_t t) {
-    measure_stars(lists, tiling, static_cast<TileIndex>(t), samplings, claims);
-  });
-  RowSet told = lists.rough;
-  Again again;
-  std::vector<TileIndex> unsettled(tiles);
-  std::iota(unsettled.begin(), unsettled.end(), TileIndex{0});
-  while (!unsettled.empty()) {
-    job.crew.for_each(unsettled.size(),
-                      [&](std::size_t i) { settle_tile(lists, tiling, unsettled[i], claims, told, again); });
-    unsettled = again.take();
+  RowSet told(tiling.row_count());
+  std::vector<std::vector<TileIndex>> around(tiles);
+  job.crew.for_each(
+      tiles, [&](std::size_t t) { around[t] = tiles_around(lists, tiling, static_cast<TileIndex>(t)); });
+  for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
+    const auto for_each_tile = [&](auto&& step) {
+      job.crew.for_each(rounds.tiles().size(), [&](std::size_t i) { step(rounds.tiles()[i]); });
+    };
+    for_each_tile([&](TileIndex t) { find_border_stars(lists, tiling, t, told, samplings); });
+    for_each_tile([&](TileIndex t) { measure_stars(lists, tiling, t, samplings, claims); });
+    for_each_tile([&](TileIndex t) {
+      settle_tile(lists, tiling, t, claims,
+                  [&](Row waiting) { rounds.ask_for(around[tiling.tile_of_row(waiting)]); });
+    });
   }
-  for (std::size_t t = 0; t < tiles; ++t) {
+  for (TileIndex t = 0; t < tiles; ++t) {
+    lists.waiting.drop(t);
+    lists.waiting_neighbours.drop(t);
+    lists.waiting_sight.drop(t);
+    lists.found.drop(t);
     lists.open.drop(t);
-    lists.open_corners.drop(t);
   }
 }
 

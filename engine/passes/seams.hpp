@@ -5,9 +5,10 @@
 
 namespace lacuna {
 
-// Finds the stars of border points once all points have their seats, measures these and the ones beside them,
-// and goes on, from tile to tile, to look for rough points along refused triangles until there are no more:
-// then all gaps are known. Consumes all but the gaps.
+// Goes on, from tile to tile, to look for rough points along refused triangles until there are no more: then
+// all gaps are known. All points have their seats. Stars that wait are found where a rough point is near, and
+// measured where one is rough, so the cost is that of the rims between tiles and of reading the lists once in
+// each round. Consumes all but the gaps.
 void settle_seams(StarLists& lists, const Tiling& tiling, Job& job);
 
 }  // namespace lacuna

@@ -40,11 +40,6 @@ LACUNA_DISPATCH(FindBundledStars, find_bundled_stars)
 // Stars that are compared in one step have no more corners; as many are readable beyond the last star.
 inline constexpr std::uint32_t kFewCorners = 8;
 
-// Where a star is among the corners of all.
-struct StarPlace {
-  std::uint32_t begin = 0, size = 0;
-};
-
 // Stars by point, as in `Stars`, and what becomes of their triangles.
 struct StarTable {
   const StarPlace* places;
