@@ -447,6 +447,14 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
       open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 
+void StarLists::drop_waiting(TileIndex tile) {
+  waiting.drop(tile);
+  waiting_neighbours.drop(tile);
+  waiting_sight.drop(tile);
+  found.drop(tile);
+  open.drop(tile);
+}
+
 EvaluatedScan::EvaluatedScan(const TileStore& store, std::uint64_t result_blocks, const Job& job)
     : edges(store, job),
       stars(store, job),

@@ -144,6 +144,8 @@ struct EdgeLists {
 struct StarLists {
   StarLists(const TileStore& store, const Job& job);
 
+  void drop_waiting(TileIndex tile);  // all but the gaps
+
   Spill<WaitingPoint> waiting;           // in ascending owned index
   Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
   Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -91,16 +93,21 @@ struct Waiting {
 
 // ---- stars of border points
 
-// Border points that are rough, or tell rough points of the sampling; those that have not `told` yet.
-std::vector<StarQuery> border_points(const Waiting& waiting, const RowSet& rough, RowSet& told) {
-  std::vector<std::uint8_t> is_rough;
-  for (const SeenPoint& p : waiting.in_sight) is_rough.push_back(rough.contains(p.vertex.row));
+// Which waiting stars are measured; those that tell them of the sampling are found.
+enum class Wanted { kOfRoughPoints, kAll };
+
+// Border points whose stars are to be found. `told`: those whose stars were, and are from now on.
+std::vector<StarQuery> border_points(const Waiting& waiting, const RowSet& rough, Wanted wanted,
+                                     RowSet& told) {
+  std::vector<std::uint8_t> is_asking;  // of points in sight: its neighbours' stars are to be found
+  for (const SeenPoint& p : waiting.in_sight)
+    is_asking.push_back(wanted == Wanted::kAll || rough.contains(p.vertex.row));
   std::vector<StarQuery> points;
   for (const Waiting::Point& p : waiting.points) {
     if (p.standing != Standing::kBorder) continue;
-    const bool is_near = is_rough[p.place] || std::any_of(p.neighbours.begin(), p.neighbours.end(),
-                                                          [&](LocalIndex q) { return is_rough[q] != 0; });
-    if (is_near && told.insert(waiting.row(p.place))) points.push_back({p.place, p.normal, p.neighbours});
+    const bool is_asked = is_asking[p.place] || std::any_of(p.neighbours.begin(), p.neighbours.end(),
+                                                            [&](LocalIndex q) { return is_asking[q] != 0; });
+    if (is_asked && told.insert(waiting.row(p.place))) points.push_back({p.place, p.normal, p.neighbours});
   }
   return points;
 }
@@ -136,42 +143,16 @@ std::vector<Seat> read_seats(std::span<const StarQuery> queries, const Waiting& 
   return seats;
 }
 
-// To `post`: what their stars tell of the sampling.
-void find_border_stars(StarLists& lists, const Tiling& tiling, TileIndex t, RowSet& told,
-                       Spill<ToldSampling>& post) {
-  const Here here(tiling, t);
-  const Waiting waiting(lists, t);
-  const std::vector<StarQuery> queries = border_points(waiting, lists.rough, told);
-  if (queries.empty()) return;
-  const std::vector<Seat> seats = read_seats(queries, waiting, lists.seats);
-
-  StoredStars stars;
-  Letters<ToldSampling> letters;
-  std::vector<TileIndex> tiles;
-  const auto tell = [&](const StarQuery& query, const FoundStar& star, const Sampling& sampling) {
-    const Vertex& point = waiting.in_sight[query.point].vertex;
-    if (star.size() > 0) stars.add(point.id, here.local(point.row), 0);
-    for (std::size_t c = 0; c < star.size(); ++c)
-      stars.add_corner({waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
-    tiles.assign(1, t);
-    for (const LocalIndex q : query.neighbours) {
-      if (!here.owns(waiting.row(q))) tiles.push_back(tiling.tile_of_row(waiting.row(q)));
-    }
-    std::sort(tiles.begin(), tiles.end());
-    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-    for (const TileIndex tile : tiles) letters.add(tile, {point.row, sampling});
-  };
-  StarFinder(seats).for_each_bundle(
-      queries.size(), [&](std::size_t i) { return queries[i]; },
-      [&](std::size_t first, std::span<const FoundStar> bundle) {
-        const std::array<Sampling, kEight> samplings = samplings_of(bundle);
-        for (std::size_t i = 0; i < bundle.size(); ++i) tell(queries[first + i], bundle[i], samplings[i]);
-      });
-  lists.found.append(t, std::move(stars));
-  letters.send(post);
+// Points whose stars are to be measured.
+std::vector<Surroundings> waiting_points(const Waiting& waiting, const StarLists& lists, Wanted wanted) {
+  std::vector<Surroundings> points;
+  for (const Waiting::Point& p : waiting.points) {
+    const Row row = waiting.row(p.place);
+    const bool is_wanted = wanted == Wanted::kAll || lists.rough.contains(row);
+    if (is_wanted && lists.unmeasured.contains(row)) points.push_back({p.place, p.neighbours});
+  }
+  return points;
 }
-
-// ---- sizes of balls
 
 // Of all points in sight: what their own tile knew, and what border points have told since.
 std::vector<Sampling> all_samplings(const Waiting& waiting, std::span<const ToldSampling> told) {
@@ -195,43 +176,6 @@ void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling&
     tell(a, b);
     tell(b, a);
   }
-}
-
-// Of waiting points that are rough. What their stars tell of the sampling, and the stars of their neighbours,
-// is known.
-void measure_stars(StarLists& lists, const Tiling& tiling, TileIndex t, const Spill<ToldSampling>& post,
-                   Spill<Claim>& claims) {
-  const Here here(tiling, t);
-  const Waiting waiting(lists, t);
-  std::vector<Surroundings> points;
-  for (const Waiting::Point& p : waiting.points) {
-    const Row row = waiting.row(p.place);
-    if (lists.rough.contains(row) && lists.unmeasured.contains(row))
-      points.push_back({p.place, p.neighbours});
-  }
-  if (points.empty()) return;
-
-  const std::vector<Sampling> samplings = all_samplings(waiting, post.read(t));
-  const StoredStars found = lists.found.read(t);
-  StoredStars measured;
-  Letters<Claim> letters;
-  auto star = found.stars.begin();
-  const auto surroundings = [&](std::size_t i) { return points[i]; };
-  BallSizer(samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
-    const Vertex& point = waiting.in_sight[points[i].point].vertex;
-    lists.unmeasured.erase(point.row);
-    while (star != found.stars.end() && here.row(star->owned) < point.row) ++star;
-    if (star == found.stars.end() || star->id != point.id) return;
-    measured.add(point.id, star->owned, size.unevenness);
-    for (StoredCorner corner : found[*star]) {
-      corner.room = room_beyond(size, samplings[points[i].point], corner.room);
-      if (corner.room > 0) corner.agreement = Agreement::kRefused;
-      measured.add_corner(corner);
-    }
-    tell_triangles(point.row, measured[measured.stars.back()], tiling, here, letters);
-  });
-  lists.open.append(t, std::move(measured));
-  letters.send(claims);
 }
 
 // ---- rough points, and what all of them agree on
@@ -261,21 +205,29 @@ class OpenStars {
   // point found.
   template <class Visit>
   void find_rough_points(Visit&& visit) {
+    std::vector<std::uint32_t> undone(points_.size());  // stars with a corner that is not rough
+    std::iota(undone.begin(), undone.end(), 0U);
     for (bool go_on = true; go_on;) {
       go_on = false;
-      for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (!rough_.contains(row(s))) continue;
+      std::erase_if(undone, [&](std::uint32_t s) {
+        if (!rough_.contains(row(s))) return false;
+        bool is_done = true;
         const auto [begin, size] = stars_.places[s];
         for (std::uint32_t c = begin; c < begin + size; ++c) {
           const std::uint32_t next = c + 1 < begin + size ? c + 1 : begin;
           const Row a = stars_.corners[c].point, b = stars_.corners[next].point;
           const bool is_a_rough = rough_.contains(a), is_b_rough = rough_.contains(b);
-          if ((is_a_rough && is_b_rough) || !is_refused(s, c, next)) continue;
+          if (is_a_rough && is_b_rough) continue;
+          if (!is_refused(s, c, next)) {
+            is_done = false;
+            continue;
+          }
           if (!is_a_rough) visit(a);
           if (!is_b_rough) visit(b);
           go_on = true;
         }
-      }
+        return is_done;
+      });
     }
   }
 
@@ -328,63 +280,179 @@ class OpenStars {
   std::vector<std::uint32_t> star_of_;  // by owned index
 };
 
-// Goes on from rough point to rough point. visit(row): waiting points that are found, here or in other tiles.
-template <class Visit>
-void settle_tile(StarLists& lists, const Tiling& tiling, TileIndex t, const Spill<Claim>& claims,
-                 Visit&& visit) {
-  const Here here(tiling, t);
-  std::vector<Claim> here_claimed = claims.read(t);
-  std::sort(here_claimed.begin(), here_claimed.end());
-  const StoredStars open = lists.open.read(t);
-  OpenStars stars(here, lists, open, here_claimed);
-  stars.find_rough_points([&](Row row) {
-    if (lists.rough.insert(row) && lists.unmeasured.contains(row)) visit(row);
-  });
-  std::vector<Gap> gaps;
-  stars.for_each_gap([&](const Gap& gap) { gaps.push_back(gap); });
-  lists.open_gaps.drop(t);
-  lists.open_gaps.append(t, gaps);
-}
-
-// The tile itself and all with neighbours of its points.
+// The tile itself and those with neighbours of its points.
 std::vector<TileIndex> tiles_around(const StarLists& lists, const Tiling& tiling, TileIndex t) {
   std::vector<TileIndex> tiles = {t};
   lists.waiting_sight.for_each(t, [&](const SeenPoint& p) {
     const Row row = p.vertex.row;
-    if (Here(tiling, tiles.back()).owns(row)) return;
-    tiles.push_back(tiling.tile_of_row(row));
+    if (!Here(tiling, t).owns(row) && !Here(tiling, tiles.back()).owns(row))
+      tiles.push_back(tiling.tile_of_row(row));
   });
   return tiles;
 }
+
+// What the tiles tell each other.
+class Seams {
+ public:
+  Seams(StarLists& lists, const Tiling& tiling, Job& job)
+      : lists_(lists),
+        tiling_(tiling),
+        is_found_(tiling.tiles.size()),
+        is_measured_(tiling.tiles.size()),
+        told_(tiling.row_count()),
+        samplings_(job.file("samplings"), tiling.tiles.size(), job.memory.spills / 8),
+        claims_(job.file("claims"), tiling.tiles.size(), job.memory.spills / 8) {}
+
+  // Stars of border points, which tell their neighbours' tiles of the sampling.
+  void find_border_stars(TileIndex t, Wanted wanted) {
+    if (is_found_[t]) return;
+    is_found_[t] = wanted == Wanted::kAll;
+    const Here here(tiling_, t);
+    const Waiting waiting(lists_, t);
+    const std::vector<StarQuery> queries = border_points(waiting, lists_.rough, wanted, told_);
+    if (queries.empty()) return;
+
+    const std::vector<Seat> seats = read_seats(queries, waiting, lists_.seats);
+    StoredStars stars;
+    Letters<ToldSampling> letters;
+    StarFinder(seats).for_each_bundle(
+        queries.size(), [&](std::size_t i) { return queries[i]; },
+        [&](std::size_t first, std::span<const FoundStar> bundle) {
+          const std::array<Sampling, kEight> samplings = samplings_of(bundle);
+          for (std::size_t i = 0; i < bundle.size(); ++i) {
+            const StarQuery& query = queries[first + i];
+            const FoundStar& star = bundle[i];
+            const Vertex& point = waiting.in_sight[query.point].vertex;
+            if (star.size() > 0) stars.add(point.id, here.local(point.row), 0);
+            for (std::size_t c = 0; c < star.size(); ++c)
+              stars.add_corner(
+                  {waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
+            for (const TileIndex tile : tiles_of(query, waiting))
+              letters.add(tile, {point.row, samplings[i]});
+          }
+        });
+    lists_.found.append(t, std::move(stars));
+    letters.send(samplings_);
+  }
+
+  // Stars of waiting points; what the stars of their neighbours tell of the sampling is known. They tell the
+  // tiles of their foreign corners of the triangles that they have with these.
+  void measure_stars(TileIndex t, Wanted wanted) {
+    if (is_measured_[t]) return;
+    is_measured_[t] = wanted == Wanted::kAll;
+    const Here here(tiling_, t);
+    const Waiting waiting(lists_, t);
+    const std::vector<Surroundings> points = waiting_points(waiting, lists_, wanted);
+    if (points.empty()) return;
+
+    const std::vector<Sampling> samplings = all_samplings(waiting, samplings_.read(t));
+    const StoredStars found = lists_.found.read(t);
+    StoredStars measured;
+    Letters<Claim> letters;
+    auto star = found.stars.begin();
+    const auto surroundings = [&](std::size_t i) { return points[i]; };
+    BallSizer(samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+      const Vertex& point = waiting.in_sight[points[i].point].vertex;
+      lists_.unmeasured.erase(point.row);
+      while (star != found.stars.end() && here.row(star->owned) < point.row) ++star;
+      if (star == found.stars.end() || here.row(star->owned) != point.row) return;
+      measured.add(point.id, star->owned, size.unevenness);
+      for (StoredCorner corner : found[*star]) {
+        corner.room = room_beyond(size, samplings[points[i].point], corner.room);
+        if (corner.room > 0) corner.agreement = Agreement::kRefused;
+        measured.add_corner(corner);
+      }
+      tell_triangles(point.row, measured[measured.stars.back()], tiling_, here, letters);
+    });
+    lists_.open.append(t, std::move(measured));
+    letters.send(claims_);
+  }
+
+  // Goes on from rough point to rough point. visit(tile): tiles with new ones that others have to know of.
+  template <class Visit>
+  void find_rough_points(TileIndex t, Visit&& visit) {
+    const Here here(tiling_, t);
+    const StoredStars open = lists_.open.read(t);
+    const std::vector<Claim> claims = sorted_claims(t);
+    OpenStars(here, lists_, open, claims).find_rough_points([&](Row row) {
+      if (!lists_.rough.insert(row)) return;
+      if (lists_.unmeasured.contains(row) || !here.owns(row) || is_claimed(here.local(row), claims))
+        visit(tiling_.tile_of_row(row));
+    });
+  }
+
+  void find_gaps(TileIndex t) {
+    const Here here(tiling_, t);
+    const StoredStars open = lists_.open.read(t);
+    const std::vector<Claim> claims = sorted_claims(t);
+    std::vector<Gap> gaps;
+    OpenStars(here, lists_, open, claims).for_each_gap([&](const Gap& gap) { gaps.push_back(gap); });
+    lists_.open_gaps.append(t, gaps);
+  }
+
+ private:
+  // Of a point and its neighbours.
+  std::vector<TileIndex> tiles_of(const StarQuery& query, const Waiting& waiting) const {
+    std::vector<TileIndex> tiles = {tiling_.tile_of_row(waiting.row(query.point))};
+    for (const LocalIndex q : query.neighbours) {
+      const Row row = waiting.row(q);
+      if (!Here(tiling_, tiles.front()).owns(row) && !Here(tiling_, tiles.back()).owns(row))
+        tiles.push_back(tiling_.tile_of_row(row));
+    }
+    std::sort(tiles.begin(), tiles.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+    return tiles;
+  }
+
+  std::vector<Claim> sorted_claims(TileIndex t) const {
+    std::vector<Claim> claims = claims_.read(t);
+    std::sort(claims.begin(), claims.end());
+    return claims;
+  }
+  static bool is_claimed(LocalIndex point, std::span<const Claim> claims) {
+    const auto claim = std::partition_point(claims.begin(), claims.end(),
+                                            [&](const Claim& claim) { return claim.to < point; });
+    return claim != claims.end() && claim->to == point;
+  }
+
+  StarLists& lists_;
+  const Tiling& tiling_;
+  std::vector<std::uint8_t> is_found_, is_measured_;  // of tiles: all their waiting stars are
+  RowSet told_;                                       // border points that have told of the sampling
+  Spill<ToldSampling> samplings_;
+  Spill<Claim> claims_;
+};
 
 }  // namespace
 
 void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   const std::size_t tiles = tiling.tiles.size();
-  Spill<ToldSampling> samplings(job.file("samplings"), tiles, job.memory.spills / 8);
-  Spill<Claim> claims(job.file("claims"), tiles, job.memory.spills / 8);
-  RowSet told(tiling.row_count());
+  const auto for_each = [&](std::span<const TileIndex> some, auto&& step) {
+    job.crew.for_each(some.size(), [&](std::size_t i) { step(some[i]); });
+  };
+  Seams seams(lists, tiling, job);
+  std::vector<TileIndex> all(tiles);
+  std::iota(all.begin(), all.end(), TileIndex{0});
   std::vector<std::vector<TileIndex>> around(tiles);
-  job.crew.for_each(
-      tiles, [&](std::size_t t) { around[t] = tiles_around(lists, tiling, static_cast<TileIndex>(t)); });
+  for_each(all, [&](TileIndex t) { around[t] = tiles_around(lists, tiling, t); });
+
+  // Rims that go from tile to tile take a round or two. It takes more where points are rough along a border,
+  // one after the other: then no star there is spared.
+  constexpr int kFewRounds = 2;
+  int round = 0;
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
-    const auto for_each_tile = [&](auto&& step) {
-      job.crew.for_each(rounds.tiles().size(), [&](std::size_t i) { step(rounds.tiles()[i]); });
-    };
-    for_each_tile([&](TileIndex t) { find_border_stars(lists, tiling, t, told, samplings); });
-    for_each_tile([&](TileIndex t) { measure_stars(lists, tiling, t, samplings, claims); });
-    for_each_tile([&](TileIndex t) {
-      settle_tile(lists, tiling, t, claims,
-                  [&](Row waiting) { rounds.ask_for(around[tiling.tile_of_row(waiting)]); });
+    const Wanted wanted = ++round <= kFewRounds ? Wanted::kOfRoughPoints : Wanted::kAll;
+    std::set<TileIndex> with_these;
+    for (const TileIndex t : rounds.tiles()) with_these.insert(around[t].begin(), around[t].end());
+    const std::vector<TileIndex> touched(with_these.begin(), with_these.end());
+    for_each(touched, [&](TileIndex t) { seams.find_border_stars(t, wanted); });
+    for_each(rounds.tiles(), [&](TileIndex t) { seams.measure_stars(t, wanted); });
+    for_each(touched, [&](TileIndex t) {
+      seams.find_rough_points(t, [&](TileIndex news) { rounds.ask_for({&news, 1}); });
     });
   }
-  for (TileIndex t = 0; t < tiles; ++t) {
-    lists.waiting.drop(t);
-    lists.waiting_neighbours.drop(t);
-    lists.waiting_sight.drop(t);
-    lists.found.drop(t);
-    lists.open.drop(t);
-  }
+  for_each(all, [&](TileIndex t) { seams.find_gaps(t); });
+  for_each(all, [&](TileIndex t) { lists.drop_waiting(t); });
 }
 
 }  // namespace lacuna
