@@ -10,6 +10,9 @@
 namespace lacuna {
 namespace {
 
+// So many steps before it is needed, memory is asked for: it is mostly not in the cache.
+constexpr std::size_t kAhead = 8;
+
 // Finds the points and measures their stars.
 class TileStarFinder {
  public:
@@ -104,6 +107,7 @@ class TileStarFinder {
       want(p);
       for (const LocalIndex q : neighbourhoods_[p]) want(q);
     }
+    seat_wanted();
     const auto query = [&](std::size_t i) {
       return StarQuery{wanted_[i], evaluations_[wanted_[i]].normal, neighbourhoods_[wanted_[i]]};
     };
@@ -121,14 +125,35 @@ class TileStarFinder {
     if ((marks_[p] & kWanted) != 0) return;
     marks_[p] |= kWanted;
     wanted_.push_back(p);
-    seat(p);
-    for (const LocalIndex q : neighbourhoods_[p]) seat(q);
   }
 
-  void seat(LocalIndex p) {
-    if ((marks_[p] & kSeated) != 0) return;
-    marks_[p] |= kSeated;
-    seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+  // Points that are wanted, and their neighbours.
+  void seat_wanted() {
+    seating_.clear();
+    const auto sit = [&](LocalIndex p) {
+      if ((marks_[p] & kSeated) != 0) return;
+      marks_[p] |= kSeated;
+      seating_.push_back(p);
+    };
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      if (i + kAhead < wanted_.size()) {
+        const std::span<const LocalIndex> ahead = neighbourhoods_[wanted_[i + kAhead]];
+        __builtin_prefetch(ahead.data());
+        __builtin_prefetch(ahead.data() + 15);
+      }
+      sit(wanted_[i]);
+      for (const LocalIndex q : neighbourhoods_[wanted_[i]]) sit(q);
+    }
+    for (std::size_t i = 0; i < seating_.size(); ++i) {
+      if (i + kAhead < seating_.size()) {
+        const Evaluation& ahead = evaluations_[seating_[i + kAhead]];
+        __builtin_prefetch(&ahead);
+        __builtin_prefetch(&ahead.normal);
+        __builtin_prefetch(&points_.positions[seating_[i + kAhead]]);
+      }
+      const LocalIndex p = seating_[i];
+      seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+    }
   }
 
   void add(LocalIndex p, const FoundStar& star) {
@@ -221,7 +246,7 @@ class TileStarFinder {
   std::vector<Watch> watches_;
   std::vector<std::uint32_t> watches_of_;  // by point, the last one
   std::uint32_t corners_ = 0;              // of all stars so far
-  std::vector<LocalIndex> entering_, wanted_;
+  std::vector<LocalIndex> entering_, wanted_, seating_;
   bool is_certain_ = true;  // else what may be counts as well
   TileStars found_;
 };
