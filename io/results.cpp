@@ -1,7 +1,9 @@
 #include "io/results.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
 
+#include <functional>
 #include <limits>
 
 namespace lacuna {
@@ -26,10 +28,17 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   if (error) throw Error(folder.string() + ": the folder cannot be made: " + error.message());
 
   OutputSet set(folder);
-  write_loops(detection, scan, set.add("loops.ply"));
-  write_boundary(detection, scan, set.add("boundary.ply"));
-  if (config.output.points) write_points(detection, scan, config.output, set.add("points.ply"));
-  write_report(detection, scan, config, set.add("holes.json"));
+  std::vector<std::function<void()>> writers;
+  const auto add = [&](const std::string& name, auto&& write) {
+    writers.push_back([&out = set.add(name), write] { write(out); });
+  };
+  add("loops.ply", [&](OutputFile& out) { write_loops(detection, scan, out); });
+  add("boundary.ply", [&](OutputFile& out) { write_boundary(detection, scan, out); });
+  if (config.output.points)
+    add("points.ply", [&](OutputFile& out) { write_points(detection, scan, config.output, out); });
+  add("holes.json", [&](OutputFile& out) { write_report(detection, scan, config, out); });
+  const Crew crew(static_cast<std::size_t>(config.run.threads));
+  crew.for_each(writers.size(), [&](std::size_t i) { writers[i](); });
   set.commit({"holes.json", "points.ply"});
 }
 
