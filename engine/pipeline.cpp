@@ -70,6 +70,7 @@ void add_findings(const EvaluatedScan& evaluated, const Boundary& boundary, doub
   counts.undefined_normals = evaluated.totals.undefined_normals;
   counts.eligible_edges = boundary.traced.eligible_edges;
   counts.components = boundary.traced.components;
+  counts.raw_loops = boundary.traced.loops.found();
   summary.mean_neighbours = evaluated.mean_neighbours();
   summary.mean_edge_length = evaluated.mean_edge_length();
   summary.eps = eps;

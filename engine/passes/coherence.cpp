@@ -35,7 +35,6 @@ RowSet find_beside_loops(const RawLoops& loops, const EvaluatedScan& scan, const
   Phase phase(job, "coherence", scan.totals.candidates);
   RowSet on_loop(store.tiling().row_count()), beside(store.tiling().row_count());
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops.confidence(i) < job.config.selection.min_confidence) continue;
     for (const Vertex& v : loops.read(i)) on_loop.insert(v.row);
   }
   job.crew.for_each(store.tiling().tiles.size(), [&](std::size_t t) {

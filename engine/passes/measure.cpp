@@ -95,12 +95,11 @@ std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, co
   std::vector<std::size_t> selected;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const LoopMeasures& loop = loops[i];
-    const bool unsure = loop.confidence < config.min_confidence;
     const bool too_short = loop.perimeter < config.min_perimeter;
     const bool too_long = config.max_perimeter > 0 && loop.perimeter > config.max_perimeter;
     const bool too_few = loop.points < static_cast<std::uint64_t>(config.min_points);
     const bool unwanted = config.holes_only && loop.kind == LoopKind::kRim;
-    if (!unsure && !too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
+    if (!too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
   }
   return selected;
 }

@@ -14,7 +14,7 @@ struct StoredLoopPoint {
   float probability;
 };
 
-// All raw loops in order of (first id, length, ids).
+// All loops that are sure enough, in order of (first id, length, ids).
 struct MeasuredLoops {
   Column<StoredLoopPoint> points;      // loop after loop
   std::vector<std::uint64_t> offsets;  // loops + 1
@@ -27,7 +27,7 @@ struct MeasuredLoops {
 MeasuredLoops measure_loops(const RawLoops& loops, const EvaluatedScan& scan, const TileStore& store,
                             double mean_edge_length, Job& job);
 
-// The loops that the selection reports.
+// The loops that the selection reports. All are sure enough.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);
 
 }  // namespace lacuna

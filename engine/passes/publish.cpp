@@ -119,9 +119,9 @@ class WorkspaceDetection final : public Detection {
   std::optional<RowSet> turned_;
 };
 
-// Every point on a loop that is sure enough, to its tile.
-void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, double min_confidence,
-                const Tiling& tiling, Spill<Mark>& marks) {
+// Every point on a loop, to its tile.
+void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
+                Spill<Mark>& marks) {
   constexpr std::size_t kLetter = 1024;
   std::vector<std::vector<Mark>> letters(tiling.tiles.size());
   const auto send = [&](TileIndex t) {
@@ -130,7 +130,6 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
   };
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
-    if (loops.measures[i].confidence < min_confidence) continue;
     const bool reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = reported ? static_cast<std::int32_t>(next_selected++) : kNoLoop;
     for (const StoredLoopPoint& p :
@@ -183,7 +182,7 @@ std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, c
   {
     Phase phase(job, "publish", tiling.points());
     Spill<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
-    mark_loops(loops, selected, job.config.selection.min_confidence, tiling, marks);
+    mark_loops(loops, selected, tiling, marks);
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;
     job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
@@ -219,7 +218,6 @@ std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, c
       if (block.size() == 4096) flush();
     });
     flush();
-    summary.counts.raw_loops = loops.measures.size();
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(std::move(summary), std::move(loops), std::move(selected),

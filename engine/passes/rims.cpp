@@ -132,7 +132,7 @@ void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops
 RawLoops trace_rims(StarLists& lists, const Tiling& tiling, Job& job) {
   Phase phase(job, "loops", 0);
   settle_seams(lists, tiling, job);
-  RawLoops loops(job.file("raw-loops"));
+  RawLoops loops(job.file("raw-loops"), job.config.selection.min_confidence);
   OpenRims open(job.file("open-rims"));
   job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) { follow_tile(lists, tiling, t, loops, open); });
   const auto rims = open.join();

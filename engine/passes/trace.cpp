@@ -405,8 +405,10 @@ class Tracer {
 }  // namespace
 
 void RawLoops::add(std::span<const Vertex> loop, double confidence) {
-  const std::uint64_t offset = vertices_.append(loop);
   const std::lock_guard lock(*mutex_);
+  ++found_;
+  if (confidence < min_confidence_) return;
+  const std::uint64_t offset = vertices_.append(loop);
   index_.push_back({offset, loop.size(), loop.front().id, confidence});
 }
 
