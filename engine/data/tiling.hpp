@@ -60,6 +60,10 @@ struct Tile {
   Row first_row{};           // its rows: [first_row, first_row + points)
   std::uint64_t raw = 0;     // points with duplicates
   std::uint64_t points = 0;  // distinct points; known after bucketing
+
+  bool owns(Row row) const { return value(row) - value(first_row) < points; }
+  LocalIndex local(Row row) const { return static_cast<LocalIndex>(value(row) - value(first_row)); }
+  Row row(LocalIndex owned) const { return Row{value(first_row) + owned}; }
 };
 
 using TileIndex = std::uint32_t;

@@ -82,7 +82,7 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& li
   store.for_each_point(index, add);
   std::for_each(sight.points.begin(), sight.points.end(), add);
   points.rows.reserve(tile.points + sight.rows.size());
-  for (std::uint64_t i = 0; i < tile.points; ++i) points.rows.push_back(Row{value(tile.first_row) + i});
+  for (LocalIndex i = 0; i < tile.points; ++i) points.rows.push_back(tile.row(i));
   points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
 
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {

@@ -72,38 +72,6 @@ struct SeenPoint {
   Sampling sampling;  // none of border points: theirs come later
 };
 
-// A star that is not settled within its tile.
-struct StoredStar {
-  PointId id;
-  LocalIndex owned;
-  float unevenness;  // of a measured one
-  StarPlace place;   // among the tile's stored corners
-};
-
-// A corner of one, and the agreement on the triangle that begins there.
-struct StoredCorner {
-  Row point;
-  float room;
-  Agreement agreement;
-};
-
-// Stars of one tile and their corners.
-struct StoredStars {
-  std::vector<StoredStar> stars;
-  std::vector<StoredCorner> corners;
-
-  void add(PointId id, LocalIndex owned, float unevenness) {
-    stars.push_back({id, owned, unevenness, {static_cast<std::uint32_t>(corners.size()), 0}});
-  }
-  void add_corner(const StoredCorner& corner) {  // of the last star
-    corners.push_back(corner);
-    ++stars.back().place.size;
-  }
-  std::span<const StoredCorner> operator[](const StoredStar& star) const {
-    return std::span(corners).subspan(star.place.begin, star.place.size);
-  }
-};
-
 // Stars by tile. Those of a tile are appended in one go or in several, by one thread at a time.
 class StarSpill {
  public:

@@ -269,14 +269,10 @@ class Linker {
   // p has q among its k nearest.
   void link(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
     const Tile& here = tiling_.tiles[tile_];
-    if (q_row >= here.first_row && value(q_row) < value(here.first_row) + here.points) return;
-    const TileIndex q_tile = tiling_.tile_of_row(q_row);
-    sent_.push_back({tile_, {q_row, q, local(p_row, tile_), 0}});
-    sent_.push_back({q_tile, {p_row, p, local(q_row, q_tile), 1}});
-  }
-
-  LocalIndex local(Row row, TileIndex tile) const {
-    return static_cast<LocalIndex>(value(row) - value(tiling_.tiles[tile].first_row));
+    if (here.owns(q_row)) return;
+    const TileIndex there = tiling_.tile_of_row(q_row);
+    sent_.push_back({tile_, {q_row, q, here.local(p_row), 0}});
+    sent_.push_back({there, {p_row, p, tiling_.tiles[there].local(q_row), 1}});
   }
 
   void send() {

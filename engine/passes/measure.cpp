@@ -36,7 +36,7 @@ void gather(std::vector<Wanted> wanted, const EvaluatedScan& scan, const Tiling&
   const std::vector<StoredVertex> vertices = scan.vertices.read(t);
   auto vertex = vertices.begin();
   for (const Wanted& w : wanted) {
-    const auto owned = static_cast<LocalIndex>(value(w.row) - value(tiling.tiles[t].first_row));
+    const auto owned = tiling.tiles[t].local(w.row);
     vertex = std::lower_bound(vertex, vertices.end(), owned,
                               [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
     assert(vertex != vertices.end() && vertex->owned == owned);

@@ -69,9 +69,8 @@ void add_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, Edg
   for (const OrientationCrossing& c : crossings) {
     const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
     if (!other.allFinite()) continue;
-    edges.add(
-        orientation_edge({points[c.owned].id, Row{value(tile.first_row) + c.owned}, vector(own[c.owned])},
-                         {c.foreign_id, c.foreign, other}));
+    edges.add(orientation_edge({points[c.owned].id, tile.row(c.owned), vector(own[c.owned])},
+                               {c.foreign_id, c.foreign, other}));
   }
 }
 

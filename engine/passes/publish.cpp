@@ -135,7 +135,7 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
     for (const StoredLoopPoint& p :
          loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
-      const auto owned = static_cast<LocalIndex>(value(p.row) - value(tiling.tiles[t].first_row));
+      const auto owned = tiling.tiles[t].local(p.row);
       letters[t].push_back({owned, name, p.probability, 0, p.point});
       if (letters[t].size() == kLetter) send(t);
     }
@@ -149,7 +149,7 @@ std::vector<Mark> boundary_of_tile(const EvaluatedScan& scan, const Tile& tile, 
   std::vector<Mark> marks = loop_marks.read(t);
   for (const StoredCandidate& c : scan.candidates.read(t)) {
     if (!boundary.contains(c.candidate.row)) continue;
-    const auto owned = static_cast<LocalIndex>(value(c.candidate.row) - value(tile.first_row));
+    const auto owned = tile.local(c.candidate.row);
     marks.push_back({owned, kNoLoop, c.probability, 1, c.point});
   }
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {

@@ -2,43 +2,17 @@
 
 #include "engine/passes/rounds.hpp"
 #include "engine/stages/ball_sizes.hpp"
+#include "engine/stages/open_stars.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace lacuna {
 namespace {
-
-// The star of `from` has the triangle (from, to, other); told to the tile of `to`.
-struct Claim {
-  LocalIndex to;
-  std::uint32_t padding = 0;
-  Row from, other;
-
-  friend bool operator<(const Claim& a, const Claim& b) {
-    return std::tie(a.to, a.from, a.other) < std::tie(b.to, b.from, b.other);
-  }
-};
-
-// One tile's rows.
-class Here {
- public:
-  Here(const Tiling& tiling, TileIndex tile)
-      : first_(value(tiling.tiles[tile].first_row)), points_(tiling.tiles[tile].points) {}
-
-  bool owns(Row row) const { return value(row) - first_ < points_; }
-  LocalIndex local(Row row) const { return static_cast<LocalIndex>(value(row) - first_); }
-  Row row(LocalIndex owned) const { return Row{first_ + owned}; }
-  std::uint64_t points() const { return points_; }
-
- private:
-  std::uint64_t first_, points_;
-};
 
 // Records on their way, gathered by the tile that they are for.
 template <class Record>
@@ -163,12 +137,12 @@ std::vector<Sampling> all_samplings(const Waiting& waiting, std::span<const Told
 }
 
 // Tells the tiles of a star's foreign corners of the triangles that it has with them.
-void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling& tiling, const Here& here,
+void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling& tiling, TileIndex t,
                     Letters<Claim>& letters) {
   const auto tell = [&](Row to, Row other) {
-    if (here.owns(to)) return;
-    const TileIndex tile = tiling.tile_of_row(to);
-    letters.add(tile, {Here(tiling, tile).local(to), 0, point, other});
+    if (tiling.tiles[t].owns(to)) return;
+    const TileIndex there = tiling.tile_of_row(to);
+    letters.add(there, {tiling.tiles[there].local(to), 0, point, other});
   };
   for (std::size_t i = 0; i < star.size(); ++i) {
     if (star[i].room > 0) continue;
@@ -178,114 +152,12 @@ void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling&
   }
 }
 
-// ---- rough points, and what all of them agree on
-
-// The measured stars of a tile that were not settled when it was evaluated: of all points that may become
-// rough, but for those that wait.
-class OpenStars {
- public:
-  OpenStars(const Here& here, const StarLists& lists, const StoredStars& stars, std::span<const Claim> claims)
-      : here_(here),
-        rough_(lists.rough),
-        unmeasured_(lists.unmeasured),
-        claims_(claims),
-        points_(stars.stars),
-        star_of_(here.points(), kNone) {
-    for (const StoredStar& star : stars.stars) {
-      star_of_[star.owned] = static_cast<std::uint32_t>(stars_.places.size());
-      stars_.places.push_back(star.place);
-    }
-    for (const StoredCorner& corner : stars.corners) {
-      stars_.corners.push_back({corner.point, corner.room});
-      stars_.agreements.push_back(corner.agreement);
-    }
-  }
-
-  // Corners of refused triangles of rough points are rough: until there are no more. visit(row): each
-  // point found.
-  template <class Visit>
-  void find_rough_points(Visit&& visit) {
-    std::vector<std::uint32_t> undone(points_.size());  // stars with a corner that is not rough
-    std::iota(undone.begin(), undone.end(), 0U);
-    for (bool go_on = true; go_on;) {
-      go_on = false;
-      std::erase_if(undone, [&](std::uint32_t s) {
-        if (!rough_.contains(row(s))) return false;
-        bool is_done = true;
-        const auto [begin, size] = stars_.places[s];
-        for (std::uint32_t c = begin; c < begin + size; ++c) {
-          const std::uint32_t next = c + 1 < begin + size ? c + 1 : begin;
-          const Row a = stars_.corners[c].point, b = stars_.corners[next].point;
-          const bool is_a_rough = rough_.contains(a), is_b_rough = rough_.contains(b);
-          if (is_a_rough && is_b_rough) continue;
-          if (!is_refused(s, c, next)) {
-            is_done = false;
-            continue;
-          }
-          if (!is_a_rough) visit(a);
-          if (!is_b_rough) visit(b);
-          go_on = true;
-        }
-        return is_done;
-      });
-    }
-  }
-
-  // visit(gap): each gap of rough points, now that all of these are known.
-  template <class Visit>
-  void for_each_gap(Visit&& visit) {
-    for (std::size_t s = 0; s < points_.size(); ++s) {
-      if (!rough_.contains(row(s))) continue;
-      const auto [begin, size] = stars_.places[s];
-      for (std::uint32_t c = begin; c < begin + size; ++c) {
-        if (!is_refused(s, c, c + 1 < begin + size ? c + 1 : begin))
-          stars_.agreements[c] = Agreement::kAgreed;
-      }
-      lacuna::for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s),
-                           [&](Row from, Row to, float room) {
-                             visit(Gap{{points_[s].id, row(s)}, from, to, room, points_[s].unevenness});
-                           });
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
-
-  Row row(std::size_t s) const { return here_.row(points_[s].owned); }
-
-  // The triangle that begins at corner a of star s.
-  bool is_refused(std::size_t s, std::uint32_t a, std::uint32_t b) {
-    Agreement& agreement = stars_.agreements[a];
-    if (agreement == Agreement::kOpen && (refuses(a, s, b) || refuses(b, s, a)))
-      agreement = Agreement::kRefused;
-    return agreement == Agreement::kRefused;
-  }
-
-  // The star of a corner is asked for its triangle with the point of star s and the other corner. If it has
-  // it, it is here, or it has told: the triangle could not be settled before.
-  bool refuses(std::uint32_t corner, std::size_t s, std::uint32_t other) const {
-    const Row point = stars_.corners[corner].point, third = stars_.corners[other].point;
-    if (!rough_.contains(point) || unmeasured_.contains(point)) return false;
-    if (!here_.owns(point))
-      return !std::binary_search(claims_.begin(), claims_.end(), Claim{points_[s].owned, 0, point, third});
-    const std::uint32_t star = star_of_[here_.local(point)];
-    return star == kNone || !has_triangle(stars_[star], row(s), third);
-  }
-
-  const Here& here_;
-  const RowSet &rough_, &unmeasured_;
-  std::span<const Claim> claims_;
-  std::span<const StoredStar> points_;
-  Stars<Row> stars_;
-  std::vector<std::uint32_t> star_of_;  // by owned index
-};
-
 // The tile itself and those with neighbours of its points.
 std::vector<TileIndex> tiles_around(const StarLists& lists, const Tiling& tiling, TileIndex t) {
   std::vector<TileIndex> tiles = {t};
   lists.waiting_sight.for_each(t, [&](const SeenPoint& p) {
     const Row row = p.vertex.row;
-    if (!Here(tiling, t).owns(row) && !Here(tiling, tiles.back()).owns(row))
+    if (!tiling.tiles[t].owns(row) && !tiling.tiles[tiles.back()].owns(row))
       tiles.push_back(tiling.tile_of_row(row));
   });
   return tiles;
@@ -307,7 +179,7 @@ class Seams {
   void find_border_stars(TileIndex t, Wanted wanted) {
     if (is_found_[t]) return;
     is_found_[t] = wanted == Wanted::kAll;
-    const Here here(tiling_, t);
+    const Tile& here = tiling_.tiles[t];
     const Waiting waiting(lists_, t);
     const std::vector<StarQuery> queries = border_points(waiting, lists_.rough, wanted, told_);
     if (queries.empty()) return;
@@ -340,7 +212,7 @@ class Seams {
   void measure_stars(TileIndex t, Wanted wanted) {
     if (is_measured_[t]) return;
     is_measured_[t] = wanted == Wanted::kAll;
-    const Here here(tiling_, t);
+    const Tile& here = tiling_.tiles[t];
     const Waiting waiting(lists_, t);
     const std::vector<Surroundings> points = waiting_points(waiting, lists_, wanted);
     if (points.empty()) return;
@@ -362,7 +234,7 @@ class Seams {
         if (corner.room > 0) corner.agreement = Agreement::kRefused;
         measured.add_corner(corner);
       }
-      tell_triangles(point.row, measured[measured.stars.back()], tiling_, here, letters);
+      tell_triangles(point.row, measured[measured.stars.back()], tiling_, t, letters);
     });
     lists_.open.append(t, std::move(measured));
     letters.send(claims_);
@@ -371,23 +243,20 @@ class Seams {
   // Goes on from rough point to rough point. visit(tile): tiles with new ones that others have to know of.
   template <class Visit>
   void find_rough_points(TileIndex t, Visit&& visit) {
-    const Here here(tiling_, t);
+    const Tile& here = tiling_.tiles[t];
     const StoredStars open = lists_.open.read(t);
     const std::vector<Claim> claims = sorted_claims(t);
-    OpenStars(here, lists_, open, claims).find_rough_points([&](Row row) {
-      if (!lists_.rough.insert(row)) return;
-      if (lists_.unmeasured.contains(row) || !here.owns(row) || is_claimed(here.local(row), claims))
+    OpenStars(here, lists_.rough, lists_.unmeasured, open, claims).find_rough_points([&](Row row) {
+      if (!here.owns(row) || lists_.unmeasured.contains(row) || is_claimed(claims, here.local(row)))
         visit(tiling_.tile_of_row(row));
     });
   }
 
   void find_gaps(TileIndex t) {
-    const Here here(tiling_, t);
     const StoredStars open = lists_.open.read(t);
     const std::vector<Claim> claims = sorted_claims(t);
-    std::vector<Gap> gaps;
-    OpenStars(here, lists_, open, claims).for_each_gap([&](const Gap& gap) { gaps.push_back(gap); });
-    lists_.open_gaps.append(t, gaps);
+    OpenStars stars(tiling_.tiles[t], lists_.rough, lists_.unmeasured, open, claims);
+    lists_.open_gaps.append(t, stars.gaps());
   }
 
  private:
@@ -396,7 +265,7 @@ class Seams {
     std::vector<TileIndex> tiles = {tiling_.tile_of_row(waiting.row(query.point))};
     for (const LocalIndex q : query.neighbours) {
       const Row row = waiting.row(q);
-      if (!Here(tiling_, tiles.front()).owns(row) && !Here(tiling_, tiles.back()).owns(row))
+      if (!tiling_.tiles[tiles.front()].owns(row) && !tiling_.tiles[tiles.back()].owns(row))
         tiles.push_back(tiling_.tile_of_row(row));
     }
     std::sort(tiles.begin(), tiles.end());
@@ -408,11 +277,6 @@ class Seams {
     std::vector<Claim> claims = claims_.read(t);
     std::sort(claims.begin(), claims.end());
     return claims;
-  }
-  static bool is_claimed(LocalIndex point, std::span<const Claim> claims) {
-    const auto claim = std::partition_point(claims.begin(), claims.end(),
-                                            [&](const Claim& claim) { return claim.to < point; });
-    return claim != claims.end() && claim->to == point;
   }
 
   StarLists& lists_;

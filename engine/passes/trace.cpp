@@ -52,9 +52,6 @@ void judge_crossings(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, con
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
-  const auto index_in = [&](TileIndex tile, Row row) {
-    return static_cast<LocalIndex>(value(row) - value(tiling.tiles[tile].first_row));
-  };
   RunReader<Strength> foreign(scan.edges.strengths);
   std::vector<SeamEdge> here;
   for (const StoredCrossing& c : crossings) {
@@ -63,9 +60,9 @@ void judge_crossings(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, con
     if (is_strong(other.probability, config) && c.foreign.id < c.own.id) continue;
     const double weight = eligible_weight(c.strength, other, c.distance, config);
     if (weight < 0) continue;
-    here.push_back({index_in(t, c.own.row), c.own, c.foreign, weight});
+    here.push_back({tiling.tiles[t].local(c.own.row), c.own, c.foreign, weight});
     const TileIndex there = tiling.tile_of_row(c.foreign.row);
-    seams.append(there, {index_in(there, c.foreign.row), c.foreign, c.own, weight});
+    seams.append(there, {tiling.tiles[there].local(c.foreign.row), c.foreign, c.own, weight});
   }
   seams.append(t, here);
 }
@@ -169,7 +166,7 @@ class TileVertices {
       : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
     for (LocalIndex v = 0; v < own_; ++v) {
       numbers_[own[v].owned] = v;
-      rows_.push_back(Row{value(tile.first_row) + own[v].owned});
+      rows_.push_back(tile.row(own[v].owned));
       ids_.push_back(own[v].point.id);
     }
     for (const SeamEdge& seam : seams) foreign_.push_back(seam.foreign.row);
@@ -386,8 +383,6 @@ class Tracer {
     }
     return ends.first(count);
   }
-
-  static Row row(const Tile& tile, LocalIndex p) { return Row{value(tile.first_row) + p}; }
 
   EvaluatedScan& scan_;
   const TileStore& store_;
