@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace lacuna {
 
@@ -10,5 +11,10 @@ class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+// The input is read twice; it was not the same. `how`: what shows it.
+[[noreturn]] inline void fail_changed(const std::string& how) {
+  throw Error("the input changed while it was read: " + how);
+}
 
 }  // namespace lacuna

@@ -39,8 +39,7 @@ void PointColumn::write_single(Column<SinglePoint>& column, std::uint64_t row,
       is_exact &= (s.x == p.x) & (s.y == p.y) & (s.z == p.z) & (s.id == value(p.id));
       part[i] = s;
     }
-    if (!is_exact)
-      throw Error("the input changed while it was read: a coordinate has more digits than before");
+    if (!is_exact) fail_changed("a coordinate has more digits than before");
     column.write(row + first, std::span(part).first(count));
   }
 }

@@ -8,9 +8,7 @@
 namespace lacuna {
 namespace {
 
-[[noreturn]] void fail_changed() {
-  throw Error("the input changed while it was read: not the points that were counted");
-}
+constexpr const char* kOtherPoints = "not the points that were counted";
 
 std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
   std::vector<std::uint64_t> rows;
@@ -89,7 +87,7 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
   Tile& tile = tiling_.tiles[index];
   assert(cell_points.size() == tile.last_cell - tile.first_cell);
   if (points.size() > tile.raw)  // its rows would run into the next tile's
-    fail_changed();
+    fail_changed(kOtherPoints);
   tile.points = points.size();
   std::uint64_t row = value(tile.first_row);
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
@@ -120,14 +118,14 @@ void TileStore::Filler::append(TileIndex tile, std::span<const StoredPoint> poin
   // One lock for both: points and normals of a tile stay in the same order.
   const std::lock_guard lock(filled.mutex);
   filled.points += points.size();
-  if (filled.points > tiling_.tiles[tile].raw) fail_changed();
+  if (filled.points > tiling_.tiles[tile].raw) fail_changed(kOtherPoints);
   points_.append(tile, points);
   if (normals_) normals_->append(tile, normals);
 }
 
 void TileStore::Filler::finish() {
   for (std::size_t tile = 0; tile < filled_.size(); ++tile) {
-    if (filled_[tile].points != tiling_.tiles[tile].raw) fail_changed();
+    if (filled_[tile].points != tiling_.tiles[tile].raw) fail_changed(kOtherPoints);
   }
   points_.finish();
   if (normals_) normals_->finish();

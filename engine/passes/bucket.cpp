@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-[[noreturn]] void fail_changed() {
-  throw Error("the input changed while it was read: a point lies where none was counted");
-}
-
 // The tile of every cell.
 std::vector<TileIndex> tiles_of_cells(const Tiling& tiling) {
   std::vector<TileIndex> tiles(tiling.cells.size());
@@ -49,7 +45,7 @@ void Scattered::scatter(const CellIndex& index, std::span<const TileIndex> tile_
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const std::uint32_t cell = tiles[i];
     const bool finite = batch.positions[i].allFinite();
-    if (finite && cell == CellIndex::kNoCell) fail_changed();
+    if (finite && cell == CellIndex::kNoCell) fail_changed("a point lies where none was counted");
     tiles[i] = finite ? tile_of[cell] : static_cast<TileIndex>(tile_count);
     ++ends[tiles[i] + 1];
   }
