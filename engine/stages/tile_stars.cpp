@@ -51,7 +51,7 @@ class TileStarFinder {
  private:
   // What has become of a point.
   enum Mark : std::uint8_t {
-    kSeated = 1,  // it has a seat
+    kSeated = 1,  // it has a seat, or is about to
     kWanted = 2,  // its star has been asked for, or is not found here
     kEntered = 4  // it is rough or unsure
   };
@@ -127,32 +127,32 @@ class TileStarFinder {
     wanted_.push_back(p);
   }
 
-  // Points that are wanted, and their neighbours.
+  // Wanted points and their neighbours.
   void seat_wanted() {
+    list_unseated();
+    for (std::size_t i = 0; i < seating_.size(); ++i) {
+      if (i + kAhead < seating_.size()) {
+        const LocalIndex ahead = seating_[i + kAhead];
+        __builtin_prefetch(&evaluations_[ahead]);
+        __builtin_prefetch(&evaluations_[ahead].normal);
+        __builtin_prefetch(&points_.positions[ahead]);
+      }
+      const LocalIndex p = seating_[i];
+      seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+    }
+  }
+
+  void list_unseated() {
     seating_.clear();
-    const auto sit = [&](LocalIndex p) {
+    const auto list = [&](LocalIndex p) {
       if ((marks_[p] & kSeated) != 0) return;
       marks_[p] |= kSeated;
       seating_.push_back(p);
     };
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      if (i + kAhead < wanted_.size()) {
-        const std::span<const LocalIndex> ahead = neighbourhoods_[wanted_[i + kAhead]];
-        __builtin_prefetch(ahead.data());
-        __builtin_prefetch(ahead.data() + 15);
-      }
-      sit(wanted_[i]);
-      for (const LocalIndex q : neighbourhoods_[wanted_[i]]) sit(q);
-    }
-    for (std::size_t i = 0; i < seating_.size(); ++i) {
-      if (i + kAhead < seating_.size()) {
-        const Evaluation& ahead = evaluations_[seating_[i + kAhead]];
-        __builtin_prefetch(&ahead);
-        __builtin_prefetch(&ahead.normal);
-        __builtin_prefetch(&points_.positions[seating_[i + kAhead]]);
-      }
-      const LocalIndex p = seating_[i];
-      seats_[p] = seat_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+      if (i + kAhead < wanted_.size()) __builtin_prefetch(neighbourhoods_[wanted_[i + kAhead]].data());
+      list(wanted_[i]);
+      for (const LocalIndex q : neighbourhoods_[wanted_[i]]) list(q);
     }
   }
 
