@@ -136,7 +136,7 @@ void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
             << run.estimate.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
             << "\n  threads       " << summary.threads << "\n  workspace     "
             << print_size(run.estimate.workspace_bytes)
-            << " on disk; up to six times that if the scan is noisy"
+            << " on disk; up to three times that if the scan is noisy"
             << "\n  points.ply    " << print_size(run.points_ply_bytes) << ", with --points"
             << "\n  other output  depends on the holes found"
             << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
