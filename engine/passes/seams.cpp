@@ -152,15 +152,33 @@ void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling&
   }
 }
 
-// The tile itself and those with neighbours of its points.
-std::vector<TileIndex> tiles_around(const StarLists& lists, const Tiling& tiling, TileIndex t) {
+// The tile itself and those of some rows; each once, in ascending order. for_each_row(visit): calls
+// visit(row).
+template <class ForEachRow>
+std::vector<TileIndex> tiles_with(TileIndex t, const Tiling& tiling, ForEachRow&& for_each_row) {
   std::vector<TileIndex> tiles = {t};
-  lists.waiting_sight.for_each(t, [&](const SeenPoint& p) {
-    const Row row = p.vertex.row;
+  for_each_row([&](Row row) {
     if (!tiling.tiles[t].owns(row) && !tiling.tiles[tiles.back()].owns(row))
       tiles.push_back(tiling.tile_of_row(row));
   });
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
   return tiles;
+}
+
+// The tile itself and those with neighbours of its points.
+std::vector<TileIndex> tiles_around(TileIndex t, const Tiling& tiling, const StarLists& lists) {
+  return tiles_with(t, tiling, [&](auto&& visit) {
+    lists.waiting_sight.for_each(t, [&](const SeenPoint& p) { visit(p.vertex.row); });
+  });
+}
+
+// The tile of a point and those of its neighbours.
+std::vector<TileIndex> tiles_around(TileIndex t, const Tiling& tiling, const StarQuery& query,
+                                    const Waiting& waiting) {
+  return tiles_with(t, tiling, [&](auto&& visit) {
+    for (const LocalIndex q : query.neighbours) visit(waiting.row(q));
+  });
 }
 
 // What the tiles tell each other.
@@ -199,7 +217,7 @@ class Seams {
             for (std::size_t c = 0; c < star.size(); ++c)
               stars.add_corner(
                   {waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
-            for (const TileIndex tile : tiles_of(query, waiting))
+            for (const TileIndex tile : tiles_around(t, tiling_, query, waiting))
               letters.add(tile, {point.row, samplings[i]});
           }
         });
@@ -260,19 +278,6 @@ class Seams {
   }
 
  private:
-  // Of a point and its neighbours.
-  std::vector<TileIndex> tiles_of(const StarQuery& query, const Waiting& waiting) const {
-    std::vector<TileIndex> tiles = {tiling_.tile_of_row(waiting.row(query.point))};
-    for (const LocalIndex q : query.neighbours) {
-      const Row row = waiting.row(q);
-      if (!tiling_.tiles[tiles.front()].owns(row) && !tiling_.tiles[tiles.back()].owns(row))
-        tiles.push_back(tiling_.tile_of_row(row));
-    }
-    std::sort(tiles.begin(), tiles.end());
-    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-    return tiles;
-  }
-
   std::vector<Claim> sorted_claims(TileIndex t) const {
     std::vector<Claim> claims = claims_.read(t);
     std::sort(claims.begin(), claims.end());
@@ -298,7 +303,7 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   std::vector<TileIndex> all(tiles);
   std::iota(all.begin(), all.end(), TileIndex{0});
   std::vector<std::vector<TileIndex>> around(tiles);
-  for_each(all, [&](TileIndex t) { around[t] = tiles_around(lists, tiling, t); });
+  for_each(all, [&](TileIndex t) { around[t] = tiles_around(t, tiling, lists); });
 
   // Rims that go from tile to tile take a round or two. It takes more where points are rough along a border,
   // one after the other: then no star there is spared.
