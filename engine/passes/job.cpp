@@ -56,7 +56,7 @@ std::uint64_t Job::tile_bytes(std::uint64_t points) const {
 
 std::uint64_t Job::tile_points(std::uint64_t points) const {
   constexpr std::uint64_t kLeast = 256;         // below, a tile is all border
-  constexpr std::uint64_t kMost = 256 << 10;    // larger tiles leave the cache and gain little
+  constexpr std::uint64_t kMost = 256 << 10;    // smaller ones have more border; larger ones gain little
   constexpr std::uint64_t kTilesPerThread = 2;  // so that the last tiles do not leave threads idle
   const std::uint64_t threads = crew.threads();
   const std::uint64_t affordable = std::max(memory.tiles / threads / tile_bytes(1024) * 1024, kLeast);
