@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 
 #if defined(__AVX2__)
@@ -61,6 +62,81 @@ LACUNA_INLINE bool any(LaneBits mask) {
   std::int64_t some = 0;
   for (std::size_t i = 0; i < kLanes; ++i) some |= mask[i];
   return some != 0;
+#endif
+}
+
+// A bit for each lane whose number is at most the limit.
+LACUNA_INLINE std::uint32_t lanes_up_to(Lanes numbers, double limit) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(numbers, all_lanes(limit), _CMP_LE_OQ);
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(numbers <= limit));
+#else
+  std::uint32_t chosen = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) chosen |= static_cast<std::uint32_t>(numbers[i] <= limit) << i;
+  return chosen;
+#endif
+}
+
+#if defined(__AVX2__) && !defined(__AVX512F__)
+// The numbers of the lanes that are chosen, one after the other, in units of 4 bytes; by the bits of the choice.
+template <std::size_t kUnits>
+struct PackedLanes {
+  alignas(kLaneBytes) std::int32_t places[1 << kLanes][kLanes * kUnits];
+
+  consteval PackedLanes() : places{} {
+    for (std::size_t chosen = 0; chosen < std::size(places); ++chosen) {
+      std::size_t count = 0;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if ((chosen >> lane & 1) == 0) continue;
+        for (std::size_t unit = 0; unit < kUnits; ++unit)
+          places[chosen][count++] = static_cast<std::int32_t>(lane * kUnits + unit);
+      }
+    }
+  }
+};
+#endif
+
+// Stores the chosen lanes one after the other; writes a whole register. Returns how many there are.
+LACUNA_INLINE std::size_t pack(double* to, Lanes lanes, std::uint32_t chosen) {
+#if defined(__AVX512F__)
+  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(chosen), lanes));
+  return static_cast<std::size_t>(__builtin_popcount(chosen));
+#elif defined(__AVX2__)
+  static constexpr PackedLanes<2> kPacked;
+  const __m256i places = _mm256_load_si256(reinterpret_cast<const __m256i*>(kPacked.places[chosen]));
+  store(to, reinterpret_cast<Lanes>(_mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(lanes), places)));
+  return static_cast<std::size_t>(__builtin_popcount(chosen));
+#else
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    to[count] = lanes[i];
+    count += chosen >> i & 1;
+  }
+  return count;
+#endif
+}
+
+// The same of kLanes numbers.
+LACUNA_INLINE std::size_t pack(std::uint32_t* to, const std::uint32_t* numbers, std::uint32_t chosen) {
+#if defined(__AVX512F__)
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), all));
+  return static_cast<std::size_t>(__builtin_popcount(chosen));
+#elif defined(__AVX2__)
+  static constexpr PackedLanes<1> kPacked;
+  const __m128 all = _mm_loadu_ps(reinterpret_cast<const float*>(numbers));
+  const __m128i places = _mm_load_si128(reinterpret_cast<const __m128i*>(kPacked.places[chosen]));
+  _mm_storeu_ps(reinterpret_cast<float*>(to), _mm_permutevar_ps(all, places));
+  return static_cast<std::size_t>(__builtin_popcount(chosen));
+#else
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    to[count] = numbers[i];
+    count += chosen >> i & 1;
+  }
+  return count;
 #endif
 }
 
@@ -129,7 +205,7 @@ LACUNA_INLINE Real magnitude(Real x) {
   return from_bits(bits(x) & INT64_MAX);
 }
 
-// exp(x) for -600 <= x <= 0, to 2 units in the last place; 0 from -700 down.
+// exp(x) for -600 <= x <= 0, to 1e-14; 0 from -700 down.
 template <class Real>
 LACUNA_INLINE Real exponential(Real x) {
   constexpr double kLn2High = 6.93145751953125e-1, kLn2Low = 1.42860682030941723212e-6;
@@ -138,22 +214,20 @@ LACUNA_INLINE Real exponential(Real x) {
   const Real shifted = bounded * std::numbers::log2e + kRound;
   const Real n = shifted - kRound;
   const Real r = (bounded - n * kLn2High) - n * kLn2Low;  // |r| <= ln 2 / 2
-  // Taylor to r^13: the next term is below 1e-17.
-  Real sum = r * (1.0 / 6227020800) + 1.0 / 479001600;
-  sum = sum * r + 1.0 / 39916800;
-  sum = sum * r + 1.0 / 3628800;
-  sum = sum * r + 1.0 / 362880;
-  sum = sum * r + 1.0 / 40320;
-  sum = sum * r + 1.0 / 5040;
-  sum = sum * r + 1.0 / 720;
-  sum = sum * r + 1.0 / 120;
-  sum = sum * r + 1.0 / 24;
-  sum = sum * r + 1.0 / 6;
-  sum = sum * r + 0.5;
-  sum = sum * r + 1.0;
-  sum = sum * r + 1.0;
+  // Taylor to r^11: the next term is below 7e-15. Even and odd powers apart: neither waits for the other.
+  const Real z = r * r;
+  Real even = z * (1.0 / 3628800) + 1.0 / 40320;
+  Real odd = z * (1.0 / 39916800) + 1.0 / 362880;
+  even = even * z + 1.0 / 720;
+  odd = odd * z + 1.0 / 5040;
+  even = even * z + 1.0 / 24;
+  odd = odd * z + 1.0 / 120;
+  even = even * z + 0.5;
+  odd = odd * z + 1.0 / 6;
+  even = even * z + 1.0;
+  odd = odd * z + 1.0;
   const Real power = from_bits((bits(shifted) + 1023) << 52);
-  return select(x > -700.0, sum * power, Real{});
+  return select(x > -700.0, (even + odd * r) * power, Real{});
 }
 
 // The angle of the direction (x, y) in [-pi, pi], to 2 units in the last place; (0, 0) gives 0.
