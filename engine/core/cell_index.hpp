@@ -21,7 +21,7 @@ class CellIndex {
   // The cell of each position; `kNoCell` where none was counted. From any thread.
   void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> cells) const;
 
-  // Writes grids `points` and `tile` over the cells, for OpenVDB's own tools.
+  // Writes grids `points`, as counted, and `tile` over the cells, for OpenVDB's own tools.
   static void save(const Tiling& tiling, const std::filesystem::path& file);
 
  private:

@@ -79,7 +79,8 @@ LACUNA_INLINE std::uint32_t lanes_up_to(Lanes numbers, double limit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// The numbers of the lanes that are chosen, one after the other, in units of 4 bytes; by the bits of the choice.
+// The numbers of the lanes that are chosen, one after the other, in units of 4 bytes; by the bits of the
+// choice.
 template <std::size_t kUnits>
 struct PackedLanes {
   alignas(kLaneBytes) std::int32_t places[1 << kLanes][kLanes * kUnits];

@@ -148,7 +148,8 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job
   Phase phase(job, "bucket", 2 * points);
   const CellIndex index(tiling);
   TileStore store(job.workspace, std::move(tiling), precision, scan.has_normals(), job.memory.spills / 8);
-  fill(store, scan, index, job, phase);
+  job.crew.both([&] { fill(store, scan, index, job, phase); },
+                [&] { CellIndex::save(store.tiling(), job.file("index.vdb")); });
 
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : store.tiling().tiles) needs.push_back(tile.raw * 120);
@@ -164,7 +165,6 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job
     phase.advance(raw.size());
   });
   store.seal();
-  CellIndex::save(store.tiling(), job.file("index.vdb"));
   return store;
 }
 
