@@ -68,6 +68,18 @@ TileIndex Tiling::tile_of_row(Row row) const {
   return static_cast<TileIndex>(after - tiles.begin() - 1);
 }
 
+std::vector<TileIndex> Tiling::tiles_of(std::span<const Row> rows) const {
+  std::vector<TileIndex> found;
+  for (const Row row : rows) {
+    // The one found last is asked first: rows mostly come in runs.
+    const bool is_new =
+        std::none_of(found.rbegin(), found.rend(), [&](TileIndex t) { return tiles[t].owns(row); });
+    if (is_new) found.push_back(tile_of_row(row));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::uint64_t Tiling::row_count() const {
   return tiles.empty() ? 0 : value(tiles.back().first_row) + tiles.back().raw;
 }

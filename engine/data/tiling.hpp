@@ -79,6 +79,7 @@ struct Tiling {
 
   TileIndex tile_of_cell(std::uint32_t cell) const;
   TileIndex tile_of_row(Row row) const;
+  std::vector<TileIndex> tiles_of(std::span<const Row> rows) const;  // each once, in ascending order
   Eigen::AlignedBox3d box(const CellNode& node) const { return grid.box(node.low, node.high); }
   Eigen::AlignedBox3d cell_box(std::uint32_t cell) const {
     return grid.box(cells[cell].coord, cells[cell].coord);

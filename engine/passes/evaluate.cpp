@@ -147,6 +147,7 @@ StarLists::StarLists(const TileStore& store, const Job& job)
     : waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
+      around(store.tiling().tiles.size()),
       seats(job.file("seats")),
       rough(store.tiling().row_count()),
       unmeasured(store.tiling().row_count()),

@@ -114,10 +114,11 @@ struct StarLists {
 
   void drop_waiting(TileIndex tile);  // all but the gaps
 
-  Spill<WaitingPoint> waiting;           // in ascending owned index
-  Spill<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
-  Spill<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
-  Column<Seat> seats;                    // by row, of border points and their neighbours
+  Spill<WaitingPoint> waiting;                 // in ascending owned index
+  Spill<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
+  Spill<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
+  std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
+  Column<Seat> seats;                          // by row, of border points and their neighbours
   RowSet rough;
   RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
   StarSpill found;       // stars of waiting points as they are found

@@ -1,5 +1,6 @@
 #include "engine/passes/links.hpp"
 
+#include "engine/passes/letters.hpp"
 #include "engine/stages/block_search.hpp"
 #include "engine/stages/reach.hpp"
 
@@ -158,7 +159,7 @@ class BorderPlan {
 class Linker {
  public:
   Linker(const TileStore& store, std::size_t k, TileIndex tile, Spill<Link>& inboxes)
-      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), inboxes_(inboxes) {}
+      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), letters_(inboxes) {}
 
   void link_group(const Group& group) {
     std::vector<StoredPoint> stored;
@@ -180,7 +181,6 @@ class Linker {
         for (const LocalIndex q : found) link(stored[p], rows[p], stored[q], rows[q]);
       });
     }
-    send();
   }
 
   void link_far_cell(std::uint32_t cell) {
@@ -188,8 +188,9 @@ class Linker {
     for (std::size_t i = 0; i < points.size(); ++i) {
       link_far_point(points[i], Row{value(tiling_.cell_rows[cell]) + i});
     }
-    send();
   }
+
+  void send() { letters_.send(); }
 
  private:
   struct Found {
@@ -271,32 +272,15 @@ class Linker {
     const Tile& here = tiling_.tiles[tile_];
     if (here.owns(q_row)) return;
     const TileIndex there = tiling_.tile_of_row(q_row);
-    sent_.push_back({tile_, {q_row, q, here.local(p_row), 0}});
-    sent_.push_back({there, {p_row, p, tiling_.tiles[there].local(q_row), 1}});
+    letters_.add(tile_, {q_row, q, here.local(p_row), 0});
+    letters_.add(there, {p_row, p, tiling_.tiles[there].local(q_row), 1});
   }
 
-  void send() {
-    std::stable_sort(sent_.begin(), sent_.end(), [](const auto& a, const auto& b) { return a.to < b.to; });
-    std::vector<Link> letter;
-    for (std::size_t i = 0; i < sent_.size();) {
-      const TileIndex to = sent_[i].to;
-      letter.clear();
-      for (; i < sent_.size() && sent_[i].to == to; ++i) letter.push_back(sent_[i].link);
-      inboxes_.append(to, letter);
-    }
-    sent_.clear();
-  }
-
-  struct Sent {
-    TileIndex to;
-    Link link;
-  };
   const TileStore& store_;
   const Tiling& tiling_;
   std::size_t k_;
   TileIndex tile_;
-  Spill<Link>& inboxes_;
-  std::vector<Sent> sent_;
+  Letters<Link> letters_;
   std::unordered_map<std::uint32_t, std::vector<StoredPoint>> cache_;
   std::uint64_t cached_points_ = 0;
 };
@@ -317,6 +301,7 @@ Spill<Link> link_tiles(const TileStore& store, Job& job) {
     Linker linker(store, k, static_cast<TileIndex>(t), inboxes);
     for (const Group& group : plan.border().groups) linker.link_group(group);
     for (const std::uint32_t cell : plan.border().far_cells) linker.link_far_cell(cell);
+    linker.send();
     phase.advance(tile.points);
   });
   return inboxes;

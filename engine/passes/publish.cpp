@@ -1,6 +1,7 @@
 #include "engine/passes/publish.hpp"
 
 #include "engine/core/external_sort.hpp"
+#include "engine/passes/letters.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -122,12 +123,7 @@ class WorkspaceDetection final : public Detection {
 // Every point on a loop, to its tile.
 void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
                 Spill<Mark>& marks) {
-  constexpr std::size_t kLetter = 1024;
-  std::vector<std::vector<Mark>> letters(tiling.tiles.size());
-  const auto send = [&](TileIndex t) {
-    marks.append(t, letters[t]);
-    letters[t].clear();
-  };
+  Letters<Mark> letters(marks);
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
     const bool reported = next_selected < selected.size() && selected[next_selected] == i;
@@ -136,11 +132,10 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
          loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = tiling.tiles[t].local(p.row);
-      letters[t].push_back({owned, name, p.probability, 0, p.point});
-      if (letters[t].size() == kLetter) send(t);
+      letters.add(t, {owned, name, p.probability, 0, p.point});
     }
   }
-  for (TileIndex t = 0; t < letters.size(); ++t) send(t);
+  letters.send();
 }
 
 // A tile's boundary points, each once: coherent or on a loop.

@@ -172,7 +172,9 @@ class TileRecorder {
                        [&](LocalIndex a, LocalIndex b) { return points_.rows[a] < points_.rows[b]; });
     std::vector<LocalIndex> place(points_.size());
     std::vector<SeenPoint> in_sight;
+    std::vector<Row> rows;
     for (const LocalIndex p : seen) {
+      rows.push_back(points_.rows[p]);
       place[p] = static_cast<LocalIndex>(in_sight.size());
       in_sight.push_back({vertex(p), points_.is_owned(p) ? found.samplings[p] : Sampling{}});
     }
@@ -192,6 +194,7 @@ class TileRecorder {
     scan_.stars.waiting.append(tile_, waiting);
     scan_.stars.waiting_neighbours.append(tile_, neighbours);
     scan_.stars.waiting_sight.append(tile_, in_sight);
+    scan_.stars.around[tile_] = store_.tiling().tiles_of(rows);
     const std::vector<std::uint8_t> is_seated =
         with_neighbours([&](LocalIndex p) { return is_border_[p] != 0; });
     record_runs(scan_.stars.seats, std::span(is_seated).first(points_.owned),

@@ -1,31 +1,18 @@
 #include "engine/passes/seams.hpp"
 
+#include "engine/passes/letters.hpp"
 #include "engine/passes/rounds.hpp"
 #include "engine/stages/ball_sizes.hpp"
 #include "engine/stages/open_stars.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
 namespace lacuna {
 namespace {
-
-// Records on their way, gathered by the tile that they are for.
-template <class Record>
-class Letters {
- public:
-  void add(TileIndex tile, const Record& record) { letters_[tile].push_back(record); }
-  void send(Spill<Record>& post) const {
-    for (const auto& [tile, letter] : letters_) post.append(tile, letter);
-  }
-
- private:
-  std::map<TileIndex, std::vector<Record>> letters_;
-};
 
 // Of a border point; told to its own tile and to those of its neighbours.
 struct ToldSampling {
@@ -152,33 +139,11 @@ void tell_triangles(Row point, std::span<const StoredCorner> star, const Tiling&
   }
 }
 
-// The tile itself and those of some rows; each once, in ascending order. for_each_row(visit): calls
-// visit(row).
-template <class ForEachRow>
-std::vector<TileIndex> tiles_with(TileIndex t, const Tiling& tiling, ForEachRow&& for_each_row) {
-  std::vector<TileIndex> tiles = {t};
-  for_each_row([&](Row row) {
-    if (!tiling.tiles[t].owns(row) && !tiling.tiles[tiles.back()].owns(row))
-      tiles.push_back(tiling.tile_of_row(row));
-  });
-  std::sort(tiles.begin(), tiles.end());
-  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-  return tiles;
-}
-
-// The tile itself and those with neighbours of its points.
-std::vector<TileIndex> tiles_around(TileIndex t, const Tiling& tiling, const StarLists& lists) {
-  return tiles_with(t, tiling, [&](auto&& visit) {
-    lists.waiting_sight.for_each(t, [&](const SeenPoint& p) { visit(p.vertex.row); });
-  });
-}
-
 // The tile of a point and those of its neighbours.
-std::vector<TileIndex> tiles_around(TileIndex t, const Tiling& tiling, const StarQuery& query,
-                                    const Waiting& waiting) {
-  return tiles_with(t, tiling, [&](auto&& visit) {
-    for (const LocalIndex q : query.neighbours) visit(waiting.row(q));
-  });
+std::vector<TileIndex> tiles_around(const StarQuery& query, const Waiting& waiting, const Tiling& tiling) {
+  std::vector<Row> rows = {waiting.row(query.point)};
+  for (const LocalIndex q : query.neighbours) rows.push_back(waiting.row(q));
+  return tiling.tiles_of(rows);
 }
 
 // What the tiles tell each other.
@@ -204,7 +169,7 @@ class Seams {
 
     const std::vector<Seat> seats = read_seats(queries, waiting, lists_.seats);
     StoredStars stars;
-    Letters<ToldSampling> letters;
+    Letters<ToldSampling> letters(samplings_);
     StarFinder(seats).for_each_bundle(
         queries.size(), [&](std::size_t i) { return queries[i]; },
         [&](std::size_t first, std::span<const FoundStar> bundle) {
@@ -217,12 +182,12 @@ class Seams {
             for (std::size_t c = 0; c < star.size(); ++c)
               stars.add_corner(
                   {waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
-            for (const TileIndex tile : tiles_around(t, tiling_, query, waiting))
+            for (const TileIndex tile : tiles_around(query, waiting, tiling_))
               letters.add(tile, {point.row, samplings[i]});
           }
         });
     lists_.found.append(t, std::move(stars));
-    letters.send(samplings_);
+    letters.send();
   }
 
   // Stars of waiting points; what the stars of their neighbours tell of the sampling is known. They tell the
@@ -238,7 +203,7 @@ class Seams {
     const std::vector<Sampling> samplings = all_samplings(waiting, samplings_.read(t));
     const StoredStars found = lists_.found.read(t);
     StoredStars measured;
-    Letters<Claim> letters;
+    Letters<Claim> letters(claims_);
     auto star = found.stars.begin();
     const auto surroundings = [&](std::size_t i) { return points[i]; };
     BallSizer(samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
@@ -255,7 +220,7 @@ class Seams {
       tell_triangles(point.row, measured[measured.stars.back()], tiling_, t, letters);
     });
     lists_.open.append(t, std::move(measured));
-    letters.send(claims_);
+    letters.send();
   }
 
   // Goes on from rough point to rough point. visit(tile): tiles with new ones that others have to know of.
@@ -302,8 +267,6 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   Seams seams(lists, tiling, job);
   std::vector<TileIndex> all(tiles);
   std::iota(all.begin(), all.end(), TileIndex{0});
-  std::vector<std::vector<TileIndex>> around(tiles);
-  for_each(all, [&](TileIndex t) { around[t] = tiles_around(t, tiling, lists); });
 
   // Rims that go from tile to tile take a round or two. It takes more where points are rough along a border,
   // one after the other: then no star there is spared.
@@ -312,7 +275,8 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
     const Wanted wanted = ++round <= kFewRounds ? Wanted::kOfRoughPoints : Wanted::kAll;
     std::set<TileIndex> with_these;
-    for (const TileIndex t : rounds.tiles()) with_these.insert(around[t].begin(), around[t].end());
+    for (const TileIndex t : rounds.tiles())
+      with_these.insert(lists.around[t].begin(), lists.around[t].end());
     const std::vector<TileIndex> touched(with_these.begin(), with_these.end());
     for_each(touched, [&](TileIndex t) { seams.find_border_stars(t, wanted); });
     for_each(rounds.tiles(), [&](TileIndex t) { seams.measure_stars(t, wanted); });
