@@ -287,7 +287,8 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
 }  // namespace
 
 std::vector<Parameter> parameters(Config& config) {
-  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, selection, input, output, run] = config;
+  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, selection, input, output, run] =
+      config;
   const double below_90 = std::nextafter(90.0, 0.0);
   return {
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
@@ -317,14 +318,16 @@ std::vector<Parameter> parameters(Config& config) {
        "Boundary probability above which a point is a candidate."},
 
       {"loops", "method", &loops.method, 0, 1, "stars or paper",
-       "How loops are found: stars, along the surface that the points agree on; paper, as Bendels et al. do."},
+       "How loops are found: stars, along the surface that the points agree on; paper, as Bendels et al. "
+       "do."},
 
       {"spanning", "max_prob_weight", &spanning.max_prob_weight, 0, 1e9, "a number from 0 to 1000000000",
        "Method paper: an edge takes part if its probability weight is below this."},
       {"spanning", "max_total_weight", &spanning.max_total_weight, 0, 1e9, "a number from 0 to 1000000000",
        "Method paper: an edge takes part if its total weight is below this."},
       {"spanning", "e", &spanning.e, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
-       "Method paper: loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of neighbours."},
+       "Method paper: loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of "
+       "neighbours."},
 
       {"selection", "min_confidence", &selection.min_confidence, 0, 1, "a number from 0 to 1",
        "Loops with a lower confidence are not reported."},
@@ -343,7 +346,7 @@ std::vector<Parameter> parameters(Config& config) {
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write points.ply too: every point of the input with its probabilities."},
       {"output", "normals", &output.normals, 0, 1, "true or false",
-       "Add nx ny nz to points.ply where normals were estimated."},
+       "Add the estimated normals to points.ply, unless a scan brings its own."},
 
       {"run", "threads", &run.threads, 0, 1024, "a whole number from 0 (one per core) to 1024",
        "Threads at work; 0: one per core."},

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -25,19 +27,43 @@ void remove_stale(const std::filesystem::path& file) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path file) : file_(std::move(file)), partial_(file_) {
-  partial_ += ".partial";
+std::filesystem::path partial_path(std::filesystem::path file) {
+  return file += ".partial";
+}
+
+OutputFile::OutputFile(std::filesystem::path file) : file_(std::move(file)), partial_(partial_path(file_)) {
   if (std::error_code error; std::filesystem::is_directory(file_, error)) {
     throw Error(file_.string() + ": is a folder; the result cannot take its place");
   }
-  descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot be created");
+  open_alone();
   buffer_.reserve(kBufferBytes);
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (!committed_) ::unlink(partial_.c_str());
+  ::close(lock_);
+}
+
+void OutputFile::open_alone() {
+  for (;;) {
+    lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) fail("cannot be created");
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(lock_);
+      throw Error(file_.string() + ": another run is writing it");
+    }
+    // Before it was locked, the run that wrote it may have put it in place or removed it.
+    struct stat opened {
+    }, named{};
+    const bool is_it = ::fstat(lock_, &opened) == 0 && ::stat(partial_.c_str(), &named) == 0 &&
+                       opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+    if (is_it && (!S_ISREG(opened.st_mode) || ::ftruncate(lock_, 0) == 0)) break;
+    ::close(lock_);
+    if (is_it) fail("cannot be created");
+  }
+  descriptor_ = ::fcntl(lock_, F_DUPFD_CLOEXEC, 0);
+  if (descriptor_ < 0) fail("cannot be created");
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {

@@ -1,5 +1,5 @@
 // Result files that appear under their final name only when complete. Until then each is `<name>.partial`,
-// and is removed when the job fails.
+// which one run at a time writes, and is removed when the job fails.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,13 @@
 
 namespace lacuna {
 
+// What a file is called until it is complete.
+std::filesystem::path partial_path(std::filesystem::path file);
+
 class OutputFile {
  public:
-  // Creates the partial file, over one that a killed run has left. Throws `Error`.
+  // Creates the partial file, over one that a killed run has left. Throws `Error`, also where another run is
+  // writing it.
   explicit OutputFile(std::filesystem::path file);
   ~OutputFile();  // removes the partial file unless it was committed
   OutputFile(const OutputFile&) = delete;
@@ -34,6 +38,7 @@ class OutputFile {
   void commit();  // closes, and gives the file its final name
 
  private:
+  void open_alone();
   void flush();
   void put(std::uint64_t at, std::span<const std::byte> bytes);
   [[noreturn]] void fail(const char* what) const;
@@ -41,6 +46,7 @@ class OutputFile {
   std::filesystem::path file_;
   std::filesystem::path partial_;
   int descriptor_ = -1;
+  int lock_ = -1;  // the same open file, locked until it has its final name
   bool committed_ = false;
   std::uint64_t end_ = 0;  // of what is in the file; the buffer follows
   std::vector<std::byte> buffer_;

@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 
-constexpr const char* kVersion = "0.1.0";
-
 // A path need not be UTF-8, the report must be.
 std::string print(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -86,7 +84,7 @@ Json peak_memory_bytes() {
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
   const Summary& summary = detection.summary();
   Json json;
-  json["lacuna"] = kVersion;
+  json["lacuna"] = LACUNA_VERSION;
   json["parameters"] = parameter_values(config);
   json["inputs"] = inputs(scan);
   json["counts"] = counts(summary.counts, detection.loops());

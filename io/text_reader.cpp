@@ -89,10 +89,18 @@ struct Preamble {
   std::string first;                   // the first line that is neither; empty: there is none
 };
 
+// Of a file whose lines end with a carriage return alone, all is one line.
+void refuse_lone_returns(const InputFile& in, std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.find('\r') != std::string_view::npos)
+    in.fail_at_line(in.line(), "a carriage return within the line; lines must end with LF or with CR and LF");
+}
+
 Preamble read_preamble(InputFile& in) {
   Preamble preamble;
   if (in.peek(3) == "\xef\xbb\xbf") in.skip(3);  // byte order mark of UTF-8
   while (const auto line = in.next_line()) {
+    refuse_lone_returns(in, *line);
     const std::string_view text = without_blanks(*line);
     std::uint64_t count = 0;
     const Fields words = split(text, ' ');
@@ -121,32 +129,32 @@ class TextReader final : public ScanReader {
     }
     set_columns(find_names(preamble, first, has_header, options));
     if (!has_header) pending_ = preamble.first;
+    expected_rows_ = preamble.count;
   }
 
   const RowLayout& layout() const override { return layout_; }
 
-  std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
+  std::optional<std::uint64_t> expected_rows() const override { return expected_rows_; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
     const std::size_t rows = std::min(max_rows, std::max<std::size_t>(1, kBatchBytes / layout_.stride));
     batch.bytes.resize(rows * layout_.stride);
     batch.count = 0;
-    std::byte* to = batch.bytes.data();
     if (!pending_.empty()) {
-      parse_row(pending_, to);
+      add_row(pending_, batch);
       pending_.clear();
-      ++batch.count;
     }
     while (batch.count < rows) {
       const auto line = in_.next_line();
       if (!line) break;
       const std::string_view text = without_blanks(*line);
       if (text.empty() || is_comment(text)) continue;
-      parse_row(text, to + batch.count * layout_.stride);
-      ++batch.count;
+      add_row(text, batch);
     }
     batch.bytes.resize(batch.count * layout_.stride);
+    if (batch.count == 0 && expected_rows_ && rows_ < *expected_rows_)
+      fail_number_of_rows("the file ends here with fewer");
     return batch.count > 0;
   }
 
@@ -181,6 +189,13 @@ class TextReader final : public ScanReader {
     layout_ = packed_layout(columns);
   }
 
+  void add_row(std::string_view row, RowBatch& batch) {
+    if (rows_ == expected_rows_) fail_number_of_rows("more");
+    parse_row(row, batch.bytes.data() + batch.count * layout_.stride);
+    ++batch.count;
+    ++rows_;
+  }
+
   void parse_row(std::string_view rest, std::byte* to) const {
     std::string_view field;
     for (const Property& property : layout_.properties) {
@@ -198,9 +213,16 @@ class TextReader final : public ScanReader {
                                      " columns; every row must have one for each");
   }
 
+  [[noreturn]] void fail_number_of_rows(const std::string& comparison) const {
+    in_.fail_at_line(in_.line(), comparison + " rows than the " + std::to_string(*expected_rows_) +
+                                     " that a line before them tells");
+  }
+
   InputFile in_;
   char separator_ = ' ';
   RowLayout layout_;
+  std::optional<std::uint64_t> expected_rows_;
+  std::uint64_t rows_ = 0;
   std::string pending_;  // the first row, read to find the columns
 };
 

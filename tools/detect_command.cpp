@@ -9,23 +9,28 @@
 #include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
+#include "tools/value_options.hpp"
 #include "tools/workspace.hpp"
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr std::array<Choice<ProgressStyle>, 3> kProgressStyles{
+    {{"bar", ProgressStyle::kBar}, {"plain", ProgressStyle::kPlain}, {"none", ProgressStyle::kNone}}};
 
 struct DetectArguments {
   explicit DetectArguments(CLI::App& command) : parameters(command) {}
@@ -50,11 +55,14 @@ std::string detect_to(const fs::path& out, const DetectArguments& arguments, con
 
   check_output_folder(scan, out);
   const MadeFolder out_folder(out);
-  for (const std::string_view name : kResultFiles) {
-    remove_on_signal(out / (std::string(name) + ".partial"));  // as the writers name what is not complete
-  }
+  const FolderLock alone(out);
+  for (const std::string_view name : kResultFiles) remove_on_signal(partial_path(out / name));
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
   const std::string prefix = config.run.workspace.empty() ? ".lacuna-" : "lacuna-";
+  if (config.run.workspace.empty()) {  // elsewhere, other runs may have theirs
+    for (const fs::path& left : find_workspaces(out, prefix))
+      spdlog::warn("{}: left by a run that was killed; it can be removed", left.string());
+  }
   const Workspace workspace(parent.path(), prefix, arguments.keep_workspace);
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
@@ -100,15 +108,12 @@ void add_detect_command(CLI::App& app) {
   command->add_option("--out", arguments->out, "Folder for the results; made if missing")->type_name("DIR");
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
-  const std::map<std::string, ProgressStyle> styles = {
-      {"bar", ProgressStyle::kBar}, {"plain", ProgressStyle::kPlain}, {"none", ProgressStyle::kNone}};
-  command
-      ->add_option("--progress", arguments->progress,
-                   "bar, plain or none; bar where stderr is a terminal, else plain")
-      ->transform(CLI::CheckedTransformer(styles).description(""))
+  add_choice(*command, "--progress", kProgressStyles, arguments->progress,
+             "bar where stderr is a terminal, else plain, unless one is named")
       ->type_name("STYLE");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
-  command->add_flag("--keep-workspace", arguments->keep_workspace, "Leave the workspace folder on disk");
+  command->add_flag("--keep-workspace", arguments->keep_workspace,
+                    "Leave the workspace with index.vdb, the cells and tiles for OpenVDB's tools");
   command->callback([command, arguments] { run_detect(*command, *arguments); });
 }
 

@@ -2,6 +2,8 @@
 
 #include "engine/core/error.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <variant>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +31,8 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
     CLI::Option* option = is_flag ? command.add_flag(parameter.option(), given.text)
                                   : command.add_option(parameter.option(), given.text);
-    option->description(std::string(parameter.help));
+    option->description(std::string(parameter.help) +
+                        (is_flag ? "" : " Allowed: " + std::string(parameter.allowed) + "."));
     option->group(std::string(parameter.section));
     option->type_name(std::visit(TypeName{}, parameter.value));
     option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
@@ -67,13 +70,15 @@ std::vector<std::string> join_columns(std::vector<std::string> arguments) {
       break;
     }
     const auto is_name = [&](std::size_t at) {
-      return at < arguments.size() && !arguments[at].starts_with('-');
+      return at < arguments.size() && !arguments[at].starts_with('-') &&
+             !std::filesystem::exists(arguments[at]);
     };
     if (arguments[i] != "--columns" || !is_name(i + 1)) {
       joined.push_back(arguments[i]);
       continue;
     }
     std::string names = arguments[++i];
+    std::replace(names.begin(), names.end(), ',', ' ');
     if (names.find(' ') == std::string::npos) {
       while (is_name(i + 1)) names += " " + arguments[++i];
     }

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,12 @@ int flush_output() {
 }
 
 // Without it a misspelt command is told as a missing one.
-void check_command_name(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments.front().starts_with('-')) return;
+void check_command_names(const CLI::App& app, std::span<const std::string> arguments) {
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  if (commands.empty() || arguments.empty() || arguments.front().starts_with('-')) return;
   std::string known;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->check_name(arguments.front())) return;
+  for (const CLI::App* command : commands) {
+    if (command->check_name(arguments.front())) return check_command_names(*command, arguments.subspan(1));
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
   throw CLI::ParseError("unknown command \"" + arguments.front() + "\"; allowed: " + known,
@@ -51,14 +53,17 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& arg
 }
 
 int run_command(CLI::App& app, const std::vector<std::string>& arguments) {
-  check_command_name(app, arguments);
+  check_command_names(app, arguments);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   return flush_output();
 }
 
 std::string usage_hint(const CLI::App& app) {
   std::string command = "lacuna";
-  for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
   return " (see " + command + " --help)";
 }
 

@@ -1,15 +1,15 @@
 #include "tools/synth_command.hpp"
 
-#include "engine/core/error.hpp"
+#include "io/output_file.hpp"
+#include "tools/signals.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"
+#include "tools/value_options.hpp"
 
 #include <array>
 #include <cstdio>
 #include <memory>
-#include <span>
 #include <string>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -18,9 +18,6 @@ namespace lacuna {
 namespace {
 
 using namespace synth;
-
-template <typename T>
-using Choice = std::pair<const char*, T>;
 
 constexpr std::array<Choice<SurfaceKind>, 7> kKinds{{{"plane", SurfaceKind::kPlane},
                                                      {"waves", SurfaceKind::kWaves},
@@ -33,32 +30,20 @@ constexpr std::array<Choice<SceneKind>, 3> kScenes{
     {{"room", SceneKind::kRoom}, {"court", SceneKind::kCourt}, {"hall", SceneKind::kHall}}};
 constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, {"random", Order::kRandom}}};
 
-// An option whose value is one of `choices`, by name; the first is the default.
-template <typename T, std::size_t N>
-void add_choice(CLI::App& app, const std::string& option, const std::array<Choice<T>, N>& choices, T& value,
-                const std::string& help) {
-  std::string names;
-  for (const auto& [name, choice] : choices) names += (names.empty() ? "" : ", ") + std::string(name);
-  const auto choose = [&choices, &value, option, names](const std::string& text) {
-    for (const auto& [name, choice] : choices)
-      if (text == name) {
-        value = choice;
-        return;
-      }
-    throw Error(option + " " + text + ": must be one of " + names);
-  };
-  app.add_option_function<std::string>(option, choose, help + ": " + names)->default_str(choices[0].first);
-}
-
 // What both kinds of scan have.
 template <typename Options>
 void add_common(CLI::App& app, Options& options) {
   app.add_option("OUT", options.out, "the PLY file to write, binary little-endian")->required();
-  app.add_option("--points", options.points, "about how many points")->capture_default_str();
-  add_choice(app, "--order", kOrders, options.order, "the order of the points in the file");
-  app.add_option("--seed", options.seed, "same seed and options, same bytes; any whole number")
+  app.add_option("--points", options.points, "about how many points")
+      ->check(whole_number())
       ->capture_default_str();
-  app.add_option("--translate", options.translate, "moves the scan by X Y Z, units of the scan")
+  add_choice(app, "--order", kOrders, options.order, "the order of the points in the file")
+      ->default_str("scanline");
+  app.add_option("--seed", options.seed, "same seed and options, same bytes; any whole number")
+      ->check(whole_number())
+      ->capture_default_str();
+  app.add_option("--translate", options.translate, "moves the scan, units of the scan")
+      ->type_name("X Y Z")
       ->default_str("0 0 0");
   app.add_flag_callback(
       "--double", [&options] { options.coordinates = Coordinates::kDouble; },
@@ -70,12 +55,13 @@ void add_surface(CLI::App& synth) {
   const auto options = std::make_shared<SurfaceOptions>();
   SurfaceOptions& o = *options;
   add_common(app, o);
-  add_choice(app, "--kind", kKinds, o.kind, "the shape of the surface");
+  add_choice(app, "--kind", kKinds, o.kind, "the shape of the surface")->default_str("plane");
   app.add_option("--spacing", o.spacing, "mean distance of neighbours, units of the scan")
       ->capture_default_str();
-  app.add_option("--holes", o.holes, "how many holes to plant")->capture_default_str();
+  app.add_option("--holes", o.holes, "how many holes to plant")->check(whole_number())->capture_default_str();
   app.add_option("--hole-radius", o.hole_radius,
                  "smallest and largest radius of a hole, spacings, from 1.5 on")
+      ->type_name("MIN MAX")
       ->default_str("4 12");
   app.add_option("--jitter", o.jitter,
                  "how far a point may be off its grid node, fraction of the spacing, 0 to 0.5")
@@ -92,6 +78,8 @@ void add_surface(CLI::App& synth) {
   app.add_option("--truth", o.truth, "file of the true loops, 0-based point ids")
       ->default_str("OUT.loops.txt");
   app.callback([options] {
+    remove_on_signal(partial_path(options->out));
+    remove_on_signal(partial_path(truth_file_of(*options)));
     const SurfaceSummary made = write_surface(*options);
     std::printf("%s: %llu points; %s: %llu true loops\n", options->out.c_str(),
                 static_cast<unsigned long long>(made.points), made.truth.c_str(),
@@ -104,8 +92,10 @@ void add_scan(CLI::App& synth) {
   const auto options = std::make_shared<ScanOptions>();
   ScanOptions& o = *options;
   add_common(app, o);
-  add_choice(app, "--scene", kScenes, o.scene, "what is scanned");
-  app.add_option("--stations", o.stations, "from how many places, 1 to 255")->capture_default_str();
+  add_choice(app, "--scene", kScenes, o.scene, "what is scanned")->default_str("room");
+  app.add_option("--stations", o.stations, "from how many places, 1 to 255")
+      ->check(whole_number())
+      ->capture_default_str();
   app.add_option("--noise", o.noise, "Gaussian noise along the ray, standard deviation in metres")
       ->capture_default_str();
   app.add_option("--outliers", o.outliers, "fraction of the points that lie anywhere on their ray, 0 to 1")
@@ -113,6 +103,7 @@ void add_scan(CLI::App& synth) {
   app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres")
       ->capture_default_str();
   app.callback([options] {
+    remove_on_signal(partial_path(options->out));
     const ScanSummary made = write_scan(*options);
     std::printf("%s: %llu points of %llu rays\n", options->out.c_str(),
                 static_cast<unsigned long long>(made.points), static_cast<unsigned long long>(made.rays));

@@ -3,6 +3,7 @@
 #include "engine/core/error.hpp"
 #include "tools/signals.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -10,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -42,6 +45,18 @@ MadeFolder::~MadeFolder() {
   }
 }
 
+// Where a file system knows no locks, runs are on their own.
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw Error(folder.string() + ": another run writes its results there");
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 Workspace::Workspace(const fs::path& parent, const std::string& prefix, bool keep) : keep_(keep) {
   const auto make = [&] {
     std::string name = (parent / (prefix + "XXXXXX")).string();
@@ -58,6 +73,17 @@ Workspace::~Workspace() {
   std::error_code error;  // nothing to be done about it
   fs::remove_all(folder_, error);
   keep_on_signal(folder_);
+}
+
+std::vector<fs::path> find_workspaces(const fs::path& parent, const std::string& prefix) {
+  std::vector<fs::path> found;
+  std::error_code error;  // what cannot be read has none
+  for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
+    if (entry.is_directory(error) && entry.path().filename().string().starts_with(prefix))
+      found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace lacuna

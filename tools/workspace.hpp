@@ -24,6 +24,19 @@ class MadeFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
+// Keeps other runs from writing to an existing folder. Throws `Error` where one does. It goes with the
+// process, however that ends.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 // A fresh folder with a unique name, `prefix` and six more letters; removed with all it holds at the end,
 // and when a signal ends the program.
 class Workspace {
@@ -39,5 +52,9 @@ class Workspace {
   std::filesystem::path folder_;
   bool keep_;
 };
+
+// Folders that earlier runs left in `parent`, by the prefix of their names, in order.
+std::vector<std::filesystem::path> find_workspaces(const std::filesystem::path& parent,
+                                                   const std::string& prefix);
 
 }  // namespace lacuna

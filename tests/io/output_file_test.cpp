@@ -64,6 +64,27 @@ TEST_CASE("a full disk is an error that names the file, and leaves nothing", "[i
   }
 }
 
+TEST_CASE("one run at a time writes a file, and a later one takes over what a killed one has left", "[io]") {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "a.bin";
+  folder.write("a.bin.partial", "left by a killed run, and longer than what follows");
+  {
+    OutputFile out(file);
+    out.write("first");
+    CHECK(error_of([&] { OutputFile other(file); }) == file.string() + ": another run is writing it");
+    CHECK(folder.names() == std::vector<std::string>{"a.bin.partial"});
+    out.close();  // complete, but not in place
+    CHECK(error_of([&] { OutputFile other(file); }) == file.string() + ": another run is writing it");
+    out.commit();
+    OutputFile other(file);
+    other.write("2nd");
+    CHECK(read_file(file) == "first");
+    other.commit();
+  }
+  CHECK(read_file(file) == "2nd");
+  CHECK(folder.names() == std::vector<std::string>{"a.bin"});
+}
+
 TEST_CASE("a place that cannot be written is an error", "[io]") {
   const ScratchFolder folder;
   CHECK(error_of([&] { OutputFile(folder / "none" / "a.bin"); }).find("a.bin: cannot be created") !=

@@ -49,11 +49,15 @@ TEST_CASE("comments are passed over, but may name the columns of the first row",
         Names{"x", "y", "z", "column_4"});
 }
 
-TEST_CASE("a bare count on the first line is passed over", "[io]") {
+TEST_CASE("a bare count on the first line is what the rows must come to", "[io]") {
   const ScratchFolder folder;
   CHECK(read_table(folder.write("a.pts", "2\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
   CHECK(read_table(folder.write("a.pts", "0\n")).rows.empty());
   CHECK(read_error(folder.write("a.pts", "2\n")).find("line 1: ") != std::string::npos);
+  CHECK(read_error(folder.write("a.pts", "3\n1 2 3\n4 5 6\n"))
+            .find("line 3: the file ends here with fewer rows than the 3 that") != std::string::npos);
+  CHECK(read_error(folder.write("a.pts", "1\n1 2 3\n4 5 6\n7 8 9\n"))
+            .find("line 3: more rows than the 1 that") != std::string::npos);
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
@@ -90,6 +94,8 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
       {"VERSION 0.7\n1 2 3\n", "line 1: 2 values"},
+      {"1 2 3\r4 5 6\r", "line 1: a carriage return within the line"},
+      {"# x y z\r1 2 3\r\n", "line 1: a carriage return within the line"},
       {"1 2 3\n4 5 \x01\x02\n",
        "line 2: '?"
        "?' is not a number"},

@@ -2,10 +2,14 @@
 #include "tests/support/run_program.hpp"
 
 #include <csignal>
+#include <filesystem>
 #include <sstream>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -74,7 +78,12 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
                 "eps");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
   check_failure(run_program({"info"}), 2, "SCAN");
+  check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
+  check_failure(run_program({"synth", "surface", "d", "--kind", "bottle"}), 2, "torus");
+  check_failure(run_program({"synth", "surface", "d", "--points", "-1"}), 2, "a whole number");
+  check_failure(run_program({"synth", "surface", "d", "--points", "abc"}), 2, "lacuna synth surface --help");
   CHECK_FALSE(fs::exists("d"));
 }
 
@@ -177,6 +186,41 @@ TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
   const ProgramResult result = run_program(arguments);
   CHECK_THAT(result.out, Contains("workspace kept: "));
   CHECK(count_entries(work) == 1);
+}
+
+TEST_CASE("one run at a time writes to a folder, and tells of what a killed one has left there") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  const fs::path out = scratch / "out";
+  fs::create_directory(out);
+  fs::create_directory(out / ".lacuna-killed");
+  const int other = open(out.c_str(), O_RDONLY | O_DIRECTORY);
+  REQUIRE(flock(other, LOCK_EX) == 0);
+  check_failure(run_program({"detect", scan, "--out", out.string()}), 1,
+                "another run writes its results there");
+  CHECK(count_entries(out) == 1);
+  close(other);
+  const ProgramResult result = run_program({"detect", scan, "--out", out.string(), "--quiet"});
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.err, Contains(".lacuna-killed") && Contains("left by a run that was killed"));
+  CHECK(count_entries(out) == 4);
+}
+
+TEST_CASE("a signal while a scan is made leaves nothing") {
+  const ScratchFolder scratch;
+  const auto is_writing = [&] { return count_entries(scratch.path()) == 2; };  // the scan and its true loops
+  const ProgramResult result = test::run_program_until(
+      {"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"}, SIGINT, is_writing);
+  CHECK(result.exit_code == 128 + SIGINT);
+  CHECK(count_entries(scratch.path()) == 0);
+}
+
+TEST_CASE("names of columns are divided by blanks or commas, and end where a file is named") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  CHECK(run_program({"info", "--columns", "z", "y", "x", scan}).exit_code == 0);
+  CHECK(run_program({"info", "--columns", "z,y,x", scan}).exit_code == 0);
+  check_failure(run_program({"info", "--columns", "a,b,c", scan}), 1, "no columns named x, y and z");
 }
 
 TEST_CASE("a signal ends the run and removes the workspace") {

@@ -83,7 +83,16 @@ std::string in_text(const std::vector<std::uint64_t>& loop) {
   return line;
 }
 
+bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
+}
+
 }  // namespace
+
+std::filesystem::path truth_file_of(const SurfaceOptions& options) {
+  if (!options.truth.empty()) return options.truth;
+  return std::filesystem::path(options.out).replace_extension(".loops.txt");
+}
 
 SurfaceSummary write_surface(const SurfaceOptions& options) {
   check(options);
@@ -97,9 +106,9 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   for (NodeLoop& rim : rims(grid)) loops.push_back(std::move(rim));
   TruthLoops truth(std::move(loops));
 
-  std::filesystem::path truth_path = options.truth;
-  if (truth_path.empty()) truth_path = std::filesystem::path(options.out).replace_extension(".loops.txt");
-  require(truth_path != options.out, truth_path.string() + ": the surface and its true loops need two files");
+  const std::filesystem::path truth_path = truth_file_of(options);
+  require(!are_one_file(truth_path, options.out),
+          truth_path.string() + ": the surface and its true loops need two files");
   PlyOutput ply(options.out, options.coordinates, Extras::kNone);
   OutputFile truth_file(truth_path);
 

@@ -1,0 +1,45 @@
+// Options whose values are checked before they are used: what is wrong is told with what is allowed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna {
+
+// A value by its name.
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+// An option that takes one of the names.
+template <class T, std::size_t N>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, const std::array<Choice<T>, N>& choices,
+                        T& value, const std::string& help) {
+  std::string names;
+  for (const Choice<T>& choice : choices) names += (names.empty() ? "" : ", ") + std::string(choice.name);
+  const auto choose = [&choices, &value, option, names](const std::string& text) {
+    for (const Choice<T>& choice : choices) {
+      if (text != choice.name) continue;
+      value = choice.value;
+      return;
+    }
+    throw CLI::ValidationError(option + " = " + text, "is not possible; allowed: " + names);
+  };
+  return command.add_option_function<std::string>(option, choose, help + ": " + names);
+}
+
+// For options that take whole numbers: CLI11 alone makes a number near 2^64 of -1.
+inline CLI::Validator whole_number() {
+  const auto check = [](const std::string& text) {
+    const bool is_whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    return is_whole ? std::string() : text + " is not possible; allowed: a whole number, 0 or more";
+  };
+  return CLI::Validator(check, "");
+}
+
+}  // namespace lacuna
