@@ -4,37 +4,35 @@
 #include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
 
+#include <map>
 #include <vector>
 
 namespace lacuna {
 
 // Gathers records by the tile that they are for: a list takes few long runs better than many short ones. Not
-// from several threads at once; several may write to the same lists.
+// from several threads at once; several may write to the same lists. Memory: that of 16,384 records.
 template <class Record>
 class Letters {
  public:
-  explicit Letters(Spill<Record>& lists) : lists_(lists), letters_(lists.lists()) {}
+  explicit Letters(Spill<Record>& lists) : lists_(lists) {}
 
-  // Sends a letter that is full.
   void add(TileIndex to, const Record& record) {
-    constexpr std::size_t kFull = 1024;
+    constexpr std::size_t kMost = 1 << 14;
     letters_[to].push_back(record);
-    if (letters_[to].size() == kFull) send(to);
+    if (++gathered_ == kMost) send();
   }
 
-  // Sends the rest.
+  // What is gathered; at the end, the rest.
   void send() {
-    for (TileIndex to = 0; to < letters_.size(); ++to) send(to);
+    for (const auto& [to, letter] : letters_) lists_.append(to, letter);
+    letters_.clear();
+    gathered_ = 0;
   }
 
  private:
-  void send(TileIndex to) {
-    lists_.append(to, letters_[to]);
-    letters_[to].clear();
-  }
-
   Spill<Record>& lists_;
-  std::vector<std::vector<Record>> letters_;
+  std::map<TileIndex, std::vector<Record>> letters_;
+  std::size_t gathered_ = 0;
 };
 
 }  // namespace lacuna

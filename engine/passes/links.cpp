@@ -11,8 +11,9 @@
 namespace lacuna {
 namespace {
 
-// Cells near a cell hold some hundreds of points; a reach with more than this is that of an outlier.
-constexpr std::uint64_t kFarReach = 32'768;
+// Cells near a cell hold some hundreds of points, or, near a scanner, a multiple of what it holds itself. A
+// reach with more than both is that of an outlier.
+constexpr std::uint64_t kFarReach = 32'768, kFarShare = 64;
 
 // Border cells to be searched together, and all cells within their reach.
 struct Group {
@@ -109,18 +110,21 @@ class BorderPlan {
     if (border.empty()) return;
     Eigen::AlignedBox3d box;
     double reach = 0;
+    std::uint64_t own = 0;
     for (const BorderCell& b : border) {
       box.extend(tiling_.cell_box(b.cell));
       reach = std::max(reach, b.squared_reach);
+      own += tiling_.cells[b.cell].points;
     }
+    const std::uint64_t most = std::max(kFarReach, kFarShare * own);
     sight_.clear();
     std::uint64_t points = 0;
     for_each_cell_near(tiling_, box, reach, 0, 0, [&](std::uint32_t near) {
       sight_.push_back(near);
       points += tiling_.cells[near].points;
-      return points <= kFarReach;
+      return points <= most;
     });
-    if (points > kFarReach) {
+    if (points > most) {
       if (border.size() == 1) {
         border_.far_cells.push_back(border.front().cell);
       } else {
@@ -246,8 +250,9 @@ class Linker {
     const std::vector<StoredPoint>& points = cached(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Row other{value(tiling_.cell_rows[cell]) + i};
-      if (other == row) continue;
-      nearest.push({squared_distance(points[i].position(), p.position()), points[i], other});
+      const double distance = squared_distance(points[i].position(), p.position());
+      if (other == row || (nearest.size() == k_ && distance > nearest.top().squared_distance)) continue;
+      nearest.push({distance, points[i], other});
       if (nearest.size() > k_) nearest.pop();
     }
   }

@@ -3,7 +3,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -13,18 +12,18 @@ namespace {
 
 using test::ScratchFolder;
 
-TEST_CASE("every record arrives at its tile, full letters as they are filled and the rest when it is sent") {
+TEST_CASE("every record arrives at its tile in the order in which it was added, and few are held back") {
   const ScratchFolder folder;
   Spill<std::uint32_t> lists(folder / "lists", 3, 1 << 20);
   std::vector<std::vector<std::uint32_t>> wanted(3);
   Letters<std::uint32_t> letters(lists);
   Random random(1);
-  for (std::uint32_t record = 0; record < 5'000; ++record) {
+  for (std::uint32_t record = 0; record < 50'000; ++record) {
     const auto to = static_cast<TileIndex>(random.uniform(0, 2));  // none for the last tile
     wanted[to].push_back(record);
     letters.add(to, record);
   }
-  for (TileIndex to = 0; to < 3; ++to) CHECK(lists.count(to) == wanted[to].size() / 1024 * 1024);
+  CHECK(lists.count(0) + lists.count(1) == 3 * 16'384);
   letters.send();
   letters.send();  // there is nothing left
   for (TileIndex to = 0; to < 3; ++to) CHECK(lists.read(to) == wanted[to]);

@@ -120,6 +120,20 @@ TEST_CASE("an outlier's farthest neighbours tie with points in cells that it has
   check_links(cloud, config, {outlier});
 }
 
+// As near a scanner: what is in reach is no more than a few times what is in the cell itself. One point after
+// the other, as for outliers, would take minutes.
+TEST_CASE("tens of thousands of points in one cell find their neighbours in it and in other tiles") {
+  Cloud cloud = plane(200);
+  std::set<PointId> from;
+  for (std::uint64_t id = 0; id < cloud.size(); id += 331) from.insert(PointId{id});
+  Random random(1);
+  for (int i = 0; i < 40'000; ++i) {
+    if (i % 997 == 0) from.insert(PointId{cloud.size()});
+    cloud.positions.push_back({99.5 + random.uniform(-0.2, 0.2), 99.5 + random.uniform(-0.2, 0.2), 0.1});
+  }
+  for (const std::int64_t tile_points : {3000, 20'000}) check_links(cloud, tiled({}, tile_points), from);
+}
+
 TEST_CASE("one tile, or none, has no links") {
   for (const int n : {0, 1, 300}) check_links(scattered(n, 1), tiled({}, 1'000'000));
 }
