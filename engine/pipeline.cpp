@@ -122,13 +122,16 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   estimate.summary.phases = job.phases;
   estimate.cell_size = tiling.grid.edge();
   estimate.cells = tiling.cells.size();
-  const std::uint64_t normals = scan.has_normals() ? 2 * sizeof(StoredNormal) : 0;
+  const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
+  // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
+  const std::uint64_t orientation =
+      config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
   const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
   // What tiles tell each other, links, seats and waiting stars, is of points along their borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.
   const auto told = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
-  estimate.workspace_bytes = points * (stored + told + normals + results);
+  estimate.workspace_bytes = points * (stored + told + normals + orientation + results);
   return estimate;
 }
 

@@ -17,10 +17,10 @@ namespace lacuna {
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
                                   const std::filesystem::path& workspace, Progress& progress);
 
-// What a run would take, from one streaming pass.
+// What a run would take, from one streaming pass over all of the scan. Throws `Error`.
 struct Estimate {
   Summary summary;                    // points, dropped, bounds, tiles, threads, memory limit, phases
-  std::uint64_t workspace_bytes = 0;  // of a clean scan; where all is noise up to six times that
+  std::uint64_t workspace_bytes = 0;  // of a clean scan; where all is noise up to three times that
   double cell_size = 0;
   std::uint64_t cells = 0;
 };

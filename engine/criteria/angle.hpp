@@ -6,8 +6,8 @@
 namespace lacuna {
 inline namespace LACUNA_LANES {
 
-// Differs from the paper: the gap is measured against 2 pi / m, that of m evenly spread neighbours, so that
-// a small neighbourhood without any hole scores 0.
+// The gap against 2 pi / m, that of m evenly spread neighbours: without any hole it is 0. Differs from the
+// paper: m counts the neighbours that have a direction, and fewer than three see a boundary.
 template <class Real>
 LACUNA_INLINE Real angle_probability(const Surface<Real>& surface) {
   constexpr double kPi = std::numbers::pi;

@@ -58,7 +58,7 @@ std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, c
 }
 
 // Runs of directions each within kSameDirection of the one before, across pi too, become one.
-std::vector<Direction> merge_runs(const std::vector<Direction>& sorted) {
+std::vector<Direction> unite_directions(const std::vector<Direction>& sorted) {
   const std::size_t m = sorted.size();
   const auto before = [&](std::size_t i) {
     return i == 0 ? sorted[0].angle - sorted[m - 1].angle + kTurn : sorted[i].angle - sorted[i - 1].angle;
@@ -127,7 +127,7 @@ GapFit largest_gap_carefully(const Bundle& bundle, std::size_t point, const doub
   const std::vector<Direction> sorted = sorted_directions(offsets_of(bundle, point), n, cos_cone);
   GapFit gap{.used = static_cast<double>(sorted.size())};
   if (sorted.empty()) return gap;
-  const std::vector<Direction> directions = merge_runs(sorted);
+  const std::vector<Direction> directions = unite_directions(sorted);
   for_each_turn(directions, [&](double turn, std::size_t) { gap.size = std::max(gap.size, turn); });
 
   // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.

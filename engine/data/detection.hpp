@@ -15,15 +15,15 @@
 namespace lacuna {
 
 struct Counts {
-  std::uint64_t points = 0;           // rows of the input
-  std::uint64_t dropped = 0;          // with a non-finite coordinate
-  std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id
-  std::uint64_t candidates = 0;       // distinct points with Pi above the threshold
-  std::uint64_t coherent = 0;         // distinct points left by the coherence step
+  std::uint64_t points = 0;      // rows of the input
+  std::uint64_t dropped = 0;     // with a non-finite coordinate
+  std::uint64_t duplicates = 0;  // at the coordinates of a point with a lower id
+  std::uint64_t candidates = 0;  // distinct points with Pi above the threshold
+  std::uint64_t coherent = 0;    // of these, those left by the coherence step; by stars, those beside loops
   std::uint64_t boundary_points = 0;  // points of the input (duplicates too) coherent or on a loop
-  std::uint64_t eligible_edges = 0;
-  std::uint64_t components = 0;  // of the graph of eligible edges
-  std::uint64_t raw_loops = 0;   // before selection
+  std::uint64_t eligible_edges = 0;   // by the paper
+  std::uint64_t components = 0;       // of the graph of eligible edges; by the paper
+  std::uint64_t raw_loops = 0;        // before selection
   std::uint64_t undefined_normals = 0;
 };
 
@@ -48,7 +48,7 @@ struct Summary {
 
 // Result of one point of the input; a duplicate has those of the point that stands for it.
 struct PointResult {
-  float probability, angle, halfdisc, shape;  // NaN for a dropped point
+  float probability, angle, halfdisc, shape;  // from 0 to 1; NaN for a dropped point
   std::uint8_t boundary = 0;                  // coherent or on a loop
   std::uint8_t coherent = 0;
   std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
@@ -68,13 +68,14 @@ struct ReportedLoop {
   Loop points;
 };
 
+// What is not in the summary is read from disk: throws `Error`. Visits come from the calling thread.
 class Detection {
  public:
   virtual ~Detection() = default;
   virtual const Summary& summary() const = 0;
   // Measures of every reported loop, in order.
   virtual const std::vector<LoopMeasures>& loops() const = 0;
-  virtual ReportedLoop read_loop(std::size_t index) const = 0;
+  virtual ReportedLoop read_loop(std::size_t index) const = 0;  // index < loops().size()
   // In ascending id.
   virtual void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const = 0;
   // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.

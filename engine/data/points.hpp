@@ -15,12 +15,15 @@ namespace lacuna {
 struct PointBatch {
   PointId first{};
   std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::Vector3d> normals;  // as given in the file; empty where it has none
+  // As given: one for each position if the source has normals, NaN where a file of it has none; else empty.
+  std::vector<Eigen::Vector3d> normals;
 
   std::size_t size() const { return positions.size(); }
 };
 
-// One registered scan, read in bounded batches, as often as wanted. Throws `Error` naming file and place.
+// One registered scan, in any unit of length, read in bounded batches, from the first point to the last and
+// as often as wanted; ids go from 0 on. Asked from one thread at a time, not always the same; several batches
+// are in memory at once. Throws `Error` naming file and place.
 class PointSource {
  public:
   virtual ~PointSource() = default;

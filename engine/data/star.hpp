@@ -1,12 +1,10 @@
-// Stars of points: the triangles over which a ball can rest, and the gaps between them.
+// Stars of points: the triangles over which a ball can rest. Included by arithmetic in lanes
+// (core/lanes.hpp): plain structs only.
 #pragma once
 
-#include "engine/data/component.hpp"
 #include "engine/data/ids.hpp"
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace lacuna {
 
@@ -70,46 +68,5 @@ struct BallSize {
 
 // What is known of a triangle of a star: all its rough corners must have it in their stars.
 enum class Agreement : std::uint32_t { kRefused, kAgreed, kOpen };
-
-// A star that is not settled within its tile. Its corners go by names that hold in all tiles.
-struct StoredStar {
-  PointId id;
-  LocalIndex owned;
-  float unevenness;  // of a measured one
-  StarPlace place;   // among the tile's stored corners
-};
-
-// A corner of one, and the agreement on the triangle that begins there.
-struct StoredCorner {
-  Row point;
-  float room;
-  Agreement agreement;
-};
-
-// Stars of one tile and their corners.
-struct StoredStars {
-  std::vector<StoredStar> stars;
-  std::vector<StoredCorner> corners;
-
-  void add(PointId id, LocalIndex owned, float unevenness) {
-    stars.push_back({id, owned, unevenness, {static_cast<std::uint32_t>(corners.size()), 0}});
-  }
-  void add_corner(const StoredCorner& corner) {  // of the last star
-    corners.push_back(corner);
-    ++stars.back().place.size;
-  }
-  std::span<const StoredCorner> operator[](const StoredStar& star) const {
-    return std::span(corners).subspan(star.place.begin, star.place.size);
-  }
-};
-
-// A point at the rim of the agreed triangles, and its neighbours along it. Between them, around the point,
-// there is no agreed triangle.
-struct Gap {
-  Vertex point;
-  Row from, to;
-  float room;        // of the largest ball that rests there
-  float unevenness;  // `BallSize::unevenness` of the point
-};
 
 }  // namespace lacuna

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/passes/evaluate.hpp"
-#include "engine/passes/trace.hpp"
+#include "engine/passes/raw_loops.hpp"
 
 namespace lacuna {
 

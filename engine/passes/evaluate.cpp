@@ -33,6 +33,22 @@ std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, do
   return cells;
 }
 
+// No less than the number of points within eps of a tile's points, summed over these: by their cells, some
+// three times as many.
+std::uint64_t ball_points(const Tiling& tiling, const Tile& tile, double eps) {
+  std::uint64_t sum = 0;
+  if (eps == 0) return sum;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    std::uint64_t near_points = 0;
+    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, 0, 0, [&](std::uint32_t near) {
+      near_points += tiling.cells[near].points;
+      return true;
+    });
+    sum += tiling.cells[cell].points * near_points;
+  }
+  return sum;
+}
+
 // Foreign points that a tile sees, each once, in ascending row.
 struct Sight {
   std::vector<StoredPoint> points;
@@ -194,12 +210,12 @@ EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uin
   Phase phase(job, "evaluate", tiling.points());
 
   std::vector<std::uint64_t> needs(tiling.tiles.size());
-  for (std::size_t t = 0; t < tiling.tiles.size(); ++t) {
+  job.crew.for_each(needs.size(), [&](std::size_t t) {
+    const Tile& tile = tiling.tiles[t];
     std::uint64_t foreign = links.count(t);
-    for (const std::uint32_t cell : halo_cells(tiling, tiling.tiles[t], eps))
-      foreign += tiling.cells[cell].points;
-    needs[t] = job.tile_bytes(tiling.tiles[t].points) + foreign * 120;
-  }
+    for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
+    needs[t] = job.tile_bytes(tile.points) + foreign * 120 + 8 * ball_points(tiling, tile, eps);
+  });
   std::mutex mutex;
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
     const auto tile = static_cast<TileIndex>(t);

@@ -4,7 +4,7 @@
 #include "engine/core/spill.hpp"
 #include "engine/core/tile_store.hpp"
 #include "engine/data/orientation.hpp"
-#include "engine/data/star.hpp"
+#include "engine/data/stored_stars.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"

@@ -1,10 +1,11 @@
 #include "engine/passes/job.hpp"
 
+#include "engine/core/machine_memory.hpp"
+
 #include <algorithm>
 #include <chrono>
 
 #include <malloc.h>
-#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -16,11 +17,6 @@ constexpr std::uint64_t kProgram = 48 * kMiB;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::uint64_t machine_memory() {
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@
 
 namespace lacuna {
 
-// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save one bit
-// per point (the boundary) and about 100 bytes per cell.
+// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save four bits a
+// point (what is rough, unmeasured, told and boundary).
 struct Memory {
-  std::uint64_t limit;   // all of it
+  std::uint64_t limit;   // all of it; where none is asked for, half of what the process may have
   std::uint64_t cells;   // survey and index
   std::uint64_t tiles;   // all tiles at work together
   std::uint64_t spills;  // buffers of all lists on their way to disk
@@ -26,6 +26,7 @@ struct Memory {
   static Memory share(std::uint64_t limit);
 };
 
+// Sets the allocator of the whole process up for the limit, too.
 struct Job {
   Job(const Config& config, std::filesystem::path workspace, Progress& progress);
 

@@ -1,7 +1,8 @@
 // Loops measured: the points of each joined with what the evaluation said of them.
 #pragma once
 
-#include "engine/passes/trace.hpp"
+#include "engine/passes/evaluate.hpp"
+#include "engine/passes/raw_loops.hpp"
 
 #include <vector>
 

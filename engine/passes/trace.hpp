@@ -1,48 +1,12 @@
 // The global stage: the graph of eligible edges stitched across tiles, its components spanned, their loops.
 #pragma once
 
-#include "engine/data/component.hpp"
 #include "engine/passes/evaluate.hpp"
+#include "engine/passes/raw_loops.hpp"
 
 #include <cstdint>
-#include <mutex>
-#include <vector>
 
 namespace lacuna {
-
-// Of loops of the paper's method, which does not tell.
-inline constexpr double kNoConfidence = 1;
-
-// Loops as they are found, on disk; in memory only where each one is. Those of less than `min_confidence` are
-// counted, not kept.
-class RawLoops {
- public:
-  explicit RawLoops(std::filesystem::path file, double min_confidence = 0)
-      : min_confidence_(min_confidence), vertices_(std::move(file)) {}
-
-  // May be called from any thread.
-  void add(std::span<const Vertex> loop, double confidence);
-  std::uint64_t found() const { return found_; }
-  std::size_t size() const { return index_.size(); }
-  std::uint64_t points() const { return vertices_.size(); }
-  std::uint64_t points(std::size_t loop) const { return index_[loop].points; }
-  double confidence(std::size_t loop) const { return index_[loop].confidence; }
-  std::vector<Vertex> read(std::size_t loop) const;
-  // In order of (first id, length, ids): from then on `read` and `points` count in that order.
-  void sort();
-
- private:
-  struct Entry {
-    std::uint64_t offset, points;
-    PointId first;
-    double confidence;
-  };
-  double min_confidence_;
-  std::uint64_t found_ = 0;
-  GrowingColumn<Vertex> vertices_;
-  std::vector<Entry> index_;
-  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
-};
 
 struct TracedLoops {
   RawLoops loops;  // sorted

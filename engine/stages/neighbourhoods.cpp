@@ -1,9 +1,11 @@
 #include "engine/stages/neighbourhoods.hpp"
 
+#include "engine/core/error.hpp"
 #include "engine/stages/block_search.hpp"
 #include "engine/stages/nearest_lists.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace lacuna {
@@ -65,6 +67,14 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
   return rows;
 }
 
+// Places in a tile's neighbourhoods are 32 bit numbers.
+void check_count(std::uint64_t neighbours) {
+  if (neighbours > std::numeric_limits<std::uint32_t>::max())
+    throw Error(
+        "eps: the neighbourhoods of a tile hold more than 2^32 points; a smaller eps or tile_points is "
+        "needed");
+}
+
 // The points within eps of every owned point, in neighbour order.
 Rows balls(BlockSearch& search, const TilePoints& points, double eps) {
   Rows rows;
@@ -73,6 +83,7 @@ Rows balls(BlockSearch& search, const TilePoints& points, double eps) {
     return rows;
   }
   search.within(0, points.owned, eps, [&](LocalIndex, std::span<const LocalIndex> found) {
+    check_count(rows.indices.size() + found.size());
     rows.indices.insert(rows.indices.end(), found.begin(), found.end());
     rows.offsets.push_back(static_cast<std::uint32_t>(rows.indices.size()));
   });
@@ -93,6 +104,7 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
   std::vector<LocalIndex>& indices = neighbourhoods.indices;
   indices.resize(points.owned * nearest.lists().count + others.indices.size() + points.linked.indices.size() +
                  near.indices.size() + kListLine);
+  check_count(indices.size());
   LocalIndex* end = indices.data();
   std::vector<Neighbour> added;
   for (LocalIndex p = 0; p < points.owned; ++p) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/row_set.hpp"
-#include "engine/data/star.hpp"
+#include "engine/data/stored_stars.hpp"
 #include "engine/data/tiling.hpp"
 #include "engine/stages/stars.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/data/component.hpp"
-#include "engine/data/star.hpp"
+#include "engine/data/stored_stars.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -10,7 +10,7 @@ namespace {
 constexpr double kWeights = 1e-4;
 
 // A number in [0, 1) that looks random.
-double scatter(PointId id) {
+double random_share(PointId id) {
   std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
   mixed ^= mixed >> 29;
   mixed *= 0xbf58476d1ce4e5b9;
@@ -82,7 +82,7 @@ Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
   return {{position.x(), position.y(), position.z()},
           {shift.x(), shift.y(), shift.z()},
           1 / r,
-          kWeights * scatter(id) * r * r};
+          kWeights * random_share(id) * r * r};
 }
 
 CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& query) {

@@ -1,0 +1,16 @@
+// How much memory the process may have.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace lacuna {
+
+// Bytes of memory in the machine, or fewer where a control group (a container, a batch system) allows fewer.
+std::uint64_t machine_memory();
+
+// The least that the control groups of a process allow, of either version; 2^64 - 1: they set no limit.
+// `groups` is as /proc/self/cgroup, `root` as /sys/fs/cgroup.
+std::uint64_t group_memory(const std::filesystem::path& groups, const std::filesystem::path& root);
+
+}  // namespace lacuna
