@@ -108,7 +108,9 @@ std::vector<std::string_view> split(std::string_view line) {
   return words;
 }
 
-const char* format_name(PlyFormat format) {
+}  // namespace
+
+const char* ply_name(PlyFormat format) {
   switch (format) {
     case PlyFormat::kLittleEndian:
       return "binary_little_endian";
@@ -119,8 +121,6 @@ const char* format_name(PlyFormat format) {
   }
   return "ascii";
 }
-
-}  // namespace
 
 bool PlyElement::has_lists() const {
   for (const PlyProperty& property : properties) {
@@ -156,7 +156,7 @@ PlyHeader read_ply_header(InputFile& in) {
 }
 
 std::string print_ply_header(const PlyHeader& header) {
-  std::string text = std::string("ply\nformat ") + format_name(header.format) + " 1.0\n";
+  std::string text = std::string("ply\nformat ") + ply_name(header.format) + " 1.0\n";
   for (const PlyElement& element : header.elements) {
     text += "element " + element.name + ' ' + std::to_string(element.count) + '\n';
     for (const PlyProperty& property : element.properties) {

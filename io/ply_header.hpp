@@ -12,6 +12,7 @@
 namespace lacuna {
 
 enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
+const char* ply_name(PlyFormat format);  // "ascii", "binary_little_endian", "binary_big_endian"
 
 struct PlyProperty {
   std::string name;

@@ -44,6 +44,7 @@ class PlyReader final : public ScanReader {
     for (std::size_t i = 0; i < vertex; ++i) skip_rows(in_, header_.format, header_.elements[i]);
   }
 
+  std::string format() const override { return std::string("PLY, ") + ply_name(header_.format); }
   const RowLayout& layout() const override { return layout_; }
 
   std::optional<std::uint64_t> expected_rows() const override { return header_.elements[element_].count; }

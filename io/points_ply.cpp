@@ -113,22 +113,37 @@ void copy_results(std::span<const PointResult> results, const std::vector<Result
   }
 }
 
+// What a row of points.ply holds: the input's columns, then the results.
+struct PointColumns {
+  std::vector<ResultColumn> results;
+  std::vector<std::pair<std::string, Scalar>> all;
+
+  PointColumns(const FileScan& scan, const OutputConfig& config)
+      : results(result_columns(config.normals && !scan.has_normals())),
+        all(join_properties(scan.layouts(), results)) {
+    for (const ResultColumn& result : results) all.emplace_back(result.name, result.type);
+  }
+};
+
 [[noreturn]] void fail_changed(const OutputFile& out) {
   throw Error(out.path().string() + ": the input has changed during the run; it must stay as it is");
 }
 
 }  // namespace
 
+std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config) {
+  return packed_layout(PointColumns(scan, config).all).stride;
+}
+
 void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out) {
-  const auto results = result_columns(config.normals && !scan.has_normals());
-  auto columns = join_properties(scan.layouts(), results);
-  const std::size_t input_columns = columns.size();
-  for (const ResultColumn& result : results) columns.emplace_back(result.name, result.type);
-  const RowLayout layout = packed_layout(columns);
+  const PointColumns columns(scan, config);
+  const std::vector<ResultColumn>& results = columns.results;
+  const std::size_t input_columns = columns.all.size() - results.size();
+  const RowLayout layout = packed_layout(columns.all);
 
   PlyElement vertex{.name = "vertex", .count = detection.summary().counts.points, .properties = {}};
-  for (const auto& [name, type] : columns) vertex.properties.push_back({name, type, {}});
+  for (const auto& [name, type] : columns.all) vertex.properties.push_back({name, type, {}});
   PlyWriter writer(out, {vertex});
 
   RowStream input(scan);

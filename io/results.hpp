@@ -39,6 +39,9 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
 
+// Bytes of a row of points.ply.
+std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config);
+
 // For the writers: x, y and z in the scan's precision, and the id. PLY has no integer of 64 bits: ids
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan);

@@ -41,6 +41,7 @@ struct RowBatch {
 class ScanReader {
  public:
   virtual ~ScanReader() = default;
+  virtual std::string format() const = 0;       // "text", or "PLY, ascii" and so on
   virtual const RowLayout& layout() const = 0;  // has x, y and z
   virtual std::optional<std::uint64_t> expected_rows() const = 0;
   // The next rows, at most `max_rows`; false at the end, when the file was found complete.

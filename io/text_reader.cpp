@@ -132,6 +132,7 @@ class TextReader final : public ScanReader {
     expected_rows_ = preamble.count;
   }
 
+  std::string format() const override { return "text"; }
   const RowLayout& layout() const override { return layout_; }
 
   std::optional<std::uint64_t> expected_rows() const override { return expected_rows_; }

@@ -3,15 +3,14 @@
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
+#include "io/results.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,10 +28,6 @@ using Json = nlohmann::ordered_json;
 // Measured: points per second of a whole `lacuna detect` with default parameters, on two threads.
 constexpr double kPointsPerSecond = 1'900'000;
 constexpr double kMeasuredThreads = 2;
-
-// What points.ply has for each point beyond the input's own properties: four floats, two flags, a loop.
-constexpr std::uint64_t kResultBytes = 4 * 4 + 2 + 4;
-constexpr std::uint64_t kNormalBytes = 3 * 4;
 
 struct InfoArguments {
   explicit InfoArguments(CLI::App& command) : parameters(command) {}
@@ -55,16 +50,6 @@ struct RunInfo {
   double seconds = 0;
 };
 
-// "PLY, binary_little_endian" as its header says, or "text".
-std::string format_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string magic, keyword, encoding;
-  in >> std::setw(4) >> magic;
-  if (magic != "ply") return "text";
-  in >> std::setw(16) >> keyword >> std::setw(32) >> encoding;
-  return "PLY, " + (keyword == "format" ? encoding : "unknown encoding");
-}
-
 std::uint64_t count_rows(ScanReader& reader) {
   if (const auto expected = reader.expected_rows()) return *expected;
   constexpr std::size_t kRowsAtATime = 1 << 16;
@@ -75,25 +60,15 @@ std::uint64_t count_rows(ScanReader& reader) {
 
 FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
   const std::unique_ptr<ScanReader> reader = open_scan(file, options);
-  return {file, format_of(file), reader->layout(), count_rows(*reader)};
+  return {file, reader->format(), reader->layout(), count_rows(*reader)};
 }
 
-RunInfo estimate_run(FileScan& scan, const std::vector<FileInfo>& files, const Config& config) {
+RunInfo estimate_run(FileScan& scan, const Config& config) {
   RunInfo run;
   NoProgress silence;
   run.estimate = estimate(scan, config, silence);
-
-  std::uint64_t row_bytes = kResultBytes + (config.output.normals ? kNormalBytes : 0);
-  std::map<std::string, std::size_t> properties;  // of all files together, each as wide as its widest
-  for (const FileInfo& file : files) {
-    for (const Property& property : file.layout.properties) {
-      std::size_t& size = properties[property.name];
-      size = std::max(size, size_of(property.type));
-    }
-  }
-  for (const auto& [name, size] : properties) row_bytes += size;
   const Summary& summary = run.estimate.summary;
-  run.points_ply_bytes = row_bytes * summary.counts.points;
+  run.points_ply_bytes = point_row_bytes(scan, config.output) * summary.counts.points;
 
   const double threads = std::max<double>(1, static_cast<double>(summary.threads));
   run.seconds = static_cast<double>(summary.counts.points) / kPointsPerSecond * kMeasuredThreads / threads;
@@ -187,7 +162,7 @@ void run_info(const InfoArguments& arguments) {
   FileScan scan(arguments.scans, options);
   std::vector<FileInfo> files;
   for (const fs::path& file : arguments.scans) files.push_back(read_file_info(file, options));
-  const RunInfo run = estimate_run(scan, files, config);
+  const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
     print_json(files, run);
   } else {

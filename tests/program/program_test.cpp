@@ -237,6 +237,27 @@ TEST_CASE("a signal ends the run and removes the workspace") {
   }
 }
 
+TEST_CASE("info tells the size of points.ply, whatever the files hold") {
+  const ScratchFolder scratch;
+  const std::string text = scratch.write("scan.txt", sheet(20));
+  const std::string ply = scratch.write(
+      "one.ply",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty int scalar_loop\nend_header\n"
+      "3 4 0 0 0 1 7\n");
+  for (const std::vector<std::string>& scans : {std::vector<std::string>{text}, {ply}, {text, ply}}) {
+    std::vector<std::string> arguments = {"info", "--points", "--normals", "--json"};
+    arguments.insert(arguments.end(), scans.begin(), scans.end());
+    const auto told = nlohmann::json::parse(run_program(arguments).out);
+    arguments = {"detect", "--points", "--normals", "--quiet", "--out", (scratch / "out").string()};
+    arguments.insert(arguments.end(), scans.begin(), scans.end());
+    REQUIRE(run_program(arguments).exit_code == 0);
+    const std::string points = test::read_file(scratch / "out" / "points.ply");
+    const std::size_t header = points.find("end_header\n") + 11;
+    CHECK(told.at("points_ply_bytes") == points.size() - header);
+  }
+}
+
 TEST_CASE("info tells what files hold and what a run would take, and writes nothing") {
   const ScratchFolder scratch;
   const std::string text = scratch.write("scan.txt", sheet(8));

@@ -121,7 +121,7 @@ TEST_CASE("an outlier's farthest neighbours tie with points in cells that it has
 }
 
 // As near a scanner: what is in reach is no more than a few times what is in the cell itself. One point after
-// the other, as for outliers, would take minutes.
+// the other, as for outliers, would take thousands of times as long.
 TEST_CASE("tens of thousands of points in one cell find their neighbours in it and in other tiles") {
   Cloud cloud = plane(200);
   std::set<PointId> from;
