@@ -72,6 +72,7 @@ struct RunConfig {
   std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory
   std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
   std::string workspace;           // folder for what does not fit in memory; empty: inside the output folder
+  bool keep_index = false;         // index.vdb in the workspace: cells and tiles, for OpenVDB's tools
 };
 
 struct Config {

@@ -46,7 +46,8 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::open_alone() {
-  for (;;) {
+  constexpr int kAttempts = 100;  // runs that begin and end at just that time
+  for (int attempt = 1;; ++attempt) {
     lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) fail("cannot be created");
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -54,13 +55,13 @@ void OutputFile::open_alone() {
       throw Error(file_.string() + ": another run is writing it");
     }
     // Before it was locked, the run that wrote it may have put it in place or removed it.
-    struct stat opened {
-    }, named{};
+    struct stat opened {};
+    struct stat named {};
     const bool is_it = ::fstat(lock_, &opened) == 0 && ::stat(partial_.c_str(), &named) == 0 &&
                        opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
     if (is_it && (!S_ISREG(opened.st_mode) || ::ftruncate(lock_, 0) == 0)) break;
     ::close(lock_);
-    if (is_it) fail("cannot be created");
+    if (is_it || attempt == kAttempts) fail("cannot be created");
   }
   descriptor_ = ::fcntl(lock_, F_DUPFD_CLOEXEC, 0);
   if (descriptor_ < 0) fail("cannot be created");

@@ -83,7 +83,8 @@ std::string detect_to(const fs::path& out, const DetectArguments& arguments, con
 }
 
 void run_detect(const CLI::App& command, const DetectArguments& arguments) {
-  const Config config = arguments.parameters.effective_config();
+  Config config = arguments.parameters.effective_config();
+  config.run.keep_index = arguments.keep_workspace;
   if (arguments.print_config) {
     std::cout << print_config(config);
     return;

@@ -13,18 +13,15 @@ namespace lacuna {
 
 struct CellIndex::Grid {
   CellGrid cells;
-  openvdb::Int32Grid::Ptr numbers;
-  LeafTable<openvdb::Int32Tree> leaves;
+  LeafTable<std::int32_t> leaves{-1};
 };
 
-CellIndex::CellIndex(const Tiling& tiling)
-    : grid_(std::make_unique<Grid>(Grid{tiling.grid, openvdb::Int32Grid::create(-1), {}})) {
-  openvdb::Int32Grid::Accessor accessor = grid_->numbers->getAccessor();
+CellIndex::CellIndex(const Tiling& tiling) : grid_(std::make_unique<Grid>(Grid{tiling.grid})) {
   for (std::size_t i = 0; i < tiling.cells.size(); ++i) {
     const CellCoord& cell = tiling.cells[i].coord;
-    accessor.setValue(openvdb::Coord(cell[0], cell[1], cell[2]), static_cast<std::int32_t>(i));
+    const auto& entry = grid_->leaves.touch(cell);
+    entry.values[grid_->leaves.offset(cell)] = static_cast<std::int32_t>(i);
   }
-  for (auto leaf = grid_->numbers->tree().beginLeaf(); leaf; ++leaf) grid_->leaves.insert(*leaf);
 }
 
 CellIndex::~CellIndex() = default;
@@ -49,6 +46,7 @@ void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::
 }
 
 void CellIndex::save(const Tiling& tiling, const std::filesystem::path& file) {
+  openvdb::initialize();
   // OpenVDB refuses voxels of a volume below 3e-15: the index of so small a scan is in units of cells.
   constexpr double kSmallestVoxel = 0x1p-16;
   const double edge = tiling.grid.edge();

@@ -1,13 +1,17 @@
-// Finds the leaves of an OpenVDB tree whatever the order of look-ups. OpenVDB's accessor remembers the leaf
-// it was at last; elsewhere it walks down the tree, three places in memory that each tell the next. Here
-// every leaf stands in one flat hash table beside its values: one place, the same for points in any order.
-// Open addressing, at most half full, never smaller. Look-ups by several threads while nothing is added.
+// Numbers by cell, in OpenVDB's leaves of 8^3 cells, whatever the order of look-ups. OpenVDB's accessor
+// remembers the leaf it was at last; elsewhere it walks down the tree, three places in memory that each tell
+// the next. Here every leaf stands in one flat hash table beside its values: one place, the same for points
+// in any order. And there is no tree above them: it takes 300 KB more for each leaf far from all others, as
+// those of outliers are. Open addressing, at most half full, never smaller. Look-ups by several threads while
+// nothing is added.
 #pragma once
 
 #include "engine/data/tiling.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,11 +19,10 @@
 
 namespace lacuna {
 
-template <class Tree>
+template <class Value>
 class LeafTable {
  public:
-  using Leaf = typename Tree::LeafNodeType;
-  using Value = typename Tree::ValueType;
+  using Leaf = openvdb::tree::LeafNode<Value, 3>;
 
   struct Entry {
     CellCoord block{};
@@ -27,13 +30,23 @@ class LeafTable {
     Value* values = nullptr;  // of the leaf's cells, by `offset`
   };
 
+  // `background`: of cells in a new leaf, which are all off.
+  explicit LeafTable(Value background) : background_(background) {}
+
+  std::span<const std::unique_ptr<Leaf>> leaves() const { return leaves_; }
+  std::uint64_t bytes() const { return leaves_.size() * (sizeof(Leaf) + Leaf::SIZE * sizeof(Value)); }
+
   // The leaf that holds the cell; `leaf` is null where the table has none.
   const Entry& find(const CellCoord& cell) const { return entries_[place(block_of(cell))]; }
 
-  const Entry& insert(Leaf& leaf) {
-    if (2 * ++count_ > entries_.size()) grow();
-    const openvdb::Coord& origin = leaf.origin();
-    const CellCoord block = block_of({origin.x(), origin.y(), origin.z()});
+  // The same, with a new leaf where there was none.
+  const Entry& touch(const CellCoord& cell) {
+    const Entry& known = find(cell);
+    if (known.leaf != nullptr) return known;
+    leaves_.push_back(std::make_unique<Leaf>(openvdb::Coord(cell[0], cell[1], cell[2]), background_));
+    if (2 * leaves_.size() > entries_.size()) grow();
+    Leaf& leaf = *leaves_.back();
+    const CellCoord block = block_of(cell);
     return entries_[place(block)] = {block, &leaf, leaf.buffer().data()};
   }
 
@@ -65,8 +78,9 @@ class LeafTable {
     }
   }
 
+  Value background_;
+  std::vector<std::unique_ptr<Leaf>> leaves_;
   std::vector<Entry> entries_ = std::vector<Entry>(64);
-  std::size_t count_ = 0;
 };
 
 }  // namespace lacuna

@@ -9,7 +9,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -89,11 +88,6 @@ void Crew::in_arena(const std::function<void()>& work) const {
 
 void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
   in_arena([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
-}
-
-// Not isolated: a thread that has done with one helps with the other.
-void Crew::both(const std::function<void()>& one, const std::function<void()>& other) const {
-  arena_->arena.execute([&] { tbb::parallel_invoke(one, other); });
 }
 
 void Crew::for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,

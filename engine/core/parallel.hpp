@@ -21,11 +21,7 @@ class Crew {
   // body(i) for every i in [0, count), in any order. An exception in a body ends the loop and is rethrown.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body) const;
 
-  // Both at a time where there are threads for it; a body of either is run by any thread that is free.
-  // Not from within a body. An exception in one is rethrown when both have ended.
-  void both(const std::function<void()>& one, const std::function<void()>& other) const;
-
-  // As `for_each`, with bounded memory: body i needs `needs[i]` bytes while it runs; bodies are started in
+  // The same with bounded memory: body i needs `needs[i]` bytes while it runs; bodies are started in
   // ascending order and those running together never need more than `budget`, save one alone that does.
   void for_each_within(std::span<const std::uint64_t> needs, std::uint64_t budget,
                        const std::function<void(std::size_t)>& body) const;

@@ -148,8 +148,7 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job
   Phase phase(job, "bucket", 2 * points);
   const CellIndex index(tiling);
   TileStore store(job.workspace, std::move(tiling), precision, scan.has_normals(), job.memory.spills / 8);
-  job.crew.both([&] { fill(store, scan, index, job, phase); },
-                [&] { CellIndex::save(store.tiling(), job.file("index.vdb")); });
+  fill(store, scan, index, job, phase);
 
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : store.tiling().tiles) needs.push_back(tile.raw * 120);
@@ -165,6 +164,7 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job
     phase.advance(raw.size());
   });
   store.seal();
+  if (job.config.run.keep_index) CellIndex::save(store.tiling(), job.file("index.vdb"));
   return store;
 }
 

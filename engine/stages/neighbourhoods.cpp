@@ -71,8 +71,7 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
 void check_count(std::uint64_t neighbours) {
   if (neighbours > std::numeric_limits<std::uint32_t>::max())
     throw Error(
-        "eps: the neighbourhoods of a tile hold more than 2^32 points; a smaller eps or tile_points is "
-        "needed");
+        "the neighbourhoods of a tile hold more than 2^32 points; a smaller eps or tile_points is needed");
 }
 
 // The points within eps of every owned point, in neighbour order.
@@ -102,9 +101,10 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
   Rows neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
   std::vector<LocalIndex>& indices = neighbourhoods.indices;
-  indices.resize(points.owned * nearest.lists().count + others.indices.size() + points.linked.indices.size() +
-                 near.indices.size() + kListLine);
-  check_count(indices.size());
+  const std::uint64_t most = points.owned * nearest.lists().count + others.indices.size() +
+                             points.linked.indices.size() + near.indices.size() + kListLine;
+  check_count(most);
+  indices.resize(most);
   LocalIndex* end = indices.data();
   std::vector<Neighbour> added;
   for (LocalIndex p = 0; p < points.owned; ++p) {

@@ -59,15 +59,46 @@ void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
     visit(runs.first(std::min(runs.size(), kMostRuns)));
 }
 
+// Whether most cells, or leaves, did not merge when the size doubled: of a surface a quarter is left, of a
+// line the half. Few say nothing.
+bool lie_apart(std::uint64_t before, std::uint64_t after) {
+  constexpr std::uint64_t kTelling = 64;
+  return before >= kTelling && 4 * after > 3 * before;
+}
+
 }  // namespace
 
 struct Survey::Counts {
-  using Leaf = openvdb::Int32Tree::LeafNodeType;
+  using Leaves = LeafTable<std::int32_t>;
+  using Leaf = Leaves::Leaf;
 
-  openvdb::Int32Grid::Ptr grid = openvdb::Int32Grid::create(0);
-  LeafTable<openvdb::Int32Tree> leaves;
-  std::uint64_t leaf_count = 0;
+  Leaves leaves{0};
   std::uint64_t cells = 0;
+
+  std::uint64_t leaf_count() const { return leaves.leaves().size(); }
+
+  // In cells of twice the size.
+  std::unique_ptr<Counts> merged() const {
+    auto merged = std::make_unique<Counts>();
+    for (const auto& leaf : leaves.leaves()) {
+      std::array<CellRun, Leaf::SIZE> runs;
+      std::size_t count = 0;
+      for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+        const openvdb::Coord coord = cell.getCoord();
+        runs[count++] = {{coord[0], coord[1], coord[2]}, *cell};
+      }
+      for_each_part(std::span<const CellRun>(runs).first(count),
+                    [&](std::span<const CellRun> part) { merged->add(part, 1); });
+    }
+    return merged;
+  }
+
+  // Those of surfaces: an outlier's is alone in its leaf.
+  std::uint64_t cells_in_company() const {
+    return cells - static_cast<std::uint64_t>(
+                       std::count_if(leaves.leaves().begin(), leaves.leaves().end(),
+                                     [](const auto& leaf) { return leaf->onVoxelCount() == 1; }));
+  }
 
   // Where all the counts are, then the counts: the cache misses of points in random order overlap. `shift`:
   // doublings from the runs' cells to those of the grid.
@@ -80,8 +111,7 @@ struct Survey::Counts {
     std::array<Place, kMostRuns> places;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const CellCoord cell = ancestor(runs[i].cell, shift);
-      const auto& known = leaves.find(cell);
-      const auto& entry = known.leaf != nullptr ? known : add_leaf(cell);
+      const auto& entry = leaves.touch(cell);
       const std::uint32_t offset = leaves.offset(cell);
       places[i] = {entry.leaf, entry.values + offset, offset};
       __builtin_prefetch(places[i].count, 1);
@@ -94,16 +124,6 @@ struct Survey::Counts {
       }
       *count += runs[i].points;
     }
-  }
-
-  std::uint64_t bytes() const {
-    return leaf_count * sizeof(Leaf) + leaf_count * sizeof(Leaf::Buffer::ValueType) * Leaf::SIZE;
-  }
-
- private:
-  const LeafTable<openvdb::Int32Tree>::Entry& add_leaf(const CellCoord& cell) {
-    ++leaf_count;
-    return leaves.insert(*grid->tree().touchLeaf(openvdb::Coord(cell[0], cell[1], cell[2])));
   }
 };
 
@@ -140,7 +160,6 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
     : memory_(memory),
       is_told_(expected_points > 0),
       expected_points_(is_told_ ? expected_points : kUnknownPoints) {
-  openvdb::initialize();
   counts_ = std::make_unique<Counts>();
 }
 
@@ -170,7 +189,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   for_each_part(count_cells(batch, scan_.grid).runs,
                 [&](std::span<const CellRun> runs) { seen.add(runs, doublings); });
   const double most = 2 * points / kPointsPerCell;
-  for (double cells = std::ldexp(seen.cells, 2 * doublings); cells > most; cells /= 4) ++scan_.grid.finest;
+  for (double cells = std::ldexp(seen.cells_in_company(), 2 * doublings); cells > most; cells /= 4)
+    ++scan_.grid.finest;
   sized_ = true;
 }
 
@@ -186,11 +206,25 @@ void Survey::add(const CellCounts& counts) {
   scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
     counts_->add(runs, scan_.grid.shift);
-    while (is_too_fine() && scan_.grid.shift < CellGrid::kMaxShift) coarsen();
+    while (needs_too_much() && can_merge()) take(counts_->merged());
+    while (is_too_fine() && can_merge()) {
+      std::unique_ptr<Counts> merged = counts_->merged();
+      // Leaves, since in random order cells have few points at first, and hardly merge.
+      if (lie_apart(counts_->leaf_count(), merged->leaf_count())) {
+        apart_ = counts_->leaf_count();
+        break;
+      }
+      take(std::move(merged));
+    }
   });
 }
 
+bool Survey::needs_too_much() const {
+  return counts_->leaves.bytes() + counts_->cells * kBytesPerCell > memory_;
+}
+
 bool Survey::is_too_fine() const {
+  if (counts_->leaf_count() <= 2 * apart_) return false;
   // Even with all points to come in the same cells, these would hold too few in the end. A scan that does not
   // tell may have more points than its cells were made for.
   const std::uint64_t points = std::max(scan_.points, is_told_ ? expected_points_ : 4 * expected_points_);
@@ -198,40 +232,31 @@ bool Survey::is_too_fine() const {
   // it passes through.
   constexpr std::uint64_t kSurelyFilled = 24;
   const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
-  return counts_->cells > most || counts_->leaf_count * kSurelyFilled > most ||
-         counts_->bytes() + counts_->cells * kBytesPerCell > memory_;
+  return counts_->cells > most || counts_->leaf_count() * kSurelyFilled > most;
 }
 
-void Survey::coarsen() {
-  auto coarse = std::make_unique<Counts>();
-  for (auto leaf = counts_->grid->tree().cbeginLeaf(); leaf; ++leaf) {
-    std::array<CellRun, Counts::Leaf::SIZE> cells;
-    std::size_t count = 0;
-    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
-      const openvdb::Coord coord = cell.getCoord();
-      cells[count++] = {{coord[0], coord[1], coord[2]}, *cell};
-    }
-    for_each_part(std::span<const CellRun>(cells).first(count),
-                  [&](std::span<const CellRun> runs) { coarse->add(runs, 1); });
-  }
-  counts_ = std::move(coarse);
+void Survey::take(std::unique_ptr<Counts> merged) {
+  counts_ = std::move(merged);
   ++scan_.grid.shift;
 }
 
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (finite_points < kPointsPerCell * counts_->cells && counts_->cells > 1 &&
-         scan_.grid.shift < CellGrid::kMaxShift) {
-    coarsen();
+  while (finite_points < kPointsPerCell * counts_->cells && counts_->cells > 1 && can_merge()) {
+    std::unique_ptr<Counts> merged = counts_->merged();
+    if (lie_apart(counts_->cells, merged->cells)) break;
+    take(std::move(merged));
   }
   if (finite_points > 0 && !std::isfinite(scan_.bounds.diagonal().squaredNorm())) {
     throw Error("the scan spans " + std::to_string(scan_.bounds.diagonal().norm()) +
                 ": squared distances between its points overflow; coordinates must lie within 1e153");
   }
   scan_.cells.reserve(counts_->cells);
-  for (auto cell = counts_->grid->cbeginValueOn(); cell; ++cell) {
-    const openvdb::Coord coord = cell.getCoord();
-    scan_.cells.push_back({{coord[0], coord[1], coord[2]}, static_cast<std::uint64_t>(*cell)});
+  for (const auto& leaf : counts_->leaves.leaves()) {
+    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+      const openvdb::Coord coord = cell.getCoord();
+      scan_.cells.push_back({{coord[0], coord[1], coord[2]}, static_cast<std::uint64_t>(*cell)});
+    }
   }
   return std::move(scan_);
 }

@@ -43,8 +43,9 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
 // Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever the cells need more than
 // `memory` bytes, or hold too few points each, the size doubles and counts merge, and once more at the end
-// until a cell holds about `kPointsPerCell` points on average. Cost: one hashed access per run of points in
-// the same cell.
+// until a cell holds about `kPointsPerCell` points on average. Not where cells hardly merge:
+// then they are those of outliers, far from all else, and the others would hold too many. Cost: one hashed
+// access per run of points in the same cell.
 class Survey {
  public:
   // `expected_points`: 0 where not known.
@@ -65,8 +66,10 @@ class Survey {
  private:
   struct Counts;
   void choose_cell_size(const PointBatch& batch);
+  bool needs_too_much() const;
   bool is_too_fine() const;
-  void coarsen();
+  bool can_merge() const { return scan_.grid.shift < CellGrid::kMaxShift; }
+  void take(std::unique_ptr<Counts> merged);  // in cells of twice the size
 
   std::uint64_t memory_;
   bool is_told_;  // how many points to expect
@@ -74,6 +77,7 @@ class Survey {
   SurveyedScan scan_;
   std::atomic<bool> sized_ = false;
   std::unique_ptr<Counts> counts_;
+  std::uint64_t apart_ = 0;  // so many leaves would hardly have merged
 };
 
 }  // namespace lacuna

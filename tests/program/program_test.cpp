@@ -185,7 +185,8 @@ TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
   arguments.push_back("--keep-workspace");
   const ProgramResult result = run_program(arguments);
   CHECK_THAT(result.out, Contains("workspace kept: "));
-  CHECK(count_entries(work) == 1);
+  REQUIRE(count_entries(work) == 1);
+  CHECK(fs::file_size(fs::directory_iterator(work)->path() / "index.vdb") > 0);
 }
 
 TEST_CASE("one run at a time writes to a folder, and tells of what a killed one has left there") {

@@ -82,44 +82,6 @@ TEST_CASE("bodies that run together never need more than the budget, save one al
   CHECK(started.size() == needs.size());
 }
 
-TEST_CASE("two works go on side by side, and the thread that has done with one helps with the other") {
-  const Crew crew(2);
-  const auto deadline = std::chrono::steady_clock::now() + 10s;
-  const auto wait_for = [&](const std::atomic<int>& count, int wanted) {
-    while (count < wanted && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(1ms);
-  };
-  for (const bool is_long_first : {true, false}) {
-    std::atomic<int> started = 0, bodies = 0;
-    const auto meet = [&] {
-      ++started;
-      wait_for(started, 2);
-    };
-    const auto go_on = [&] {
-      meet();
-      crew.for_each_within(std::vector<std::uint64_t>(2, 1), 2, [&](std::size_t) {
-        ++bodies;
-        wait_for(bodies, 2);
-      });
-    };
-    is_long_first ? crew.both(go_on, meet) : crew.both(meet, go_on);
-    CHECK(started == 2);
-    CHECK(bodies == 2);
-  }
-  CHECK(std::chrono::steady_clock::now() < deadline);
-}
-
-TEST_CASE("one thread does one work after the other, and an exception in one reaches the caller") {
-  const Crew crew(1);
-  int inside = 0, most = 0;
-  const auto work = [&] {
-    most = std::max(most, ++inside);
-    --inside;
-  };
-  crew.both(work, work);
-  CHECK(most == 1);
-  CHECK_THROWS_AS(Crew(2).both([] {}, [] { throw std::runtime_error("it"); }), std::runtime_error);
-}
-
 TEST_CASE("an exception in a body ends the loop and is rethrown") {
   for (const std::size_t threads : {1, 8}) {
     const Crew crew(threads);

@@ -92,6 +92,26 @@ TEST_CASE("cells hold about sixteen points on average, save where they cannot me
   CHECK(scan.cells.size() * Survey::kPointsPerCell >= 20'000 / 5);
 }
 
+TEST_CASE("outliers far from all else do not make the cells of a surface larger") {
+  const Cloud surface = plane(200);
+  const auto cells_of_surface = [&](const SurveyedScan& scan) {
+    std::set<CellCoord> cells;
+    for (const Eigen::Vector3d& p : surface.positions) cells.insert(scan.grid.cell_of(p));
+    return cells.size();
+  };
+  const std::size_t alone = cells_of_surface(survey(surface));
+  for (const int outliers : {500, 5'000}) {  // 1 and 11 in a hundred
+    for (const std::size_t batch : {1'000, 100'000}) {
+      Cloud cloud = surface.joined(scattered(outliers, 2).scaled(1e7));
+      if (batch > 1'000) cloud = cloud.shuffled(3);
+      const SurveyedScan scan = survey(cloud, 1 << 30, batch);
+      check_counts(cloud, scan);
+      INFO(outliers << " outliers, batches of " << batch);
+      CHECK(cells_of_surface(scan) * 20 >= alone);  // twice a doubling
+    }
+  }
+}
+
 TEST_CASE("far outliers are counted like any point") {
   Cloud cloud = scattered(500, 1);
   cloud.positions.insert(cloud.positions.begin(), {1e30, -1e30, 0});
