@@ -115,12 +115,8 @@ void fill(TileStore& store, PointSource& scan, const CellIndex& index, Job& job,
   filler.finish();
 }
 
-}  // namespace
-
-SurveyedScan survey_scan(PointSource& scan, Job& job) {
-  const std::uint64_t expected = scan.expected_points().value_or(0);
+void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job& job) {
   Phase phase(job, "survey", expected);
-  Survey survey(job.memory.cells, expected);
   struct Counted {
     PointBatch batch;
     std::optional<CellCounts> counts;  // none while the cell size is not known
@@ -139,7 +135,21 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
                       phase.advance(counted.batch.size());
                     },
                     kBatches);
-  return survey.finish();
+}
+
+}  // namespace
+
+SurveyedScan survey_scan(PointSource& scan, Job& job) {
+  // Rarely more than once: where most points are far denser than the first ones.
+  constexpr int kMostTimes = 4;
+  std::optional<int> finest;
+  for (int time = 1;; ++time) {
+    const std::uint64_t expected = scan.expected_points().value_or(0);
+    Survey survey(job.memory.cells, expected, finest);
+    count_points(survey, scan, expected, job);
+    finest = survey.finer();
+    if (!finest || time == kMostTimes) return survey.finish();
+  }
 }
 
 TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job& job) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -156,11 +157,14 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest)
     : memory_(memory),
       is_told_(expected_points > 0),
       expected_points_(is_told_ ? expected_points : kUnknownPoints) {
   counts_ = std::make_unique<Counts>();
+  if (!finest) return;
+  scan_.grid.finest = *finest;
+  sized_ = true;
 }
 
 Survey::~Survey() = default;
@@ -206,7 +210,7 @@ void Survey::add(const CellCounts& counts) {
   scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
     counts_->add(runs, scan_.grid.shift);
-    while (needs_too_much() && can_merge()) take(counts_->merged());
+    for (; needs_too_much() && can_merge(); is_short_ = true) take(counts_->merged());
     while (is_too_fine() && can_merge()) {
       std::unique_ptr<Counts> merged = counts_->merged();
       // Leaves, since in random order cells have few points at first, and hardly merge.
@@ -238,6 +242,31 @@ bool Survey::is_too_fine() const {
 void Survey::take(std::unique_ptr<Counts> merged) {
   counts_ = std::move(merged);
   ++scan_.grid.shift;
+}
+
+std::optional<int> Survey::finer() const {
+  if (is_short_ || counts_->cells == 0) return std::nullopt;
+  constexpr std::uint64_t kFarTooMany = 128 * kPointsPerCell;
+  std::vector<std::uint64_t> full;
+  std::uint64_t in_full = 0;
+  for (const auto& leaf : counts_->leaves.leaves()) {
+    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+      const auto count = static_cast<std::uint64_t>(*cell);
+      if (count < kFarTooMany) continue;
+      full.push_back(count);
+      in_full += count;
+    }
+  }
+  const std::uint64_t half = (scan_.points - scan_.dropped + 1) / 2;
+  if (in_full < half) return std::nullopt;
+  // The cell of the median point, from the fullest on.
+  std::sort(full.begin(), full.end(), std::greater<>());
+  std::size_t median = 0;
+  for (std::uint64_t points = full[0]; points < half; points += full[median]) ++median;
+  const std::uint64_t times = full[median] / kPointsPerCell;
+  const int doublings = static_cast<int>(std::bit_width(times)) / 2;  // of a surface
+  const int finest = std::max(scan_.grid.finest + scan_.grid.shift - doublings, kMinExponent);
+  return finest < scan_.grid.finest ? std::optional(finest) : std::nullopt;
 }
 
 SurveyedScan Survey::finish() {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -41,15 +42,16 @@ struct CellCounts {
 };
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
-// Counts in a sparse OpenVDB grid. The first batch sets a fine cell size; whenever the cells need more than
-// `memory` bytes, or hold too few points each, the size doubles and counts merge, and once more at the end
-// until a cell holds about `kPointsPerCell` points on average. Not where cells hardly merge:
-// then they are those of outliers, far from all else, and the others would hold too many. Cost: one hashed
-// access per run of points in the same cell.
+// Counts in OpenVDB leaves. The first batch sets a fine cell size; whenever the cells need more than `memory`
+// bytes, or hold too few points each, the size doubles and counts merge, and once more at the end until a
+// cell holds about `kPointsPerCell` points on average. Not where cells hardly merge: then they are those of
+// outliers, far from all else, and the others would hold too many. Cost: one hashed access per run of points
+// in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known.
-  Survey(std::uint64_t memory, std::uint64_t expected_points);
+  // `expected_points`: 0 where not known. `finest`: the exponent of the cell size, where an earlier survey
+  // told.
+  Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest = {});
   ~Survey();
 
   void add(const PointBatch& batch);
@@ -58,6 +60,9 @@ class Survey {
   bool is_sized() const { return sized_; }
   CellGrid finest() const { return {.finest = scan_.grid.finest}; }
   void add(const CellCounts& counts);
+  // The exponent from which to survey once more, if half of the points lie in cells of far too many: the
+  // first batch told nothing of them. None where it would not help.
+  std::optional<int> finer() const;
   // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 
@@ -77,6 +82,7 @@ class Survey {
   SurveyedScan scan_;
   std::atomic<bool> sized_ = false;
   std::unique_ptr<Counts> counts_;
+  bool is_short_ = false;    // cells were merged since they needed too much memory
   std::uint64_t apart_ = 0;  // so many leaves would hardly have merged
 };
 

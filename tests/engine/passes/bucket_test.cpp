@@ -125,6 +125,19 @@ class ChangingScan final : public PointSource {
   int readings_ = 0;
 };
 
+TEST_CASE("a scan whose first points are far sparser than all others is surveyed once more") {
+  const Cloud surface = plane(200);
+  const std::size_t alone = TiledScan(surface, {}).store.tiling().cells.size();
+  const Cloud sparse = scattered(1'000, 1).scaled(1e6);
+  const Cloud both = sparse.joined(surface);
+  MemoryScan scan(both, 1'000);
+  const TiledScan tiled(scan, {});
+  CHECK(tiled.store.tiling().cells.size() >= 900 + alone / 20);
+  CHECK(tiled.job.phases.size() > 2);  // survey, survey once more or twice, bucket
+  for (const Cloud& even : {surface, coincident(50'000), sparse.joined(coincident(50'000))})
+    CHECK(TiledScan(even, {}).store.tiling().points() > 0);
+}
+
 TEST_CASE("an input that changes between the two readings is an error") {
   const Cloud before = plane(40);
   const auto changed = [&](const Cloud& after) {
