@@ -98,6 +98,18 @@ struct PackedLanes {
 };
 #endif
 
+#if !defined(__AVX2__)
+template <class Number, class Numbers>
+LACUNA_INLINE std::size_t pack_one_by_one(Number* to, const Numbers& from, std::uint32_t chosen) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    to[count] = from[i];
+    count += chosen >> i & 1;
+  }
+  return count;
+}
+#endif
+
 // Stores the chosen lanes one after the other; writes a whole register. Returns how many there are.
 LACUNA_INLINE std::size_t pack(double* to, Lanes lanes, std::uint32_t chosen) {
 #if defined(__AVX512F__)
@@ -109,12 +121,7 @@ LACUNA_INLINE std::size_t pack(double* to, Lanes lanes, std::uint32_t chosen) {
   store(to, reinterpret_cast<Lanes>(_mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(lanes), places)));
   return static_cast<std::size_t>(__builtin_popcount(chosen));
 #else
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    to[count] = lanes[i];
-    count += chosen >> i & 1;
-  }
-  return count;
+  return pack_one_by_one(to, lanes, chosen);
 #endif
 }
 
@@ -132,12 +139,7 @@ LACUNA_INLINE std::size_t pack(std::uint32_t* to, const std::uint32_t* numbers, 
   _mm_storeu_ps(reinterpret_cast<float*>(to), _mm_permutevar_ps(all, places));
   return static_cast<std::size_t>(__builtin_popcount(chosen));
 #else
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    to[count] = numbers[i];
-    count += chosen >> i & 1;
-  }
-  return count;
+  return pack_one_by_one(to, numbers, chosen);
 #endif
 }
 

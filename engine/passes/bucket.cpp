@@ -142,9 +142,9 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 SurveyedScan survey_scan(PointSource& scan, Job& job) {
   // Rarely more than once: where most points are far denser than the first ones.
   constexpr int kMostTimes = 4;
+  const std::uint64_t expected = scan.expected_points().value_or(0);
   std::optional<int> finest;
   for (int time = 1;; ++time) {
-    const std::uint64_t expected = scan.expected_points().value_or(0);
     Survey survey(job.memory.cells, expected, finest);
     count_points(survey, scan, expected, job);
     finest = survey.finer();

@@ -7,7 +7,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <span>
+#include <utility>
 
 #include <openvdb/openvdb.h>
 
@@ -78,19 +80,28 @@ struct Survey::Counts {
 
   std::uint64_t leaf_count() const { return leaves.leaves().size(); }
 
+  // visit(cell, points)
+  template <class Visit>
+  void for_each_cell(Visit&& visit) const {
+    for (const auto& leaf : leaves.leaves()) {
+      for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+        const openvdb::Coord coord = cell.getCoord();
+        visit(CellCoord{coord[0], coord[1], coord[2]}, *cell);
+      }
+    }
+  }
+
   // In cells of twice the size.
   std::unique_ptr<Counts> merged() const {
     auto merged = std::make_unique<Counts>();
-    for (const auto& leaf : leaves.leaves()) {
-      std::array<CellRun, Leaf::SIZE> runs;
-      std::size_t count = 0;
-      for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
-        const openvdb::Coord coord = cell.getCoord();
-        runs[count++] = {{coord[0], coord[1], coord[2]}, *cell};
-      }
-      for_each_part(std::span<const CellRun>(runs).first(count),
-                    [&](std::span<const CellRun> part) { merged->add(part, 1); });
-    }
+    std::array<CellRun, kMostRuns> runs;
+    std::size_t count = 0;
+    const auto add_runs = [&] { merged->add(std::span(runs).first(std::exchange(count, 0)), 1); };
+    for_each_cell([&](const CellCoord& cell, std::int32_t points) {
+      runs[count++] = {cell, points};
+      if (count == runs.size()) add_runs();
+    });
+    add_runs();
     return merged;
   }
 
@@ -198,6 +209,20 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   sized_ = true;
 }
 
+void Survey::take(std::unique_ptr<Counts> merged) {
+  counts_ = std::move(merged);
+  ++scan_.grid.shift;
+}
+
+// count(counts): of what most have to merge, else nothing does.
+template <class Count>
+bool Survey::merge_unless_apart(Count&& count) {
+  std::unique_ptr<Counts> merged = counts_->merged();
+  if (lie_apart(count(*counts_), count(*merged))) return false;
+  take(std::move(merged));
+  return true;
+}
+
 void Survey::add(const PointBatch& batch) {
   if (!sized_ && std::any_of(batch.positions.begin(), batch.positions.end(), finite)) choose_cell_size(batch);
   add(count_cells(batch, finest()));
@@ -212,13 +237,10 @@ void Survey::add(const CellCounts& counts) {
     counts_->add(runs, scan_.grid.shift);
     for (; needs_too_much() && can_merge(); is_short_ = true) take(counts_->merged());
     while (is_too_fine() && can_merge()) {
-      std::unique_ptr<Counts> merged = counts_->merged();
       // Leaves, since in random order cells have few points at first, and hardly merge.
-      if (lie_apart(counts_->leaf_count(), merged->leaf_count())) {
-        apart_ = counts_->leaf_count();
-        break;
-      }
-      take(std::move(merged));
+      if (merge_unless_apart([](const Counts& counts) { return counts.leaf_count(); })) continue;
+      apart_ = counts_->leaf_count();
+      break;
     }
   });
 }
@@ -239,24 +261,17 @@ bool Survey::is_too_fine() const {
   return counts_->cells > most || counts_->leaf_count() * kSurelyFilled > most;
 }
 
-void Survey::take(std::unique_ptr<Counts> merged) {
-  counts_ = std::move(merged);
-  ++scan_.grid.shift;
-}
-
 std::optional<int> Survey::finer() const {
   if (is_short_ || counts_->cells == 0) return std::nullopt;
   constexpr std::uint64_t kFarTooMany = 128 * kPointsPerCell;
   std::vector<std::uint64_t> full;
   std::uint64_t in_full = 0;
-  for (const auto& leaf : counts_->leaves.leaves()) {
-    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
-      const auto count = static_cast<std::uint64_t>(*cell);
-      if (count < kFarTooMany) continue;
-      full.push_back(count);
-      in_full += count;
-    }
-  }
+  counts_->for_each_cell([&](const CellCoord&, std::int32_t points) {
+    const auto count = static_cast<std::uint64_t>(points);
+    if (count < kFarTooMany) return;
+    full.push_back(count);
+    in_full += count;
+  });
   const std::uint64_t half = (scan_.points - scan_.dropped + 1) / 2;
   if (in_full < half) return std::nullopt;
   // The cell of the median point, from the fullest on.
@@ -271,22 +286,17 @@ std::optional<int> Survey::finer() const {
 
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (finite_points < kPointsPerCell * counts_->cells && counts_->cells > 1 && can_merge()) {
-    std::unique_ptr<Counts> merged = counts_->merged();
-    if (lie_apart(counts_->cells, merged->cells)) break;
-    take(std::move(merged));
+  while (finite_points < kPointsPerCell * counts_->cells && counts_->cells > 1 && can_merge() &&
+         merge_unless_apart([](const Counts& counts) { return counts.cells; })) {
   }
   if (finite_points > 0 && !std::isfinite(scan_.bounds.diagonal().squaredNorm())) {
     throw Error("the scan spans " + std::to_string(scan_.bounds.diagonal().norm()) +
                 ": squared distances between its points overflow; coordinates must lie within 1e153");
   }
   scan_.cells.reserve(counts_->cells);
-  for (const auto& leaf : counts_->leaves.leaves()) {
-    for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
-      const openvdb::Coord coord = cell.getCoord();
-      scan_.cells.push_back({{coord[0], coord[1], coord[2]}, static_cast<std::uint64_t>(*cell)});
-    }
-  }
+  counts_->for_each_cell([&](const CellCoord& cell, std::int32_t points) {
+    scan_.cells.push_back({cell, static_cast<std::uint64_t>(points)});
+  });
   return std::move(scan_);
 }
 

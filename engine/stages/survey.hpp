@@ -75,6 +75,8 @@ class Survey {
   bool is_too_fine() const;
   bool can_merge() const { return scan_.grid.shift < CellGrid::kMaxShift; }
   void take(std::unique_ptr<Counts> merged);  // in cells of twice the size
+  template <class Count>
+  bool merge_unless_apart(Count&& count);
 
   std::uint64_t memory_;
   bool is_told_;  // how many points to expect
