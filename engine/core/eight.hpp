@@ -12,4 +12,11 @@ struct alignas(64) Eight {
   double at[kEight];
 };
 
+// Sixteen of single precision: as large.
+inline constexpr std::size_t kSixteen = 16;
+
+struct alignas(64) Sixteen {
+  float at[kSixteen];
+};
+
 }  // namespace lacuna

@@ -41,16 +41,32 @@ using LaneBits =
 
 using SingleLanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
+// Twice as many numbers, of single precision, and whole ones.
+inline constexpr std::size_t kSingles = kLaneBytes / sizeof(float);
+using Singles = float __attribute__((vector_size(kLaneBytes)));
+using SingleBits = std::uint32_t __attribute__((vector_size(kLaneBytes)));
+
 LACUNA_INLINE Lanes load(const double* from) {
   Lanes lanes;
   __builtin_memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
+LACUNA_INLINE Singles load(const float* from) {
+  Singles singles;
+  __builtin_memcpy(&singles, from, sizeof singles);
+  return singles;
+}
 LACUNA_INLINE void store(double* to, Lanes lanes) {
   __builtin_memcpy(to, &lanes, sizeof lanes);
 }
+LACUNA_INLINE void store(float* to, Singles singles) {
+  __builtin_memcpy(to, &singles, sizeof singles);
+}
 LACUNA_INLINE Lanes all_lanes(double value) {
   return value - Lanes{};
+}
+LACUNA_INLINE Singles all_lanes(float value) {
+  return value - Singles{};
 }
 
 LACUNA_INLINE bool any(LaneBits mask) {
@@ -77,71 +93,88 @@ LACUNA_INLINE std::uint32_t lanes_up_to(Lanes numbers, double limit) {
   return chosen;
 #endif
 }
+LACUNA_INLINE std::uint32_t lanes_up_to(Singles numbers, float limit) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(numbers, all_lanes(limit), _CMP_LE_OQ);
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(numbers <= limit)));
+#else
+  std::uint32_t chosen = 0;
+  for (std::size_t i = 0; i < kSingles; ++i) chosen |= static_cast<std::uint32_t>(numbers[i] <= limit) << i;
+  return chosen;
+#endif
+}
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// The numbers of the lanes that are chosen, one after the other, in units of 4 bytes; by the bits of the
-// choice.
-template <std::size_t kUnits>
+// The numbers of the lanes that are chosen, one after the other; by the bits of the choice.
 struct PackedLanes {
-  alignas(kLaneBytes) std::int32_t places[1 << kLanes][kLanes * kUnits];
+  alignas(kSingles) std::uint8_t lanes[1 << kSingles][kSingles];
 
-  consteval PackedLanes() : places{} {
-    for (std::size_t chosen = 0; chosen < std::size(places); ++chosen) {
+  consteval PackedLanes() : lanes{} {
+    for (std::size_t chosen = 0; chosen < std::size(lanes); ++chosen) {
       std::size_t count = 0;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        if ((chosen >> lane & 1) == 0) continue;
-        for (std::size_t unit = 0; unit < kUnits; ++unit)
-          places[chosen][count++] = static_cast<std::int32_t>(lane * kUnits + unit);
+      for (std::size_t lane = 0; lane < kSingles; ++lane) {
+        if ((chosen >> lane & 1) != 0) lanes[chosen][count++] = static_cast<std::uint8_t>(lane);
       }
     }
   }
 };
+inline constexpr PackedLanes kPackedLanes;
 #endif
 
-#if !defined(__AVX2__)
-template <class Number, class Numbers>
-LACUNA_INLINE std::size_t pack_one_by_one(Number* to, const Numbers& from, std::uint32_t chosen) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    to[count] = from[i];
-    count += chosen >> i & 1;
+// Which lanes of a register are chosen, to store their numbers one after the other. Each time a whole
+// register is written.
+class Choice {
+ public:
+  explicit LACUNA_INLINE Choice(std::uint32_t chosen) : chosen_(chosen) {
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    lanes_ =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPackedLanes.lanes[chosen])));
+#endif
   }
-  return count;
-}
+
+  LACUNA_INLINE std::size_t count() const {
+    return static_cast<std::size_t>(__builtin_popcount(chosen_));
+  }
+
+  LACUNA_INLINE void pack(float* to, Singles from) const {
+#if defined(__AVX512F__)
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(chosen_), from));
+#elif defined(__AVX2__)
+    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(from, lanes_));
+#else
+    pack_one_by_one(to, from);
+#endif
+  }
+  LACUNA_INLINE void pack(std::uint32_t* to, SingleBits from) const {
+#if defined(__AVX512F__)
+    _mm512_storeu_si512(
+        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen_), reinterpret_cast<__m512i>(from)));
+#elif defined(__AVX2__)
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(from), lanes_));
+#else
+    pack_one_by_one(to, from);
+#endif
+  }
+
+ private:
+#if !defined(__AVX2__)
+  template <class Number, class Numbers>
+  LACUNA_INLINE void pack_one_by_one(Number* to, const Numbers& from) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kSingles; ++i) {
+      to[count] = from[i];
+      count += chosen_ >> i & 1;
+    }
+  }
 #endif
 
-// Stores the chosen lanes one after the other; writes a whole register. Returns how many there are.
-LACUNA_INLINE std::size_t pack(double* to, Lanes lanes, std::uint32_t chosen) {
-#if defined(__AVX512F__)
-  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(chosen), lanes));
-  return static_cast<std::size_t>(__builtin_popcount(chosen));
-#elif defined(__AVX2__)
-  static constexpr PackedLanes<2> kPacked;
-  const __m256i places = _mm256_load_si256(reinterpret_cast<const __m256i*>(kPacked.places[chosen]));
-  store(to, reinterpret_cast<Lanes>(_mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(lanes), places)));
-  return static_cast<std::size_t>(__builtin_popcount(chosen));
-#else
-  return pack_one_by_one(to, lanes, chosen);
+  std::uint32_t chosen_;
+#if defined(__AVX2__) && !defined(__AVX512F__)
+  __m256i lanes_;
 #endif
-}
-
-// The same of kLanes numbers.
-LACUNA_INLINE std::size_t pack(std::uint32_t* to, const std::uint32_t* numbers, std::uint32_t chosen) {
-#if defined(__AVX512F__)
-  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), all));
-  return static_cast<std::size_t>(__builtin_popcount(chosen));
-#elif defined(__AVX2__)
-  static constexpr PackedLanes<1> kPacked;
-  const __m128 all = _mm_loadu_ps(reinterpret_cast<const float*>(numbers));
-  const __m128i places = _mm_load_si128(reinterpret_cast<const __m128i*>(kPacked.places[chosen]));
-  _mm_storeu_ps(reinterpret_cast<float*>(to), _mm_permutevar_ps(all, places));
-  return static_cast<std::size_t>(__builtin_popcount(chosen));
-#else
-  return pack_one_by_one(to, numbers, chosen);
-#endif
-}
+};
 
 LACUNA_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;

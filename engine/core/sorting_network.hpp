@@ -48,6 +48,8 @@ SortingNetwork sorting_network(std::size_t rows, std::size_t wanted);
 // others in any. Not for NaN. At most kMostSortedRows. Up to 32 rows are sorted in registers.
 using SortRows = void(Eight* rows, std::size_t count, std::size_t wanted);
 LACUNA_DISPATCH(SortRows, sort_rows)
+using SortSingleRows = void(Sixteen* rows, std::size_t count, std::size_t wanted);
+LACUNA_DISPATCH(SortSingleRows, sort_single_rows)
 
 // For *.lanes.cpp: of as many columns as a register holds, from `first` on.
 using SortColumns = void(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first);

@@ -2,12 +2,18 @@
 
 #include "engine/core/lanes.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace lacuna::LACUNA_LANES {
 namespace {
 
-constexpr double kInfinite = __builtin_inf();
+// What holds as many columns of a row as fit.
+template <class Row>
+using RegisterOf = decltype(load(Row{}.at));
+
+template <class Row>
+constexpr auto kInfinite = static_cast<std::remove_extent_t<decltype(Row::at)>>(__builtin_inf());
 
 consteval std::size_t count_comparisons(std::size_t rows) {
   std::size_t count = 0;
@@ -28,23 +34,24 @@ consteval Comparisons<kRows> all_comparisons() {
   return all;
 }
 
-LACUNA_INLINE void put_in_order(Lanes& low, Lanes& high) {
-  const Lanes a = low, b = high;
+template <class Register>
+LACUNA_INLINE void put_in_order(Register& low, Register& high) {
+  const Register a = low, b = high;
   low = smaller(a, b);
   high = larger(a, b);
 }
 
 // kRows rows, or one less. All comparisons are written out, so that the rows stay in registers.
-template <std::size_t kRows>
-void sort_few(Eight* rows, std::size_t count, std::size_t first) {
+template <std::size_t kRows, class Row>
+void sort_few(Row* rows, std::size_t count, std::size_t first) {
   constexpr Comparisons<kRows> kAll = all_comparisons<kRows>();
   constexpr std::size_t kLast = kRows - 1;
-  Lanes row[kRows];
+  RegisterOf<Row> row[kRows];
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     ((row[i] = load(rows[i].at + first)), ...);
   }
   (std::make_index_sequence<kLast>{});
-  row[kLast] = count == kRows ? load(rows[kLast].at + first) : all_lanes(kInfinite);
+  row[kLast] = count == kRows ? load(rows[kLast].at + first) : all_lanes(kInfinite<Row>);
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (put_in_order(row[kAll.at[i].low], row[kAll.at[i].high]), ...);
   }
@@ -56,11 +63,12 @@ void sort_few(Eight* rows, std::size_t count, std::size_t first) {
   if (count == kRows) store(rows[kLast].at + first, row[kLast]);
 }
 
-void sort_many(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
+template <class Row>
+void sort_many(Row* rows, std::size_t count, std::size_t wanted, std::size_t first) {
   const SortingNetwork network = sorting_network(count, wanted);
   for (std::size_t i = 0; i < network.count; ++i) {
     const Comparison c = network.comparisons[i];
-    Lanes low = load(rows[c.low].at + first), high = load(rows[c.high].at + first);
+    RegisterOf<Row> low = load(rows[c.low].at + first), high = load(rows[c.high].at + first);
     put_in_order(low, high);
     store(rows[c.low].at + first, low);
     store(rows[c.high].at + first, high);
@@ -69,16 +77,16 @@ void sort_many(Eight* rows, std::size_t count, std::size_t wanted, std::size_t f
 
 constexpr std::size_t kMostInRegisters = 32;
 
-template <std::size_t... i>
-void sort_by_count(Eight* rows, std::size_t count, std::size_t first, std::index_sequence<i...>) {
-  using Sort = void(Eight*, std::size_t, std::size_t);
-  static constexpr Sort* kSorts[] = {sort_few<2 * i + 2>...};
+template <class Row, std::size_t... i>
+void sort_by_count(Row* rows, std::size_t count, std::size_t first, std::index_sequence<i...>) {
+  using Sort = void(Row*, std::size_t, std::size_t);
+  static constexpr Sort* kSorts[] = {sort_few<2 * i + 2, Row>...};
   kSorts[(count - 1) / 2](rows, count, first);
 }
 
-}  // namespace
-
-void sort_columns(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
+// As many columns as a register holds, from `first` on.
+template <class Row>
+void sort_some(Row* rows, std::size_t count, std::size_t wanted, std::size_t first) {
   if (count < 2) return;
   if (count <= kMostInRegisters) {
     sort_by_count(rows, count, first, std::make_index_sequence<kMostInRegisters / 2>{});
@@ -87,9 +95,18 @@ void sort_columns(Eight* rows, std::size_t count, std::size_t wanted, std::size_
   }
 }
 
+}  // namespace
+
+void sort_columns(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
+  sort_some(rows, count, wanted, first);
+}
+
 void sort_rows(Eight* rows, std::size_t count, std::size_t wanted) {
-  for (std::size_t first = 0; first < kEight; first += kLanes)
-    LACUNA_LANES::sort_columns(rows, count, wanted, first);
+  for (std::size_t first = 0; first < kEight; first += kLanes) sort_some(rows, count, wanted, first);
+}
+
+void sort_single_rows(Sixteen* rows, std::size_t count, std::size_t wanted) {
+  for (std::size_t first = 0; first < kSixteen; first += kSingles) sort_some(rows, count, wanted, first);
 }
 
 }  // namespace lacuna::LACUNA_LANES

@@ -176,7 +176,7 @@ LACUNA_INLINE LaneBits row_in(Lanes direction) {
 // Returns how many neighbours of each point have a direction.
 Lanes find_directions(const Part& part, Vectors normal, double cos_cone) {
   // Duff et al., Building an Orthonormal Basis, Revisited (2017).
-  const Lanes sign = select(normal.z < 0.0, all_lanes(-1), all_lanes(1));
+  const Lanes sign = select(normal.z < 0.0, all_lanes(-1.0), all_lanes(1.0));
   const Lanes s = -1.0 / (sign + normal.z), t = normal.x * normal.y * s;
   const Vectors u{1.0 + sign * normal.x * normal.x * s, sign * t, -sign * normal.x};
   const Vectors v{t, sign + normal.y * normal.y * s, -normal.y};
@@ -193,7 +193,7 @@ Lanes find_directions(const Part& part, Vectors normal, double cos_cone) {
     const Lanes turned = select(angle < 0.0, angle + kTurn, angle) + kOffset;
     const Lanes direction = from_bits((bits(turned) & ~kRowBits) | static_cast<std::int64_t>(i));
     part.set(part.bundle.direction, i, select(stable, direction, all_lanes(kInfinite)));
-    used += select(stable, all_lanes(1), Lanes{});
+    used += select(stable, all_lanes(1.0), Lanes{});
   }
   return used;
 }
@@ -210,7 +210,7 @@ LACUNA_INLINE void for_each_turn(const Part& part, Visit&& visit) {
     const Mask is_last = next == kInfinite;
     const Lanes to = select(is_last, first, next);
     const Lanes turn = (angle_in(to) - angle_in(here)) + select(is_last, all_lanes(kTurn), Lanes{});
-    visit(select(here == kInfinite, all_lanes(-1), turn), row_in(here), row_in(to));
+    visit(select(here == kInfinite, all_lanes(-1.0), turn), row_in(here), row_in(to));
     here = next;
   }
 }

@@ -21,6 +21,12 @@ constexpr double kRunGuess = 1.3;
 // Bounds are widened by more than rounding can have narrowed them.
 constexpr double kSlack = 1 + 1e-12;
 
+// Where runs extend farther than this, in units of the radius, single precision tells too little of them.
+constexpr double kLargestRun = 64;
+
+// Squared radii in between leave digits for all distances in sight.
+constexpr double kLeastSquared = 1e-290, kMostSquared = 1e290;
+
 // So many candidates that most likely all neighbours are among them: more take longer to rank, fewer fail
 // more often.
 double wanted_candidates(std::size_t neighbours) {
@@ -28,7 +34,9 @@ double wanted_candidates(std::size_t neighbours) {
   return found + 1.2 * std::sqrt(found);
 }
 
-struct Box {
+}  // namespace
+
+struct BlockSearch::Box {
   std::array<double, 3> low{kInfinite, kInfinite, kInfinite};
   std::array<double, 3> high{-kInfinite, -kInfinite, -kInfinite};
 
@@ -39,8 +47,6 @@ struct Box {
     }
   }
 };
-
-}  // namespace
 
 // Boxes of one level, one array per side, padded to whole groups with empty boxes.
 struct BlockSearch::Boxes {
@@ -88,7 +94,6 @@ BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<c
     : positions_(positions), ids_(ids) {
   const std::size_t blocks = (positions.size() + kBlock - 1) / kBlock;
   blocks_.resize(blocks);
-  sight_.all = blocks_.data();
   levels_.emplace_back(blocks);
   for (std::size_t b = 0; b < blocks; ++b) {
     Box box;
@@ -123,19 +128,37 @@ BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<c
 
 BlockSearch::~BlockSearch() = default;
 
-// Neighbours of the queries of one block, or of a part of it.
+// Neighbours of the queries of a run.
 void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
-  neighbours_ = std::min(k, positions_.size() - 1);
-  found_.resize(kBlock * neighbours_);
+  prepare(std::min(k, positions_.size() - 1));
   if (neighbours_ == 0) return;
   if (guess_ == 0) guess_ = distance_to_last(first);
-  const bool together = look_around(first, last, kRunGuess * guess_);
-  for (LocalIndex query = first; query < last; ++query) {
-    if (!together) look_around(query, query + 1, kRunGuess * guess_);  // the order jumps within the run
-    list_candidates(query, together ? last : query + 1, lists_[query - first]);
+  list_run(first, last, first);
+  rank(first, last);
+}
+
+void BlockSearch::prepare(std::size_t neighbours) {
+  if (neighbours == neighbours_ && !found_.empty()) return;
+  neighbours_ = neighbours;
+  found_.resize(kRun * neighbours);
+  // On a surface, twice the radius holds four times the points.
+  for (std::size_t found = 1; found < next_guess_.size(); ++found)
+    next_guess_[found] = (1 + std::sqrt(wanted_candidates(neighbours) / static_cast<double>(found))) / 2;
+}
+
+// Candidates for the neighbours of the queries of [first, last), to the lists of the run. Where the order of
+// points jumps, fewer of them are looked around together.
+void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
+  if (!look_around(first, last, kRunGuess * guess_) && last - first > 1) {
+    const LocalIndex middle = first + (last - first) / 2;
+    list_run(first, middle, run);
+    list_run(middle, last, run);
+    return;
   }
-  for (LocalIndex begin = first; begin < last; begin += kQueries)
-    rank(begin, std::min<LocalIndex>(begin + kQueries, last), begin - first);
+  for (LocalIndex query = first; query < last; ++query) {
+    list_candidates(query, last, lists_[query - run]);
+    if (in_sight_ == 0 && query + 1 < last) return list_run(query + 1, last, run);
+  }
 }
 
 // All points within some radius: more than the neighbours wanted, yet not too many. None if there is no such
@@ -144,15 +167,11 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
   constexpr int kAttempts = 4;
   for (int attempt = 0; attempt < kAttempts && in_sight_ > 0; ++attempt) {
     const double radius = std::min(guess_, in_sight_);
-    // Never infinite: at infinity lies the padding beyond the last point.
-    const double squared_radius = std::min(radius * radius * kSlack, std::numeric_limits<double>::max());
-    fastest::find_within(sight_, positions_[query].data(), squared_radius, list);
+    list_within(query, radius, 0, list);
     if (list.count > kMostCandidates) {
       guess_ = 0.6 * radius;
     } else if (list.count > neighbours_) {
-      // On a surface, twice the radius holds four times the points.
-      const double share = wanted_candidates(neighbours_) / static_cast<double>(list.count);
-      guess_ = (guess_ + radius * std::sqrt(share)) / 2;
+      guess_ = radius * next_guess_[list.count];
       return;
     } else {
       guess_ = 1.4 * radius;
@@ -162,51 +181,50 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
   list.count = 0;
 }
 
-// Sorts the keys of eight lists or fewer, from `place` on, as far as the first `wanted` of each.
-void BlockSearch::sort_lists(std::size_t place, std::size_t count, std::size_t wanted) {
-  const std::span lists = std::span(lists_).subspan(place, count);
-  std::size_t rows = wanted;
-  for (const CandidateList& list : lists) rows = std::max(rows, list.count);
-  bool* const tied = &tied_[place];
-  std::fill_n(tied, count, true);
-  if (rows > kMostSortedRows) return;
-  std::vector<Eight>& keys = keys_[place / kQueries];
-  if (keys.size() < rows) keys.resize(rows);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::size_t row = 0;
-    for (; row < lists[i].count; ++row) keys[row].at[i] = lists[i].keys[row];
-    for (; row < rows; ++row) keys[row].at[i] = kInfinite;
-  }
-  fastest::sort_rows(keys.data(), rows, wanted);
-  fastest::find_ties(keys.data(), wanted, tied);
+// The points within the radius, by squared distances in sight that are `more` at most beyond it.
+void BlockSearch::list_within(LocalIndex query, double radius, double more, CandidateList& list) {
+  float seen[3];
+  for (int axis = 0; axis < 3; ++axis)
+    seen[axis] = static_cast<float>((positions_[query][axis] - sight_.origin[axis]) * sight_.scale);
+  const double scaled = radius * sight_.scale;
+  const auto limit = static_cast<float>(scaled * scaled + more);
+  fastest::find_within(sight_, seen, limit, list);
+  list.squared_reach = (limit - sight_.margin) / (sight_.scale * sight_.scale);
 }
 
-// The neighbours of eight queries or fewer, whose candidates are listed from `place` on.
-void BlockSearch::rank(LocalIndex first, LocalIndex last, std::size_t place) {
-  // The query itself, its neighbours, and the one after them, which must not be as near as the last.
-  sort_lists(place, last - first, neighbours_ + 2);
-  for (LocalIndex query = first; query < last; ++query, ++place) {
+// The neighbours of the queries of a run, whose candidates are listed.
+void BlockSearch::rank(LocalIndex first, LocalIndex last) {
+  // The query itself, its neighbours, and what comes after them, which must not be as near as the last.
+  const std::size_t wanted = neighbours_ + 2;
+  const bool can_rank = wanted <= kMostCandidates;
+  if (can_rank) rank_lists(last - first, wanted, true);
+  for (LocalIndex query = first; query < last; ++query) {
+    const std::size_t place = query - first;
     const CandidateList& list = lists_[place];
+    const Ranking& ranking = rankings_[place / kQueries];
     const std::span found = std::span(found_).subspan(place * neighbours_, neighbours_);
-    if (list.count == 0 || tied_[place]) {
+    if (!can_rank || list.count == 0 || ranking.in_doubt[place % kQueries]) {
       find_carefully(query, list, found);
     } else {
-      for (std::size_t rank = 0; rank < found.size(); ++rank)
-        found[rank] = list.point(keys_[place / kQueries][rank + 1].at[place % kQueries]);
+      ranking.pick(list, place % kQueries, found.size(), found.data());
     }
-    refuse_underflow(squared_distance(positions_[query], positions_[found[0]]), ids_[query], ids_[found[0]]);
   }
+}
+
+void BlockSearch::rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit) {
+  for (std::size_t place = 0; place < count; place += kQueries)
+    fastest::rank_candidates(&lists_[place], std::min(kQueries, count - place), wanted, ends_at_limit,
+                             rankings_[place / kQueries]);
 }
 
 // By the distances themselves, of listed candidates or of what a walk through the tree finds.
 void BlockSearch::find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
-  if (list.count > 0) {
-    nearest_.clear();
-    for (std::size_t i = 0; i < list.count; ++i) meet(query, list.point(list.keys[i]));
-  } else {
-    guess_ = kRunGuess * distance_to_last(query);
-  }
+  nearest_.clear();
+  for (std::size_t i = 0; i < list.count; ++i) meet(query, list.points[i]);
+  const bool are_listed = list.count > 0 && nearest_.front().squared_distance < list.squared_reach;
+  if (!are_listed) guess_ = kRunGuess * distance_to_last(query);
   std::sort_heap(nearest_.begin(), nearest_.end());
+  refuse_underflow(nearest_[0].squared_distance, ids_[query], ids_[nearest_[0].index]);
   for (std::size_t rank = 0; rank < found.size(); ++rank) found[rank] = nearest_[rank].index;
 }
 
@@ -251,34 +269,60 @@ void BlockSearch::meet(LocalIndex query, LocalIndex other) {
   std::push_heap(nearest_.begin(), nearest_.end());
 }
 
-// Lists and sorts the points within the radius of queries of one block.
+// Lists and ranks the points within the radius of the queries of a run, and those that may be.
 void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
-  look_around(first, last, radius);
-  for (LocalIndex query = first; query < last; ++query) {
-    CandidateList& list = lists_[query - first];
-    list.count = kMostCandidates + 1;
-    if (in_sight_ > 0) fastest::find_within(sight_, positions_[query].data(), radius * radius, list);
+  list_balls_of(first, last, radius, first);
+  std::size_t most = 0;
+  for (const CandidateList& list : std::span(lists_).first(last - first)) {
+    if (list.count <= kMostCandidates) most = std::max(most, list.count);
   }
-  for (LocalIndex begin = first; begin < last; begin += kQueries) {
-    std::size_t rows = 0;
-    const std::size_t count = std::min<std::size_t>(kQueries, last - begin);
-    for (std::size_t i = 0; i < count; ++i) rows = std::max(rows, lists_[begin - first + i].count);
-    sort_lists(begin - first, count, rows);
+  rank_lists(last - first, most, false);
+}
+
+void BlockSearch::list_balls_of(LocalIndex first, LocalIndex last, double radius, LocalIndex run) {
+  const bool are_in_sight = look_around(first, last, radius);
+  if (!are_in_sight && last - first > 1) {
+    const LocalIndex middle = first + (last - first) / 2;
+    list_balls_of(first, middle, radius, run);
+    list_balls_of(middle, last, radius, run);
+    return;
+  }
+  for (LocalIndex query = first; query < last; ++query) {
+    CandidateList& list = lists_[query - run];
+    if (are_in_sight) {
+      list_within(query, radius, 2 * sight_.margin, list);
+    } else {
+      list.count = kMostCandidates + 1;
+    }
   }
 }
 
 void BlockSearch::collect_ball(LocalIndex query, std::size_t place, double squared_radius) {
   const CandidateList& list = lists_[place];
+  const Ranking& ranking = rankings_[place / kQueries];
+  const bool is_listed = list.count <= kMostCandidates;
+  const auto may_be_outside = [&](std::size_t rank) {
+    return list.squared_distances[ranking.number(rank, place % kQueries)] >= list.limit - 4 * list.margin;
+  };
   found_.clear();
-  if (!tied_[place]) {
-    for (std::size_t rank = 1; rank < list.count; ++rank)
-      found_.push_back(list.point(keys_[place / kQueries][rank].at[place % kQueries]));
+  if (is_listed && !ranking.in_doubt[place % kQueries] && !may_be_outside(list.count - 1)) {
+    found_.resize(list.count - 1);
+    ranking.pick(list, place % kQueries, found_.size(), found_.data());
     return;
   }
   nearest_.clear();
-  collect(query, squared_radius, levels_.size() - 1, 0);
+  if (is_listed) {
+    for (std::size_t i = 0; i < list.count; ++i) collect_point(query, list.points[i], squared_radius);
+  } else {
+    collect(query, squared_radius, levels_.size() - 1, 0);
+  }
   std::sort(nearest_.begin(), nearest_.end());
   for (const Neighbour& neighbour : nearest_) found_.push_back(neighbour.index);
+}
+
+void BlockSearch::collect_point(LocalIndex query, LocalIndex other, double squared_radius) {
+  const double distance = squared_distance(positions_[query], positions_[other]);
+  if (other != query && distance <= squared_radius) nearest_.push_back({distance, ids_[other], other});
 }
 
 void BlockSearch::collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group) {
@@ -293,21 +337,21 @@ void BlockSearch::collect(LocalIndex query, double squared_radius, std::size_t l
       continue;
     }
     const std::size_t end = std::min((index + 1) * kBlock, positions_.size());
-    for (std::size_t q = index * kBlock; q < end; ++q) {
-      const double distance = squared_distance(positions_[query], positions_[q]);
-      if (q != query && distance <= squared_radius)
-        nearest_.push_back({distance, ids_[q], static_cast<LocalIndex>(q)});
-    }
+    for (std::size_t q = index * kBlock; q < end; ++q)
+      collect_point(query, static_cast<LocalIndex>(q), squared_radius);
   }
 }
 
-// Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many.
+// Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many or
+// single precision does not do.
 bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) {
   in_sight_ = 0;
   sight_.count = 0;
   Box run;
   for (LocalIndex q = first; q < last; ++q) run.extend(positions_[q]);
   const double squared_radius = radius * radius * kSlack;
+  if (!(squared_radius > kLeastSquared && squared_radius < kMostSquared) || !set_origin(run, radius))
+    return false;
 
   struct Place {
     std::size_t level, group;
@@ -325,15 +369,31 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
         continue;
       }
       if (sight_.count == kMostBlocks) return false;
-      for (int axis = 0; axis < 3; ++axis) {
-        sight_.low[axis][sight_.count] = boxes.low[axis][index];
-        sight_.high[axis][sight_.count] = boxes.high[axis][index];
-      }
       sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(index);
     }
   }
+  const Boxes::Sides boxes = levels_[0].sides(0);
+  fastest::look_closely(blocks_.data(), boxes.lows, boxes.highs, sight_);
   in_sight_ = radius;
   return true;
+}
+
+// From where the queries of a run look, and how well they see. False if that is not well enough.
+bool BlockSearch::set_origin(const Box& run, double radius) {
+  sight_.scale = std::ldexp(1.0, -std::ilogb(radius));
+  const double scaled = radius * sight_.scale;
+  double extent = 0;  // of the run, from the origin, along an axis
+  for (int axis = 0; axis < 3; ++axis) {
+    sight_.origin[axis] = (run.low[axis] + run.high[axis]) / 2;
+    extent = std::max({extent, (run.high[axis] - sight_.origin[axis]) * sight_.scale,
+                       (sight_.origin[axis] - run.low[axis]) * sight_.scale});
+  }
+  // Rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
+  // point at d from it: 2 u (extent + d) of each difference of coordinates, so 4 u (sqrt(3) extent d + d^2)
+  // of the squares' sum, and 3 u d^2 of squaring and adding. That is below 7 u d (extent + d).
+  constexpr double kRounding = 0x1p-24;
+  sight_.margin = 8 * kRounding * scaled * (extent + scaled);
+  return extent <= kLargestRun * scaled;
 }
 
 void refuse_underflow(double squared_distance, PointId a, PointId b) {

@@ -1,4 +1,4 @@
-// block_search: the k nearest neighbours of points that stand in store order, sixteen at a time.
+// block_search: the k nearest neighbours of points that stand in store order, many at a time.
 #pragma once
 
 #include "engine/data/neighbourhoods.hpp"
@@ -13,10 +13,11 @@
 namespace lacuna {
 
 // Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a tree
-// that needs no building beyond its boxes. One walk finds the blocks around a block of queries; each query
-// takes the points within a radius, guessed from how many the query before found, and eight queries are
-// ranked side by side. Few queries need more care: where the guess holds too few points or too many, or where
-// two distances are next to equal. These are decided by the distances themselves, one query at a time.
+// that needs no building beyond its boxes. One walk finds the blocks around a run of queries; each query
+// takes the points within a radius, guessed from how many the query before found, and sixteen queries are
+// ranked side by side. All that in single precision, seen from the run. Few queries need more care: where the
+// guess holds too few points or too many, or where two distances are too near to each other for that. These
+// are decided by the distances themselves, one query at a time.
 //
 // Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {
@@ -31,7 +32,7 @@ class BlockSearch {
   template <class Visit>
   void nearest(LocalIndex first, LocalIndex last, std::size_t k, Visit&& visit) {
     for (LocalIndex begin = first, end; begin < last; begin = end) {
-      end = std::min<LocalIndex>(last, (begin / kBlock + 1) * kBlock);
+      end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
       find(begin, end, k);
       for (LocalIndex query = begin; query < end; ++query) visit(query, found(query - begin));
     }
@@ -42,7 +43,7 @@ class BlockSearch {
   template <class Visit>
   void within(LocalIndex first, LocalIndex last, double radius, Visit&& visit) {
     for (LocalIndex begin = first, end; begin < last; begin = end) {
-      end = std::min<LocalIndex>(last, (begin / kBlock + 1) * kBlock);
+      end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
       list_balls(begin, end, radius);
       for (LocalIndex query = begin; query < end; ++query) {
         collect_ball(query, query - begin, radius * radius);
@@ -52,19 +53,27 @@ class BlockSearch {
   }
 
  private:
+  static constexpr std::size_t kRun = 2 * kQueries;  // queries that are looked around together
+  struct Box;
   struct Boxes;
   void find(LocalIndex first, LocalIndex last, std::size_t k);
+  void prepare(std::size_t neighbours);
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
-  void rank(LocalIndex first, LocalIndex last, std::size_t place);
+  void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
+  void list_within(LocalIndex query, double radius, double more, CandidateList& list);
+  void rank(LocalIndex first, LocalIndex last);
+  void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
   void find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);
   void descend(LocalIndex query, std::size_t level, std::size_t group);
   void meet(LocalIndex query, LocalIndex other);
-  void sort_lists(std::size_t place, std::size_t count, std::size_t wanted);
   void list_balls(LocalIndex first, LocalIndex last, double radius);
+  void list_balls_of(LocalIndex first, LocalIndex last, double radius, LocalIndex run);
   void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
   void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
+  void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
+  bool set_origin(const Box& run, double radius);
   std::span<const LocalIndex> found(std::size_t place) const {
     return std::span(found_).subspan(place * neighbours_, neighbours_);
   }
@@ -77,10 +86,11 @@ class BlockSearch {
   double guess_ = 0;     // radius for the next query; 0: none yet
   double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
   Sight sight_;
-  std::array<CandidateList, kBlock> lists_;                 // of the queries of a block
-  std::array<std::vector<Eight>, kBlock / kQueries> keys_;  // of eight queries each, sorted
-  std::array<bool, kBlock> tied_;
-  std::size_t neighbours_ = 0;      // of each query
+  std::array<CandidateList, kRun> lists_;  // of the queries of a run
+  std::array<Ranking, kRun / kQueries> rankings_;
+  std::size_t neighbours_ = 0;  // of each query
+  // By how many points the query before found, in units of its radius.
+  std::array<double, kMostCandidates + 1> next_guess_{};
   std::vector<LocalIndex> found_;   // by query of the block
   std::vector<Neighbour> nearest_;  // of one query, found with care
 };

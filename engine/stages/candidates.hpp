@@ -1,5 +1,8 @@
 // What the search in blocks does most: distances from one query to the points of many blocks, and the
-// nearest of eight queries ranked side by side. Plain arrays, compiled for each instruction set.
+// nearest of sixteen queries ranked side by side. Plain arrays, compiled for each instruction set.
+//
+// In single precision, which takes half of the time, and exact all the same: distances differ from the true
+// ones by less than a margin, and what a margin could turn round is told, and left to the caller.
 #pragma once
 
 #include "engine/core/dispatch.hpp"
@@ -31,45 +34,66 @@ struct alignas(64) Block {
   double coordinates[3][kBlock];
 };
 
-// Blocks around some queries.
+// Blocks around some queries, as seen from there: coordinates are (p - origin) * scale in single precision.
 struct alignas(64) Sight {
-  double low[3][kMostBlocks];  // their boxes
-  double high[3][kMostBlocks];
+  double origin[3];
+  double scale;   // a power of two
+  double margin;  // squared distances to points in sight up to the radius differ by less from the true ones
+  float low[3][kMostBlocks];  // boxes of the blocks
+  float high[3][kMostBlocks];
+  struct {
+    float coordinates[3][kBlock];
+  } near[kMostBlocks];
   std::uint32_t blocks[kMostBlocks];  // their numbers among all
   std::size_t count = 0;
-  const Block* all = nullptr;
 };
 
-// Candidates for a query's neighbours. A key is a squared distance whose lowest bits are replaced by the
-// point's place, so that it can be sorted as one number; distances whose keys differ in the place only are
-// nearer to each other than keys can tell.
-inline constexpr std::uint64_t kPlaces = kMostBlocks * kBlock;
-static_assert(std::has_single_bit(kPlaces));
+// Fills the boxes and coordinates of the blocks in sight. `lows`, `highs`: sides of the boxes of all blocks.
+using LookClosely = void(const Block* all, const double* const lows[3], const double* const highs[3], Sight&);
+LACUNA_DISPATCH(LookClosely, look_closely)
+
 inline constexpr std::size_t kMostCandidates = kMostSortedRows;
 
+// Candidates for a query's neighbours, itself among them, in any order.
 struct alignas(64) CandidateList {
-  double keys[kMostCandidates + kBlock];
-  std::uint32_t blocks[kMostBlocks + kFan];  // that may hold some
-  std::size_t count;
+  float squared_distances[kMostCandidates + kBlock];
+  std::uint32_t points[kMostCandidates + kBlock];
+  std::size_t count = 0;  // kMostCandidates + 1: there are more
+  float limit;            // of the squared distances
+  float margin;           // as in the sight
+  double squared_reach;   // of the caller: all points nearer than this are listed, in true distances
+};
 
-  // The index of the candidate that has a key.
-  std::uint32_t point(double key) const {
-    const std::uint64_t place = std::bit_cast<std::uint64_t>(key) % kPlaces;
-    return blocks[place / kBlock] * static_cast<std::uint32_t>(kBlock) +
-           static_cast<std::uint32_t>(place % kBlock);
+// All points in sight within the limit of the query, whose coordinates are those in sight.
+using FindWithin = void(const Sight&, const float query[3], float limit, CandidateList&);
+LACUNA_DISPATCH(FindWithin, find_within)
+
+inline constexpr std::size_t kQueries = kSixteen;  // ranked side by side
+
+// Candidates of some queries by rank, nearest first. A key is a squared distance whose lowest bits are
+// replaced by the candidate's number in its list, so that it can be sorted as one number.
+struct Ranking {
+  Sixteen keys[kMostCandidates];
+  std::uint32_t number_bits;
+  bool in_doubt[kQueries];  // distances of successive ranks are too near to tell them apart
+
+  std::uint32_t number(std::size_t rank, std::size_t query) const {
+    return std::bit_cast<std::uint32_t>(keys[rank].at[query]) & number_bits;
+  }
+  // The points that a list has at ranks 1 to `count`: rank 0 is the query itself.
+  void pick(const CandidateList& list, std::size_t query, std::size_t count, std::uint32_t* points) const {
+    const std::uint32_t bits = number_bits;
+    const float* key = &keys[1].at[query];
+    for (std::uint32_t* point = points; point < points + count; ++point, key += kSixteen)
+      *point = list.points[std::bit_cast<std::uint32_t>(*key) & bits];
   }
 };
 
-// All points in sight within the radius of the query, itself among them; the count is kMostCandidates + 1 if
-// there are more than that.
-using FindWithin = void(const Sight&, const double* query, double squared_radius, CandidateList&);
-LACUNA_DISPATCH(FindWithin, find_within)
-
-inline constexpr std::size_t kQueries = kEight;  // ranked side by side
-
-// tied[i]: whether two of the first `wanted` keys of query i, in ascending order, other than infinite ones,
-// cannot tell which is nearer.
-using FindTies = void(const Eight* rows, std::size_t wanted, bool* tied);
-LACUNA_DISPATCH(FindTies, find_ties)
+// Ranks the candidates of at most kQueries lists, as far as they are wanted; lists of more than
+// kMostCandidates count as empty. `ends_at_limit`: what is in no list takes part, as if it were at the limit,
+// so that there is doubt if it may be nearer than the last of those wanted.
+using RankCandidates = void(const CandidateList* lists, std::size_t count, std::size_t wanted,
+                            bool ends_at_limit, Ranking&);
+LACUNA_DISPATCH(RankCandidates, rank_candidates)
 
 }  // namespace lacuna

@@ -6,6 +6,7 @@
 #include "tests/support/point_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -89,6 +90,60 @@ TEST_CASE("blocks that jump far, and more neighbours than are ranked by counting
   const Cloud clusters = sphere(200).joined(plane(12).translated({1e6, 0, 0})).shuffled(3);
   check_all(points_of(clusters, false), 15);
   check_all(points_of(scattered(700, 2), false), 250);
+}
+
+// Runs of queries that extend far beyond what they look for: single precision tells little of them.
+TEST_CASE("blocks whose points lie in two places") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const double apart = std::exp2(random.uniform(0, 8));
+    Points points;
+    for (int i = 0; i < 1900; ++i) {
+      const double x = random.uniform(0, 30), y = random.uniform(0, 30);
+      points.positions.push_back({i % 2 == 0 ? x : x + 30 * apart, y, 0.01 * random.uniform(0, 1)});
+      points.ids.push_back(PointId{static_cast<std::uint64_t>(i)});
+    }
+    INFO("seed " << seed);
+    check_all(points, 3 + seed);
+  }
+}
+
+// The first query looks no farther than its last neighbour, and as many points are as far in true distances
+// or rounded ones.
+TEST_CASE("neighbours that end where the search does") {
+  const Points points = points_of(plane(24).scaled(0.1).rotated({1, 2, 3}, 40), true);
+  std::size_t wrong = 0;
+  for (LocalIndex first = 0; first < points.positions.size(); first += 32) {
+    for (std::size_t k = 1; k <= 24; ++k) {
+      BlockSearch search(points.positions, points.ids);
+      const LocalIndex last =
+          std::min<LocalIndex>(first + 32, static_cast<LocalIndex>(points.positions.size()));
+      search.nearest(first, last, k, [&](LocalIndex query, std::span<const LocalIndex> found) {
+        if (query > first) return;
+        const std::vector<LocalIndex> expected = nearest_plainly(points, query, k);
+        wrong += !std::equal(found.begin(), found.end(), expected.begin(), expected.end());
+      });
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("balls that end at a point hold it") {
+  const Points points = points_of(plane(24).scaled(0.1).rotated({1, 2, 3}, 40), true);
+  const auto last = static_cast<LocalIndex>(points.positions.size());
+  const PointTree tree(points.positions, points.ids);
+  BlockSearch search(points.positions, points.ids);
+  std::vector<Neighbour> expected;
+  std::size_t wrong = 0;
+  for (const LocalIndex end : {1, 2, 30, 55, 77, 200}) {
+    const double radius = std::sqrt(squared_distance(points.positions[0], points.positions[end]));
+    search.within(0, last, radius, [&](LocalIndex query, std::span<const LocalIndex> found) {
+      tree.within(query, radius * radius, expected);
+      wrong += !std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                           [](LocalIndex a, const Neighbour& b) { return a == b.index; });
+    });
+  }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("queries may start anywhere, and fewer points than k are all neighbours") {
