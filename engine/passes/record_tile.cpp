@@ -10,15 +10,27 @@
 namespace lacuna {
 namespace {
 
-// has[i]: whether row i holds an index of `least` or more.
 LACUNA_VECTORISED
-void find_rows_with(LocalIndex least, const std::uint32_t* offsets, const LocalIndex* indices,
-                    std::size_t rows, std::uint8_t* has) {
-  for (std::size_t row = 0; row < rows; ++row) {
-    LocalIndex largest = 0;
-    for (std::uint32_t i = offsets[row]; i < offsets[row + 1]; ++i) largest = std::max(largest, indices[i]);
-    has[row] = largest >= least;
+LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
+  LocalIndex largest = 0;
+  for (; first < last; ++first) largest = std::max(largest, *first);
+  return largest;
+}
+
+// A byte for each row: whether it holds an index of `least` or more. Few do, and these near each other.
+std::vector<std::uint8_t> rows_with(LocalIndex least, const Rows& rows) {
+  constexpr std::size_t kRun = 64;
+  std::vector<std::uint8_t> has(rows.size());
+  const auto run_has = [&](std::size_t first, std::size_t last) {
+    const LocalIndex* const indices = rows.indices.data();
+    return largest_of(indices + rows.offsets[first], indices + rows.offsets[last]) >= least;
+  };
+  for (std::size_t first = 0, last; first < has.size(); first = last) {
+    last = std::min(first + kRun, has.size());
+    if (!run_has(first, last)) continue;
+    for (std::size_t row = first; row < last; ++row) has[row] = run_has(row, row + 1);
   }
+  return has;
 }
 
 class TileRecorder {
@@ -45,20 +57,7 @@ class TileRecorder {
     if (job_.config.normals.orient) record_orientation();
   }
 
-  Totals totals() const {
-    Totals totals;
-    totals.points = points_.owned;
-    totals.neighbours = neighbourhoods_.indices.size();
-    for (LocalIndex p = 0; p < points_.owned; ++p) {
-      const Evaluation& e = evaluations_[p];
-      totals.candidates += e.probability > job_.config.coherence.threshold;
-      totals.undefined_normals += !e.normal.allFinite();
-      const double length = e.mean_distance * static_cast<double>(neighbourhoods_[p].size());
-      totals.edge_length += static_cast<Int128>(length / scan_.totals.length_unit);
-    }
-    return totals;
-  }
-
+  const Totals& totals() const { return totals_; }
   // Tiles that own gap neighbours of this tile's candidates.
   const std::vector<TileIndex>& leans_on() const { return leans_on_; }
 
@@ -71,11 +70,7 @@ class TileRecorder {
   float probability(LocalIndex p) const { return static_cast<float>(evaluations_[p].probability); }
   Strength strength(LocalIndex p) const { return {evaluations_[p].mean_distance, probability(p)}; }
 
-  void mark_border() {
-    is_border_.resize(points_.owned);
-    find_rows_with(points_.owned, neighbourhoods_.offsets.data(), neighbourhoods_.indices.data(),
-                   is_border_.size(), is_border_.data());
-  }
+  void mark_border() { is_border_ = rows_with(points_.owned, neighbourhoods_); }
 
   // Other tiles ask for what a column holds of points near theirs: runs of the tile's rows that hold none of
   // those stay unwritten. record(p): what is written of a point.
@@ -226,10 +221,21 @@ class TileRecorder {
     record_vertices(is_vertex);
   }
 
+  void count(const Evaluation& e, std::size_t neighbours) {
+    ++totals_.points;
+    totals_.neighbours += neighbours;
+    totals_.candidates += e.probability > job_.config.coherence.threshold;
+    totals_.undefined_normals += !e.normal.allFinite();
+    const double length = e.mean_distance * static_cast<double>(neighbours);
+    totals_.edge_length += static_cast<Int128>(length / scan_.totals.length_unit);
+  }
+
+  // And counts all points by the way: their evaluations do not fit in the cache.
   void record_candidates() {
     std::vector<StoredCandidate> candidates;
     for (LocalIndex p = 0; p < points_.owned; ++p) {
       const Evaluation& e = evaluations_[p];
+      count(e, neighbourhoods_[p].size());
       if (!(e.probability > job_.config.coherence.threshold) || e.gap_near == kNoIndex) continue;
       candidates.push_back(
           {{points_.rows[p], points_.rows[e.gap_near], points_.rows[e.gap_far]}, stored(p), probability(p)});
@@ -297,6 +303,7 @@ class TileRecorder {
   const TileStore& store_;
   const Job& job_;
   std::vector<std::uint8_t> is_border_;  // has foreign neighbours
+  Totals totals_;
   std::vector<TileIndex> leans_on_;
 };
 

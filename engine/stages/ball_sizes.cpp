@@ -66,10 +66,6 @@ std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
   return samplings;
 }
 
-float room_beyond(const BallSize& size, const Sampling& own, float ball) {
-  return static_cast<float>((ball * own.distance - size.radius) / size.unit);
-}
-
 void BallSizer::find() {
   std::size_t rows = 0;
   for (const Surroundings& p : points_) rows = std::max(rows, p.neighbours.size() + 1);

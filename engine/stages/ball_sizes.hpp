@@ -20,7 +20,9 @@ namespace lacuna {
 std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars);
 
 // The room of a ball in units of `own.distance`.
-float room_beyond(const BallSize& size, const Sampling& own, float ball);
+inline float room_beyond(const BallSize& size, const Sampling& own, float ball) {
+  return static_cast<float>((ball * own.distance - size.radius) / size.unit);
+}
 
 // A point that has a star, and its neighbours, by their places among the samplings.
 struct Surroundings {
