@@ -374,6 +374,16 @@ void Parameter::set(std::string_view text) const {
   std::visit(SetFromText{*this, text}, value);
 }
 
+std::vector<IdleParameter> idle_parameters(const Config& config) {
+  std::vector<IdleParameter> idle;
+  if (config.loops.method != LoopMethod::kPaper) {
+    for (const std::string_view key : {"max_prob_weight", "max_total_weight", "e"})
+      idle.push_back({key, "--method paper"});
+  }
+  if (!config.output.points) idle.push_back({"normals", "--points"});
+  return idle;
+}
+
 void read_config(const std::filesystem::path& file, Config& config) {
   Config changed = config;
   const std::vector<Parameter> all = parameters(changed);

@@ -108,6 +108,13 @@ struct Parameter {
 // Every parameter, in the order of the config file.
 std::vector<Parameter> parameters(Config& config);
 
+// A parameter that changes nothing while another has the value that it has, and the option that would make it
+// count.
+struct IdleParameter {
+  std::string_view key, needs;
+};
+std::vector<IdleParameter> idle_parameters(const Config& config);
+
 // Values of the file over those in `config`. Throws `Error` (file, line, key, what is allowed) for unknown
 // keys, wrong types and impossible values.
 void read_config(const std::filesystem::path& file, Config& config);

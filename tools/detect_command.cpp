@@ -93,6 +93,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   require(command, "--out");
   if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   if (arguments.quiet) quiet_log();
+  arguments.parameters.warn_of_idle_options(config);
 
   const std::string told = detect_to(arguments.out, arguments, config);
   if (!arguments.quiet) std::cout << told;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -60,6 +61,17 @@ Config ParameterOptions::effective_config() const {
     throw Error(config_file_ + " with the command line: " + error.what());
   }
   return config;
+}
+
+void ParameterOptions::warn_of_idle_options(const Config& config) const {
+  Config copy = config;
+  const std::vector<Parameter> all = parameters(copy);
+  for (const IdleParameter& idle : idle_parameters(config)) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].key == idle.key && given_[i].option->count() > 0)
+        spdlog::warn("{} changes nothing without {}", all[i].option(), idle.needs);
+    }
+  }
 }
 
 std::vector<std::string> join_columns(std::vector<std::string> arguments) {

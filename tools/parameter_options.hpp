@@ -23,6 +23,9 @@ class ParameterOptions {
   // `CLI::ValidationError` for what is wrong on the command line.
   Config effective_config() const;
 
+  // Logs a warning for each option on the command line that changes nothing in this configuration.
+  void warn_of_idle_options(const Config& config) const;
+
  private:
   struct Given {
     const CLI::Option* option;

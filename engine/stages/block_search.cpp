@@ -138,27 +138,36 @@ void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
 }
 
 void BlockSearch::prepare(std::size_t neighbours) {
-  if (neighbours == neighbours_ && !found_.empty()) return;
-  neighbours_ = neighbours;
   found_.resize(kRun * neighbours);
+  if (neighbours == neighbours_) return;
+  neighbours_ = neighbours;
   // On a surface, twice the radius holds four times the points.
   for (std::size_t found = 1; found < next_guess_.size(); ++found)
     next_guess_[found] = (1 + std::sqrt(wanted_candidates(neighbours) / static_cast<double>(found))) / 2;
 }
 
-// Candidates for the neighbours of the queries of [first, last), to the lists of the run. Where the order of
-// points jumps, fewer of them are looked around together.
-void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
-  if (!look_around(first, last, kRunGuess * guess_) && last - first > 1) {
+// visit(first, last): queries whose surroundings are in sight. Where the order of points jumps, fewer of them
+// are looked around together; of one alone there may be nothing in sight.
+template <class Radius, class Visit>
+void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
+  if (!look_around(first, last, radius()) && last - first > 1) {
     const LocalIndex middle = first + (last - first) / 2;
-    list_run(first, middle, run);
-    list_run(middle, last, run);
-    return;
+    for_each_part(first, middle, radius, visit);
+    for_each_part(middle, last, radius, visit);
+  } else {
+    visit(first, last);
   }
-  for (LocalIndex query = first; query < last; ++query) {
-    list_candidates(query, last, lists_[query - run]);
-    if (in_sight_ == 0 && query + 1 < last) return list_run(query + 1, last, run);
-  }
+}
+
+// Candidates for the neighbours of the queries of [first, last), to the lists of the run.
+void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
+  const auto radius = [this] { return kRunGuess * guess_; };
+  for_each_part(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
+    for (LocalIndex query = begin; query < end; ++query) {
+      list_candidates(query, end, lists_[query - run]);
+      if (in_sight_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
+    }
+  });
 }
 
 // All points within some radius: more than the neighbours wanted, yet not too many. None if there is no such
@@ -271,30 +280,17 @@ void BlockSearch::meet(LocalIndex query, LocalIndex other) {
 
 // Lists and ranks the points within the radius of the queries of a run, and those that may be.
 void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
-  list_balls_of(first, last, radius, first);
   std::size_t most = 0;
-  for (const CandidateList& list : std::span(lists_).first(last - first)) {
-    if (list.count <= kMostCandidates) most = std::max(most, list.count);
-  }
-  rank_lists(last - first, most, false);
-}
-
-void BlockSearch::list_balls_of(LocalIndex first, LocalIndex last, double radius, LocalIndex run) {
-  const bool are_in_sight = look_around(first, last, radius);
-  if (!are_in_sight && last - first > 1) {
-    const LocalIndex middle = first + (last - first) / 2;
-    list_balls_of(first, middle, radius, run);
-    list_balls_of(middle, last, radius, run);
-    return;
-  }
-  for (LocalIndex query = first; query < last; ++query) {
-    CandidateList& list = lists_[query - run];
-    if (are_in_sight) {
-      list_within(query, radius, 2 * sight_.margin, list);
-    } else {
+  const auto same_radius = [radius] { return radius; };
+  for_each_part(first, last, same_radius, [&](LocalIndex begin, LocalIndex end) {
+    for (LocalIndex query = begin; query < end; ++query) {
+      CandidateList& list = lists_[query - first];
       list.count = kMostCandidates + 1;
+      if (in_sight_ > 0) list_within(query, radius, 2 * sight_.margin, list);
+      if (list.count <= kMostCandidates) most = std::max(most, list.count);
     }
-  }
+  });
+  rank_lists(last - first, most, false);
 }
 
 void BlockSearch::collect_ball(LocalIndex query, std::size_t place, double squared_radius) {

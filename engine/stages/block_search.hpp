@@ -58,8 +58,8 @@ class BlockSearch {
   struct Boxes;
   void find(LocalIndex first, LocalIndex last, std::size_t k);
   void prepare(std::size_t neighbours);
-  void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
+  void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
   void rank(LocalIndex first, LocalIndex last);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
@@ -68,10 +68,11 @@ class BlockSearch {
   void descend(LocalIndex query, std::size_t level, std::size_t group);
   void meet(LocalIndex query, LocalIndex other);
   void list_balls(LocalIndex first, LocalIndex last, double radius);
-  void list_balls_of(LocalIndex first, LocalIndex last, double radius, LocalIndex run);
   void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
   void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
   void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
+  template <class Radius, class Visit>
+  void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
   bool set_origin(const Box& run, double radius);
   std::span<const LocalIndex> found(std::size_t place) const {
@@ -91,7 +92,7 @@ class BlockSearch {
   std::size_t neighbours_ = 0;  // of each query
   // By how many points the query before found, in units of its radius.
   std::array<double, kMostCandidates + 1> next_guess_{};
-  std::vector<LocalIndex> found_;   // by query of the block
+  std::vector<LocalIndex> found_;   // by query of the run, or in one ball
   std::vector<Neighbour> nearest_;  // of one query, found with care
 };
 

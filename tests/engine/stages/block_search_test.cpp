@@ -186,6 +186,11 @@ TEST_CASE("the search in blocks agrees with a kd-tree on many points, within a r
       compare(found);
     });
   }
+  search.nearest(5, 9, 15,
+                 [&](LocalIndex query, std::span<const LocalIndex> found) {  // once more, after balls
+                   tree.nearest(query, 15, expected);
+                   compare(found);
+                 });
   CHECK(wrong == 0);
 }
 
