@@ -1,13 +1,10 @@
 #include "engine/core/cell_index.hpp"
 
-#include "engine/core/error.hpp"
 #include "engine/core/leaf_table.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-
-#include <openvdb/openvdb.h>
 
 namespace lacuna {
 
@@ -42,35 +39,6 @@ void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::
       __builtin_prefetch(numbers[i]);
     }
     for (std::size_t i = 0; i < count; ++i) cells[first + i] = static_cast<std::uint32_t>(*numbers[i]);
-  }
-}
-
-void CellIndex::save(const Tiling& tiling, const std::filesystem::path& file) {
-  openvdb::initialize();
-  // OpenVDB refuses voxels of a volume below 3e-15: the index of so small a scan is in units of cells.
-  constexpr double kSmallestVoxel = 0x1p-16;
-  const double edge = tiling.grid.edge();
-  const auto transform = openvdb::math::Transform::createLinearTransform(edge < kSmallestVoxel ? 1.0 : edge);
-  const auto points = openvdb::Int32Grid::create(0);
-  const auto tiles = openvdb::Int32Grid::create(-1);
-  points->setName("points");
-  tiles->setName("tile");
-  auto points_at = points->getAccessor();
-  auto tile_at = tiles->getAccessor();
-  for (std::uint32_t i = 0; i < tiling.cells.size(); ++i) {
-    const CellCoord& cell = tiling.cells[i].coord;
-    const openvdb::Coord coord(cell[0], cell[1], cell[2]);
-    points_at.setValue(coord, static_cast<std::int32_t>(tiling.cells[i].points));
-    tile_at.setValue(coord, static_cast<std::int32_t>(tiling.tile_of_cell(i)));
-  }
-  points->setTransform(transform);
-  tiles->setTransform(transform);
-  try {
-    openvdb::io::File vdb(file.string());
-    vdb.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);  // more would take longer than it saves
-    vdb.write({points, tiles});
-  } catch (const openvdb::Exception& error) {
-    throw Error(file.string() + ": cannot write: " + error.what());
   }
 }
 

@@ -4,7 +4,6 @@
 #include "engine/data/tiling.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <span>
@@ -20,10 +19,6 @@ class CellIndex {
 
   // The cell of each position; `kNoCell` where none was counted. From any thread.
   void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> cells) const;
-
-  // Writes OpenVDB grids `points` and `tile` over the cells, for OpenVDB's own tools. Memory: 600 KB for each
-  // cell that is far from all others.
-  static void save(const Tiling& tiling, const std::filesystem::path& file);
 
  private:
   struct Grid;

@@ -2,6 +2,7 @@
 
 #include "engine/core/cell_index.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/index_file.hpp"
 #include "engine/stages/order_tile.hpp"
 
 #include <algorithm>
@@ -174,7 +175,7 @@ TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job
     phase.advance(raw.size());
   });
   store.seal();
-  if (job.config.run.keep_index) CellIndex::save(store.tiling(), job.file("index.vdb"));
+  if (job.config.run.keep_index) save_index(store.tiling(), job.file("index.vdb"));
   return store;
 }
 

@@ -11,7 +11,6 @@
 #include <span>
 #include <utility>
 
-#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {

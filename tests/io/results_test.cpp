@@ -68,7 +68,7 @@ class FakeDetection final : public Detection {
 };
 
 std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" + properties +
+  return std::string("ply\nformat ascii 1.0\nelement vertex ") + std::to_string(count) + "\n" + properties +
          "end_header\n" + rows;
 }
 
@@ -172,8 +172,9 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
 
 TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
   const ScratchFolder folder;
-  const auto file = folder.write("a.ply", ply("property uchar red\n" + kXyz + "property int scalar_loop\n", 3,
-                                              "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
+  const auto file =
+      folder.write("a.ply", ply(std::string("property uchar red\n") + kXyz + "property int scalar_loop\n", 3,
+                                "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
   FileScan scan({file}, {});
   Config config;
   config.output = {.points = true, .normals = true};
@@ -197,8 +198,9 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
   const auto a = folder.write("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
                                            "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
   const auto b = folder.write("b.ply", ply(kXyz, 0, ""));
-  const auto c = folder.write("c.ply", ply("property short tag\n" + kWide + "property ushort red\n", 2,
-                                           "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+  const auto c =
+      folder.write("c.ply", ply(std::string("property short tag\n") + kWide + "property ushort red\n", 2,
+                                "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
   for (const std::size_t block : {1u, 2u, 4u, 100u}) {
     FileScan scan({a, b, c}, {});
     FakeDetection detection;
