@@ -61,7 +61,7 @@ std::string detect_to(const fs::path& out, const DetectArguments& arguments, con
   const std::string prefix = config.run.workspace.empty() ? ".lacuna-" : "lacuna-";
   if (config.run.workspace.empty()) {  // elsewhere, other runs may have theirs
     for (const fs::path& left : find_workspaces(out, prefix))
-      spdlog::warn("{}: left by a run that was killed; it can be removed", left.string());
+      spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
   }
   const Workspace workspace(parent.path(), prefix, arguments.keep_workspace);
   const std::unique_ptr<Progress> progress =
