@@ -45,7 +45,7 @@ class TileRecorder {
         job_(job) {}
 
   void record() {
-    mark_border();
+    is_border_ = rows_with(points_.owned, neighbourhoods_);
     if (job_.config.loops.method == LoopMethod::kPaper) {
       record_strengths();
       record_edges();
@@ -69,8 +69,6 @@ class TileRecorder {
   Vertex vertex(LocalIndex p) const { return {points_.ids[p], points_.rows[p]}; }
   float probability(LocalIndex p) const { return static_cast<float>(evaluations_[p].probability); }
   Strength strength(LocalIndex p) const { return {evaluations_[p].mean_distance, probability(p)}; }
-
-  void mark_border() { is_border_ = rows_with(points_.owned, neighbourhoods_); }
 
   // Other tiles ask for what a column holds of points near theirs: runs of the tile's rows that hold none of
   // those stay unwritten. record(p): what is written of a point.

@@ -7,6 +7,13 @@ namespace {
 
 constexpr float kLargest = __FLT_MAX__;
 
+// 0, 1, 2, ...
+LACUNA_INLINE SingleBits lane_numbers() {
+  SingleBits numbers;
+  for (std::size_t i = 0; i < kSingles; ++i) numbers[i] = static_cast<std::uint32_t>(i);
+  return numbers;
+}
+
 // Squared distances between a box and as many others as a register holds.
 template <class Number>
 LACUNA_INLINE auto squared_gaps(const Number* low, const Number* high, const Number* const lows[3],
@@ -28,8 +35,7 @@ LACUNA_INLINE std::size_t near_blocks(const Sight& sight, const float* query, fl
   std::size_t count = 0;
   const float* const lows[3] = {sight.low[0], sight.low[1], sight.low[2]};
   const float* const highs[3] = {sight.high[0], sight.high[1], sight.high[2]};
-  SingleBits numbers;
-  for (std::size_t i = 0; i < kSingles; ++i) numbers[i] = static_cast<std::uint32_t>(i);
+  SingleBits numbers = lane_numbers();
   for (std::size_t first = 0; first < sight.count; first += kSingles) {
     const std::size_t there = sight.count - first;
     const std::uint32_t is_there = there < kSingles ? (1U << there) - 1 : ~0U;
@@ -127,8 +133,7 @@ void find_within(const Sight& sight, const float query[3], float limit, Candidat
   std::uint32_t near[kMostBlocks + kSingles];
   const std::size_t blocks = near_blocks(sight, query, limit, near);
   const Singles x = all_lanes(query[0]), y = all_lanes(query[1]), z = all_lanes(query[2]);
-  SingleBits places;
-  for (std::size_t i = 0; i < kSingles; ++i) places[i] = static_cast<std::uint32_t>(i);
+  const SingleBits places = lane_numbers();
   std::size_t count = 0;
   for (std::size_t i = 0; i < blocks && count <= kMostCandidates; ++i) {
     const auto& block = sight.near[near[i]];
