@@ -12,7 +12,11 @@ struct alignas(64) Eight {
   double at[kEight];
 };
 
-// Sixteen of single precision: as large.
+struct alignas(32) EightSingles {
+  float at[kEight];
+};
+
+// Sixteen of single precision: as large as eight.
 inline constexpr std::size_t kSixteen = 16;
 
 struct alignas(64) Sixteen {

@@ -7,6 +7,8 @@
 // that leaves functions behind which other code would share: no containers, no Eigen.
 #pragma once
 
+#include "engine/core/eight.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -46,6 +48,11 @@ inline constexpr std::size_t kSingles = kLaneBytes / sizeof(float);
 using Singles = float __attribute__((vector_size(kLaneBytes)));
 using SingleBits = std::uint32_t __attribute__((vector_size(kLaneBytes)));
 
+// As many of eight numbers of single precision as fit.
+inline constexpr std::size_t kSinglesOfEight = kSingles < kEight ? kSingles : kEight;
+using SinglesOfEight = float __attribute__((vector_size(kSinglesOfEight * sizeof(float))));
+using SinglesOfEightBits = std::int32_t __attribute__((vector_size(sizeof(SinglesOfEight))));
+
 LACUNA_INLINE Lanes load(const double* from) {
   Lanes lanes;
   __builtin_memcpy(&lanes, from, sizeof lanes);
@@ -61,6 +68,20 @@ LACUNA_INLINE void store(double* to, Lanes lanes) {
 }
 LACUNA_INLINE void store(float* to, Singles singles) {
   __builtin_memcpy(to, &singles, sizeof singles);
+}
+LACUNA_INLINE void store(float* to, SingleLanes singles) {
+  __builtin_memcpy(to, &singles, sizeof singles);
+}
+LACUNA_INLINE SinglesOfEight load_of_eight(const float* from) {
+  SinglesOfEight singles;
+  __builtin_memcpy(&singles, from, sizeof singles);
+  return singles;
+}
+LACUNA_INLINE void store_of_eight(float* to, SinglesOfEight singles) {
+  __builtin_memcpy(to, &singles, sizeof singles);
+}
+LACUNA_INLINE void store_of_eight(std::int32_t* to, SinglesOfEightBits numbers) {
+  __builtin_memcpy(to, &numbers, sizeof numbers);
 }
 LACUNA_INLINE Lanes all_lanes(double value) {
   return value - Lanes{};
@@ -78,6 +99,19 @@ LACUNA_INLINE bool any(LaneBits mask) {
   std::int64_t some = 0;
   for (std::size_t i = 0; i < kLanes; ++i) some |= mask[i];
   return some != 0;
+#endif
+}
+
+// A bit for each lane of a mask.
+LACUNA_INLINE std::uint32_t chosen_lanes(SingleBits mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#else
+  std::uint32_t chosen = 0;
+  for (std::size_t i = 0; i < kSingles; ++i) chosen |= (mask[i] & 1) << i;
+  return chosen;
 #endif
 }
 

@@ -51,8 +51,8 @@ LACUNA_DISPATCH(SortRows, sort_rows)
 using SortSingleRows = void(Sixteen* rows, std::size_t count, std::size_t wanted);
 LACUNA_DISPATCH(SortSingleRows, sort_single_rows)
 
-// For *.lanes.cpp: of as many columns as a register holds, from `first` on.
-using SortColumns = void(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first);
+// For *.lanes.cpp: all rows of as many columns as fit, from `first` on.
+using SortColumns = void(EightSingles* rows, std::size_t count, std::size_t first);
 LACUNA_DECLARE(SortColumns, sort_columns)
 
 }  // namespace lacuna

@@ -8,12 +8,29 @@
 namespace lacuna::LACUNA_LANES {
 namespace {
 
-// What holds as many columns of a row as fit.
-template <class Row>
-using RegisterOf = decltype(load(Row{}.at));
+// As many columns of a row as fit.
+LACUNA_INLINE Lanes columns(const Eight& row, std::size_t first) {
+  return load(row.at + first);
+}
+LACUNA_INLINE SinglesOfEight columns(const EightSingles& row, std::size_t first) {
+  return load_of_eight(row.at + first);
+}
+LACUNA_INLINE Singles columns(const Sixteen& row, std::size_t first) {
+  return load(row.at + first);
+}
 
 template <class Row>
-constexpr auto kInfinite = static_cast<std::remove_extent_t<decltype(Row::at)>>(__builtin_inf());
+using RegisterOf = decltype(columns(Row{}, 0));
+
+template <class Row>
+LACUNA_INLINE void set_columns(Row& row, std::size_t first, RegisterOf<Row> numbers) {
+  __builtin_memcpy(row.at + first, &numbers, sizeof numbers);
+}
+
+template <class Row>
+LACUNA_INLINE RegisterOf<Row> infinite_columns() {
+  return RegisterOf<Row>{} + static_cast<std::remove_extent_t<decltype(Row::at)>>(__builtin_inf());
+}
 
 consteval std::size_t count_comparisons(std::size_t rows) {
   std::size_t count = 0;
@@ -48,19 +65,19 @@ void sort_few(Row* rows, std::size_t count, std::size_t first) {
   constexpr std::size_t kLast = kRows - 1;
   RegisterOf<Row> row[kRows];
   [&]<std::size_t... i>(std::index_sequence<i...>) {
-    ((row[i] = load(rows[i].at + first)), ...);
+    ((row[i] = columns(rows[i], first)), ...);
   }
   (std::make_index_sequence<kLast>{});
-  row[kLast] = count == kRows ? load(rows[kLast].at + first) : all_lanes(kInfinite<Row>);
+  row[kLast] = count == kRows ? columns(rows[kLast], first) : infinite_columns<Row>();
   [&]<std::size_t... i>(std::index_sequence<i...>) {
     (put_in_order(row[kAll.at[i].low], row[kAll.at[i].high]), ...);
   }
   (std::make_index_sequence<count_comparisons(kRows)>{});
   [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (store(rows[i].at + first, row[i]), ...);
+    (set_columns(rows[i], first, row[i]), ...);
   }
   (std::make_index_sequence<kLast>{});
-  if (count == kRows) store(rows[kLast].at + first, row[kLast]);
+  if (count == kRows) set_columns(rows[kLast], first, row[kLast]);
 }
 
 template <class Row>
@@ -68,10 +85,10 @@ void sort_many(Row* rows, std::size_t count, std::size_t wanted, std::size_t fir
   const SortingNetwork network = sorting_network(count, wanted);
   for (std::size_t i = 0; i < network.count; ++i) {
     const Comparison c = network.comparisons[i];
-    RegisterOf<Row> low = load(rows[c.low].at + first), high = load(rows[c.high].at + first);
+    RegisterOf<Row> low = columns(rows[c.low], first), high = columns(rows[c.high], first);
     put_in_order(low, high);
-    store(rows[c.low].at + first, low);
-    store(rows[c.high].at + first, high);
+    set_columns(rows[c.low], first, low);
+    set_columns(rows[c.high], first, high);
   }
 }
 
@@ -97,8 +114,8 @@ void sort_some(Row* rows, std::size_t count, std::size_t wanted, std::size_t fir
 
 }  // namespace
 
-void sort_columns(Eight* rows, std::size_t count, std::size_t wanted, std::size_t first) {
-  sort_some(rows, count, wanted, first);
+void sort_columns(EightSingles* rows, std::size_t count, std::size_t first) {
+  sort_some(rows, count, count, first);
 }
 
 void sort_rows(Eight* rows, std::size_t count, std::size_t wanted) {

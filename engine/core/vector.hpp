@@ -33,5 +33,20 @@ LACUNA_INLINE Vector<Real> select(Mask mask, Vector<Real> a, Vector<Real> b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
+// Two directions at right angles to a normal and to each other, counterclockwise about it.
+template <class Real>
+struct Frame {
+  Vector<Real> u, v;
+};
+
+// Duff et al., Building an Orthonormal Basis, Revisited (2017).
+template <class Real>
+LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
+  const Real sign = select(normal.z < 0.0, Real{} - 1.0, Real{} + 1.0);
+  const Real s = -1.0 / (sign + normal.z), t = normal.x * normal.y * s;
+  return {{1.0 + sign * normal.x * normal.x * s, sign * t, -sign * normal.x},
+          {t, sign + normal.y * normal.y * s, -normal.y}};
+}
+
 }  // namespace LACUNA_LANES
 }  // namespace lacuna

@@ -1,4 +1,5 @@
 #include "engine/criteria/judge.hpp"
+#include "engine/criteria/largest_gaps.hpp"
 
 #include <algorithm>
 #include <cmath>

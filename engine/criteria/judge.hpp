@@ -1,42 +1,17 @@
-// The criteria of eight points at once (paper, 4.2 to 4.6): plain arrays in, plain arrays out, so that the
-// arithmetic can be compiled for each instruction set.
+// The criteria of eight points at once (paper, 4.2 to 4.6).
 #pragma once
 
 #include "engine/core/dispatch.hpp"
 #include "engine/core/eight.hpp"
+#include "engine/criteria/bundle.hpp"
 
 #include <cstddef>
 
 namespace lacuna {
 
-inline constexpr std::size_t kBundle = kEight;            // points judged together
-inline constexpr std::size_t kMostSortedDirections = 64;  // side by side
-
-// Directions nearer than this, in radians, are one direction (its nearest neighbour stands for it), gaps
-// nearer than this are equally large: exact symmetries of the points must not be decided by rounding.
-inline constexpr double kSameDirection = 1e-9;
-
-// A neighbour whose projection is shorter than this share of its distance projects onto p.
-inline constexpr double kNoDirection = 1e-12;
-
-// Neighbourhoods side by side: row i holds the i-th neighbour of each point. Beyond a point's count its
-// offsets are 0.
-struct Bundle {
-  std::size_t rows = 0;  // the largest count
-  Eight counts;          // neighbours of each point, from 1 on
-  Eight* x = nullptr;    // offsets q - p, by row
-  Eight* y = nullptr;
-  Eight* z = nullptr;
-  Eight given_normals[3];       // unit; NaN: to be estimated
-  std::size_t sorted_rows = 0;  // the first rows, at most kMostSortedDirections
-  Eight* distance = nullptr;    // working space, by row
-  Eight* weight = nullptr;
-  Eight* direction = nullptr;
-};
-
 struct JudgeParameters {
   double sigma;             // over r_p
-  double cos_cone;          // neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction
+  double cos_cone;          // as in `TangentPlanes`
   double crease_threshold;  // angle probability from which a crease is looked for
   double shares[3];         // of the criteria, in the order of the table; sum 1
 };
@@ -54,7 +29,7 @@ struct Judgements {
 using Judge = void(const Bundle&, const JudgeParameters&, Judgements&);
 LACUNA_DISPATCH(Judge, judge)
 
-// ---- What few points need, done for one of them (careful.cpp)
+// ---- One of the points (careful.cpp)
 
 struct PlaneFit {
   double mean_offset[3];
@@ -65,15 +40,5 @@ struct PlaneFit {
 
 // Where the closed form loses digits: weights of the standard library and an iterative eigensolver.
 PlaneFit fit_plane_carefully(const Bundle& bundle, std::size_t point, double sigma);
-
-struct GapFit {
-  double size = 0;
-  double used = 0;
-  double near = -1, far = -1;
-};
-
-// Where directions coincide, or are more than kMostSortedDirections.
-GapFit largest_gap_carefully(const Bundle& bundle, std::size_t point, const double normal[3],
-                             double cos_cone);
 
 }  // namespace lacuna

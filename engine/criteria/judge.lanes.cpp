@@ -1,8 +1,8 @@
 #include "engine/criteria/judge.hpp"
 
-#include "engine/core/sorting_network.hpp"
 #include "engine/criteria/angle.hpp"
 #include "engine/criteria/halfdisc.hpp"
+#include "engine/criteria/largest_gaps.hpp"
 #include "engine/criteria/shape.hpp"
 
 namespace lacuna::LACUNA_LANES {
@@ -13,11 +13,10 @@ using Surfaces = Surface<Lanes>;
 using Gaps = Gap<Lanes>;
 using Mask = LaneBits;
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kInfinite = __builtin_inf();
 constexpr double kUndefined = __builtin_nan("");
 
 // As many points of a bundle as a register holds, from `first` on.
+constexpr std::size_t kParts = kBundle / kLanes;
 struct Part {
   const Bundle& bundle;
   std::size_t first;
@@ -160,132 +159,74 @@ Mask use_given_normals(const Part& part, Surfaces& surface) {
 
 // ---- The largest gap between directions in the tangent plane (4.2)
 
-// A direction as one number: its angle from 8 to 8 + 2 pi, the neighbour's row in the lowest bits. That is
-// exact to 2e-13; without a direction: infinite.
-constexpr int kRowShift = std::countr_zero(kMostSortedDirections);
-constexpr std::int64_t kRowBits = kMostSortedDirections - 1;
-constexpr double kOffset = 8;
-
-LACUNA_INLINE Lanes angle_in(Lanes direction) {
-  return from_bits(bits(direction) & ~kRowBits);
-}
-LACUNA_INLINE LaneBits row_in(Lanes direction) {
-  return bits(direction) & kRowBits;
+void set_normals(TangentPlanes& planes, std::size_t first, Mask has_normal, Vectors normal) {
+  const Lanes none = all_lanes(kUndefined);
+  normal = select(has_normal, normal, {none, none, none});
+  store(planes.normals[0].at + first, normal.x);
+  store(planes.normals[1].at + first, normal.y);
+  store(planes.normals[2].at + first, normal.z);
 }
 
-// Returns how many neighbours of each point have a direction.
-Lanes find_directions(const Part& part, Vectors normal, double cos_cone) {
-  // Duff et al., Building an Orthonormal Basis, Revisited (2017).
-  const Lanes sign = select(normal.z < 0.0, all_lanes(-1.0), all_lanes(1.0));
-  const Lanes s = -1.0 / (sign + normal.z), t = normal.x * normal.y * s;
-  const Vectors u{1.0 + sign * normal.x * normal.x * s, sign * t, -sign * normal.x};
-  const Vectors v{t, sign + normal.y * normal.y * s, -normal.y};
-
-  Lanes used{};
-  for (std::size_t i = 0; i < part.bundle.sorted_rows; ++i) {
-    const Vectors offset = part.offset(i);
-    const Lanes distance = part.get(part.bundle.distance, i);
-    const Lanes x = dot(u, offset), y = dot(v, offset);
-    const Lanes shortest = kNoDirection * distance;
-    const Mask stable =
-        (x * x + y * y > shortest * shortest) & (magnitude(dot(normal, offset)) <= cos_cone * distance);
-    const Lanes angle = angle_of(y, x);
-    const Lanes turned = select(angle < 0.0, angle + kTurn, angle) + kOffset;
-    const Lanes direction = from_bits((bits(turned) & ~kRowBits) | static_cast<std::int64_t>(i));
-    part.set(part.bundle.direction, i, select(stable, direction, all_lanes(kInfinite)));
-    used += select(stable, all_lanes(1.0), Lanes{});
-  }
-  return used;
+Gaps gaps_of(const BundledGaps& gaps, std::size_t first) {
+  return {load(gaps.size.at + first), load(gaps.used.at + first), load(gaps.near.at + first),
+          load(gaps.far.at + first)};
 }
 
-// visit(turn, from, to) for the turn from each direction to the next, the last to the first. Sorted rows;
-// where there is no direction, the turn is negative.
-template <class Visit>
-LACUNA_INLINE void for_each_turn(const Part& part, Visit&& visit) {
-  const Eight* const directions = part.bundle.direction;
-  const Lanes first = part.get(directions, 0);
-  Lanes here = first;
-  for (std::size_t i = 0; i < part.bundle.sorted_rows; ++i) {
-    const Lanes next = i + 1 < part.bundle.sorted_rows ? part.get(directions, i + 1) : all_lanes(kInfinite);
-    const Mask is_last = next == kInfinite;
-    const Lanes to = select(is_last, first, next);
-    const Lanes turn = (angle_in(to) - angle_in(here)) + select(is_last, all_lanes(kTurn), Lanes{});
-    visit(select(here == kInfinite, all_lanes(-1.0), turn), row_in(here), row_in(to));
-    here = next;
+void find_gaps(const Bundle& bundle, TangentPlanes& planes, Surfaces (&surfaces)[kParts]) {
+  for (std::size_t i = 0; i < kParts; ++i) {
+    set_normals(planes, i * kLanes, surfaces[i].has_normal, surfaces[i].normal);
+    store(planes.mean_distances.at + i * kLanes, surfaces[i].mean_distance);
   }
+  BundledGaps gaps;
+  LACUNA_LANES::find_largest_gaps(bundle, planes, gaps);
+  for (std::size_t i = 0; i < kParts; ++i) surfaces[i].gap = gaps_of(gaps, i * kLanes);
 }
 
-Gaps largest_gaps(const Part& part, Vectors normal, double cos_cone) {
-  Gaps gap;
-  gap.used = find_directions(part, normal, cos_cone);
-  LACUNA_LANES::sort_columns(part.bundle.direction, part.bundle.sorted_rows, part.bundle.sorted_rows,
-                             part.first);
-  const auto pair_of = [](LaneBits from, LaneBits to) {
-    return from < to ? from << kRowShift | to : to << kRowShift | from;
-  };
-  Lanes smallest = all_lanes(kTurn), second{};
-  LaneBits pair{};
-  for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
-    pair = turn > gap.size ? pair_of(from, to) : pair;
-    second = larger(second, smaller(turn, gap.size));
-    gap.size = larger(gap.size, turn);
-    smallest = select(turn >= 0.0, smaller(smallest, turn), smallest);
-  });
-  // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
-  if (any(second >= gap.size - kSameDirection)) {
-    pair = ~LaneBits{} & INT64_MAX;
-    for_each_turn(part, [&](Lanes turn, LaneBits from, LaneBits to) {
-      const LaneBits here = pair_of(from, to);
-      pair = (turn >= gap.size - kSameDirection) & (here < pair) ? here : pair;
-    });
-  }
-  gap.near = __builtin_convertvector(pair >> kRowShift, Lanes);
-  gap.far = __builtin_convertvector(pair & kRowBits, Lanes);
-  constexpr double kInDoubt = 1.001 * kSameDirection;
-  const Mask too_many = part.counts() > static_cast<double>(kMostSortedDirections);
-  const Mask careful = too_many | (gap.used < 2.0) | (smallest <= kInDoubt);
-  if (!any(careful)) return gap;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!careful[lane]) continue;
-    const double n[3] = {normal.x[lane], normal.y[lane], normal.z[lane]};
-    const GapFit fit = largest_gap_carefully(part.bundle, part.first + lane, n, cos_cone);
-    gap.size[lane] = fit.size;
-    gap.used[lane] = fit.used;
-    gap.near[lane] = fit.near;
-    gap.far[lane] = fit.far;
-  }
-  return gap;
+// The direction of the crease, if it is in question whether there is one.
+struct Crease {
+  Mask is_there;
+  Vectors direction;
+};
+Crease find_crease(const Part& part, double threshold, Mask estimated, const Surfaces& surface) {
+  Crease crease{
+      estimated & surface.has_normal & (angle_probability(surface) > threshold) & (surface.gap.near >= 0.0),
+      {}};
+  if (!any(crease.is_there)) return crease;
+  const Vectors near = part.offset(surface.gap.near), far = part.offset(surface.gap.far);
+  crease.direction = in_plane(far, surface.normal) - in_plane(near, surface.normal);
+  constexpr double kOnePoint = 1e-12;
+  crease.is_there &= norm(crease.direction) > kOnePoint * (norm(near) + norm(far));
+  return crease;
 }
 
 // At a sharp crease the estimated normal halves the angle between the two faces, and the faces look like a
 // boundary; a quarter turn about the crease may show a surface on both sides (4.6).
-void turn_at_creases(const Part& part, const JudgeParameters& parameters, Mask estimated, Surfaces& surface) {
-  const Lanes before = angle_probability(surface);
-  const Mask in_question =
-      estimated & surface.has_normal & (before > parameters.crease_threshold) & (surface.gap.near >= 0.0);
-  if (!any(in_question)) return;
-  const Vectors near = part.offset(surface.gap.near), far = part.offset(surface.gap.far);
-  const Vectors crease = in_plane(far, surface.normal) - in_plane(near, surface.normal);
-  constexpr double kOnePoint = 1e-12;
-  const Mask is_line = norm(crease) > kOnePoint * (norm(near) + norm(far));
-  if (!any(in_question & is_line)) return;
-
-  Surfaces turned = surface;
-  turned.normal = cross(crease, surface.normal);
-  turned.normal = turned.normal / norm(turned.normal);
-  turned.normal = select(in_question & is_line, turned.normal, surface.normal);
-  turned.gap = largest_gaps(part, turned.normal, parameters.cos_cone);
-  const Mask better = in_question & is_line & (angle_probability(turned) < before / 2.0);
-  surface.normal = select(better, turned.normal, surface.normal);
-  surface.gap.size = select(better, turned.gap.size, surface.gap.size);
-  surface.gap.used = select(better, turned.gap.used, surface.gap.used);
-  surface.gap.near = select(better, turned.gap.near, surface.gap.near);
-  surface.gap.far = select(better, turned.gap.far, surface.gap.far);
-}
-
-Gaps only_where(Mask mask, const Gaps& gap) {
-  return {select(mask, gap.size, Lanes{}), select(mask, gap.used, Lanes{}),
-          select(mask, gap.near, all_lanes(Gaps::kNone)), select(mask, gap.far, all_lanes(Gaps::kNone))};
+void turn_at_creases(const Bundle& bundle, const JudgeParameters& parameters, const Mask (&estimated)[kParts],
+                     TangentPlanes& planes, Surfaces (&surfaces)[kParts]) {
+  Mask is_turned[kParts], some{};
+  Vectors turned[kParts];
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const Crease crease =
+        find_crease({bundle, i * kLanes}, parameters.crease_threshold, estimated[i], surfaces[i]);
+    const Vectors normal = cross(crease.direction, surfaces[i].normal);
+    is_turned[i] = crease.is_there;
+    turned[i] = normal / norm(normal);
+    set_normals(planes, i * kLanes, is_turned[i], turned[i]);
+    some |= is_turned[i];
+  }
+  if (!any(some)) return;
+  BundledGaps gaps;
+  LACUNA_LANES::find_largest_gaps(bundle, planes, gaps);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    Surfaces& surface = surfaces[i];
+    const Gaps before = surface.gap, after = gaps_of(gaps, i * kLanes);
+    const Lanes probability = angle_probability(surface);
+    surface.gap = after;
+    const Mask better = is_turned[i] & (angle_probability(surface) < probability / 2.0);
+    surface.normal = select(better, turned[i], surface.normal);
+    surface.gap = {select(better, after.size, before.size), select(better, after.used, before.used),
+                   select(better, after.near, before.near), select(better, after.far, before.far)};
+  }
 }
 
 // The nearest multiple of 2^-24, ties to even.
@@ -294,14 +235,8 @@ LACUNA_INLINE Lanes round_to_step(Lanes probability) {
   return (probability + kShift) - kShift;
 }
 
-void judge_part(const Part& part, const JudgeParameters& parameters, Judgements& judgements) {
-  Surfaces surface;
-  surface.mean_distance = measure_distances(part);
-  fit_plane(part, parameters.sigma, surface);
-  const Mask given = use_given_normals(part, surface);
-  surface.gap = only_where(surface.has_normal, largest_gaps(part, surface.normal, parameters.cos_cone));
-  turn_at_creases(part, parameters, ~given, surface);
-
+void combine(const Part& part, const JudgeParameters& parameters, const Surfaces& surface,
+             Judgements& judgements) {
   const Lanes criteria[3] = {angle_probability(surface), halfdisc_probability(surface),
                              shape_probability(surface)};
   Lanes sum{};
@@ -326,8 +261,19 @@ void judge_part(const Part& part, const JudgeParameters& parameters, Judgements&
 }  // namespace
 
 void judge(const Bundle& bundle, const JudgeParameters& parameters, Judgements& judgements) {
-  for (std::size_t first = 0; first < kBundle; first += kLanes)
-    judge_part({bundle, first}, parameters, judgements);
+  Surfaces surfaces[kParts];
+  Mask estimated[kParts];
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const Part part{bundle, i * kLanes};
+    surfaces[i].mean_distance = measure_distances(part);
+    fit_plane(part, parameters.sigma, surfaces[i]);
+    estimated[i] = ~use_given_normals(part, surfaces[i]);
+  }
+  TangentPlanes planes;
+  planes.cos_cone = parameters.cos_cone;
+  find_gaps(bundle, planes, surfaces);
+  turn_at_creases(bundle, parameters, estimated, planes, surfaces);
+  for (std::size_t i = 0; i < kParts; ++i) combine({bundle, i * kLanes}, parameters, surfaces[i], judgements);
 }
 
 }  // namespace lacuna::LACUNA_LANES

@@ -19,10 +19,10 @@ template <class Real>
 struct Gap {
   static constexpr double kNone = -1;
 
-  Real size{};                 // radians; 2 pi with one direction
-  Real used{};                 // m: neighbours that have a stable direction
-  Real near = kNone + Real{};  // gap neighbours, nearer first; equal with one direction
-  Real far = kNone + Real{};
+  Real size;  // radians; 2 pi with one direction
+  Real used;  // m: neighbours that have a stable direction
+  Real near;  // gap neighbours, nearer first; equal with one direction; kNone without any
+  Real far;
 };
 
 // p itself takes part in no sum, and every sum is taken in neighbour order.
@@ -30,11 +30,11 @@ template <class Real>
 struct Surface {
   using Mask = decltype(Real{} < Real{});
 
-  Real mean_distance{};        // r_p
-  Vector<Real> mean_offset{};  // mu_p - p, weighted by exp(-d^2 / sigma^2)
-  Vector<Real> eigenvalues{};  // of C_p up to a common factor, largest first
-  Mask has_normal{};
-  Vector<Real> normal{};  // unit
+  Real mean_distance;        // r_p
+  Vector<Real> mean_offset;  // mu_p - p, weighted by exp(-d^2 / sigma^2)
+  Vector<Real> eigenvalues;  // of C_p up to a common factor, largest first
+  Mask has_normal;
+  Vector<Real> normal;  // unit
   Gap<Real> gap;
 };
 

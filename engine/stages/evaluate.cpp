@@ -75,31 +75,23 @@ class Bundler {
     const std::size_t rows = count(lanes_.back());
     if (rows > capacity_) grow(rows);
     bundle_.rows = rows;
-    bundle_.sorted_rows = std::min(rows, kMostSortedDirections);
+    BundledNeighbours of{.positions = points_.positions.front().data()};
     for (std::size_t lane = 0; lane < kBundle; ++lane) {
       const LocalIndex p = lanes_[lane];
-      const auto neighbours = neighbourhoods_[p];
-      const Eigen::Vector3d at = points_.positions[p];
-      bundle_.counts.at[lane] = static_cast<double>(neighbours.size());
-      std::size_t row = 0;
-      for (; row < neighbours.size(); ++row) {
-        const Eigen::Vector3d& q = points_.positions[neighbours[row]];
-        bundle_.x[row].at[lane] = q.x() - at.x();
-        bundle_.y[row].at[lane] = q.y() - at.y();
-        bundle_.z[row].at[lane] = q.z() - at.z();
-      }
-      for (; row < rows; ++row)
-        bundle_.x[row].at[lane] = bundle_.y[row].at[lane] = bundle_.z[row].at[lane] = 0;
+      of.points[lane] = p;
+      of.neighbours[lane] = neighbourhoods_[p].data();
+      of.counts[lane] = static_cast<std::uint32_t>(count(p));
+      bundle_.counts.at[lane] = static_cast<double>(count(p));
       const Eigen::Vector3d normal = given_normal(p);
       for (int axis = 0; axis < 3; ++axis) bundle_.given_normals[axis].at[lane] = normal[axis];
     }
+    fastest::gather_offsets(of, bundle_);
     return bundle_;
   }
 
   void grow(std::size_t rows) {
     capacity_ = std::max(rows, 2 * capacity_);
-    Eight** const columns[] = {&bundle_.x,        &bundle_.y,      &bundle_.z,
-                               &bundle_.distance, &bundle_.weight, &bundle_.direction};
+    Eight** const columns[] = {&bundle_.x, &bundle_.y, &bundle_.z, &bundle_.distance, &bundle_.weight};
     memory_.resize(capacity_ * std::size(columns));
     Eight* column = memory_.data();
     for (Eight** place : columns) {

@@ -19,17 +19,24 @@ struct NearestLists {
   const ListLine* lines;
   std::size_t stride;
   std::size_t count;
+  std::uint16_t* mutual;  // by line: bit i, its i-th neighbour has the point among its own
 };
 
-// q is among the k nearest of p, but p not among those of q.
-struct OneSidedEdge {
-  std::uint32_t q, p;
+// Sets `mutual` among points [first, last) and those before them, which have been asked likewise: the lists
+// of those after them need not be there yet.
+using FindMutual = void(const NearestLists&, std::uint32_t first, std::uint32_t last);
+LACUNA_DISPATCH(FindMutual, find_mutual)
+
+// From points p to neighbours q. What is appended writes up to kListLine more.
+struct EdgeList {
+  std::uint32_t* q;
+  std::uint32_t* p;
 };
 
-// Appends those of the neighbours q of p below `owned` whose lists do not hold p; writes up to `count`.
-// Returns how many.
-using FindOneSided = std::size_t(const NearestLists&, std::uint32_t p, std::uint32_t owned,
-                                 OneSidedEdge* edges);
+// Sets `edges` to those from points [first, last) to neighbours below `owned` that are not mutual, once this
+// is known of all points; returns how many.
+using FindOneSided = std::size_t(const NearestLists&, std::uint32_t first, std::uint32_t last,
+                                 std::uint32_t owned, const EdgeList& edges);
 LACUNA_DISPATCH(FindOneSided, find_one_sided)
 
 }  // namespace lacuna

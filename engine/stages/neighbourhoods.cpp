@@ -11,20 +11,22 @@
 namespace lacuna {
 namespace {
 
+constexpr LocalIndex kTogether = 64;  // points asked together
+
 // N_p^k of every owned point.
 class Nearest {
  public:
   Nearest(BlockSearch& search, const TilePoints& points, std::size_t k) {
-    search.nearest(0, points.owned, k, [&](LocalIndex p, std::span<const LocalIndex> found) {
-      if (p == 0) {
-        lists_.count = found.size();
-        lists_.stride = (found.size() + kListLine - 1) / kListLine;
-        lines_ = std::make_unique_for_overwrite<ListLine[]>(lists_.stride * points.owned);
-        lists_.lines = lines_.get();
-      }
-      LocalIndex* const row = lines_[p * lists_.stride].points;
-      std::fill(std::copy(found.begin(), found.end(), row), row + lists_.stride * kListLine, kNoIndex);
-    });
+    for (LocalIndex first = 0; first < points.owned; first += kTogether) {
+      const LocalIndex last = std::min(first + kTogether, points.owned);
+      search.nearest(first, last, k, [&](LocalIndex p, std::span<const LocalIndex> found) {
+        if (p == 0) make_room(points.owned, found.size());
+        LocalIndex* const row = lines_[p * lists_.stride].points;
+        std::fill(std::copy(found.begin(), found.end(), row), row + lists_.stride * kListLine, kNoIndex);
+      });
+      // Now: those before are still in the cache.
+      fastest::find_mutual(lists_, first, last);
+    }
   }
 
   const NearestLists& lists() const { return lists_; }
@@ -43,27 +45,39 @@ class Nearest {
   }
 
  private:
+  void make_room(LocalIndex owned, std::size_t count) {
+    const std::size_t stride = (count + kListLine - 1) / kListLine;
+    lines_ = std::make_unique_for_overwrite<ListLine[]>(stride * owned);
+    mutual_ = std::make_unique_for_overwrite<std::uint16_t[]>(stride * owned);
+    lists_ = {lines_.get(), stride, count, mutual_.get()};
+  }
+
   std::unique_ptr<ListLine[]> lines_;
+  std::unique_ptr<std::uint16_t[]> mutual_;
   NearestLists lists_{};
 };
 
 // Row q: the owned points p with q in N_p^k but p not in N_q^k.
 Rows one_sided(const TilePoints& points, const Nearest& nearest) {
-  std::vector<OneSidedEdge> edges;
+  const std::size_t most = kTogether * nearest.lists().count + kListLine;
+  std::vector<std::uint32_t> q, p;
   std::size_t count = 0;
-  for (LocalIndex p = 0; p < points.owned; ++p) {
-    const std::size_t most = count + nearest.lists().count;
-    if (edges.size() < most) edges.resize(2 * most);
-    count += fastest::find_one_sided(nearest.lists(), p, points.owned, edges.data() + count);
+  for (LocalIndex first = 0; first < points.owned; first += kTogether) {
+    if (q.size() < count + most) {
+      q.resize(2 * (count + most));
+      p.resize(q.size());
+    }
+    const LocalIndex last = std::min(first + kTogether, points.owned);
+    count += fastest::find_one_sided(nearest.lists(), first, last, points.owned,
+                                     {q.data() + count, p.data() + count});
   }
-  edges.resize(count);
   Rows rows;
   rows.offsets.assign(points.owned + 1, 0);
-  for (const OneSidedEdge& edge : edges) ++rows.offsets[edge.q + 1];
-  for (LocalIndex q = 0; q < points.owned; ++q) rows.offsets[q + 1] += rows.offsets[q];
+  for (std::size_t i = 0; i < count; ++i) ++rows.offsets[q[i] + 1];
+  for (LocalIndex row = 0; row < points.owned; ++row) rows.offsets[row + 1] += rows.offsets[row];
   rows.indices.resize(count);
   std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (const OneSidedEdge& edge : edges) rows.indices[next[edge.q]++] = edge.p;
+  for (std::size_t i = 0; i < count; ++i) rows.indices[next[q[i]]++] = p[i];
   return rows;
 }
 

@@ -61,21 +61,6 @@ LACUNA_DISPATCH(AgreeOnTriangles, agree_on_triangles)
 
 inline namespace LACUNA_LANES {
 
-// Two directions in the tangent plane, counterclockwise about the normal.
-template <class Real>
-struct Frame {
-  Vector<Real> u, v;
-};
-
-// Duff et al., Building an Orthonormal Basis, Revisited (2017).
-template <class Real>
-LACUNA_INLINE Frame<Real> frame_of(Vector<Real> normal) {
-  const Real sign = select(normal.z < 0.0, Real{} - 1.0, Real{} + 1.0);
-  const Real s = -1.0 / (sign + normal.z), t = normal.x * normal.y * s;
-  return {{1.0 + sign * normal.x * normal.x * s, sign * t, -sign * normal.x},
-          {t, sign + normal.y * normal.y * s, -normal.y}};
-}
-
 // The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one
 // of them, inverted; (dx, dy): from there to where it sees the other.
 template <class Real>

@@ -1,3 +1,4 @@
+#include "engine/core/four.hpp"
 #include "engine/stages/star_bundle.hpp"
 
 namespace lacuna::LACUNA_LANES {
@@ -24,33 +25,17 @@ struct Views {
   Lanes distance;    // `Sampling::distance`
 };
 
-// Points whose neighbours are read side by side.
-constexpr std::size_t kAbreast = 4;
-using Four = double __attribute__((vector_size(kAbreast * sizeof(double))));
-using FourBits = std::int64_t __attribute__((vector_size(sizeof(Four))));
-
-LACUNA_INLINE Four load_four(const double* from) {
-  Four four;
-  __builtin_memcpy(&four, from, sizeof four);
-  return four;
-}
-
 // Offsets of neighbours and differences of weights.
 struct alignas(64) Offsets {
   double x[kStarBundle], y[kStarBundle], z[kStarBundle], weight[kStarBundle];
 };
 
-LACUNA_INLINE void store_transposed(const Four (&points)[kAbreast], Offsets& offsets, std::size_t first) {
-  const FourBits low{0, 4, 2, 6}, high{1, 5, 3, 7}, left{0, 1, 4, 5}, right{2, 3, 6, 7};
-  const Four xz01 = __builtin_shuffle(points[0], points[1], low);
-  const Four yw01 = __builtin_shuffle(points[0], points[1], high);
-  const Four xz23 = __builtin_shuffle(points[2], points[3], low);
-  const Four yw23 = __builtin_shuffle(points[2], points[3], high);
-  const auto store_four = [&](double* to, Four four) { __builtin_memcpy(to, &four, sizeof four); };
-  store_four(&offsets.x[first], __builtin_shuffle(xz01, xz23, left));
-  store_four(&offsets.y[first], __builtin_shuffle(yw01, yw23, left));
-  store_four(&offsets.z[first], __builtin_shuffle(xz01, xz23, right));
-  store_four(&offsets.weight[first], __builtin_shuffle(yw01, yw23, right));
+LACUNA_INLINE void store_turned(const Four (&points)[kFour], Offsets& offsets, std::size_t first) {
+  const Turned turned = turn(points);
+  store_four(&offsets.x[first], turned.x);
+  store_four(&offsets.y[first], turned.y);
+  store_four(&offsets.z[first], turned.z);
+  store_four(&offsets.weight[first], turned.w);
 }
 
 // What is loaded of a seat: its eight numbers are position, shift, closeness and weight.
@@ -65,19 +50,19 @@ LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
   return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
 }
 
-// Offsets of neighbours of kAbreast points from `first` on, 0 where there are no more, and
+// Offsets of neighbours of kFour points from `first` on, 0 where there are no more, and
 // `Sampling::distance`.
 void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offsets* offsets,
             double* distances) {
-  LoadedSeat at[kAbreast];
-  Four sums[kAbreast];
+  LoadedSeat at[kFour];
+  Four sums[kFour];
   std::size_t common = rows;
-  for (std::size_t i = 0; i < kAbreast; ++i) {
+  for (std::size_t i = 0; i < kFour; ++i) {
     at[i] = load_seat(bundle.seats[bundle.points[first + i]]);
     sums[i] = at[i].shift;
     common = bundle.counts[first + i] < common ? bundle.counts[first + i] : common;
   }
-  Four around[kAbreast];
+  Four around[kFour];
   const auto look_at_neighbour = [&](std::size_t i, std::size_t row, FourBits is_there) {
     const LoadedSeat q = load_seat(bundle.seats[bundle.neighbours[first + i][row]]);
     const Four offset = (q.position - at[i].position) + (q.shift - at[i].shift);
@@ -90,19 +75,19 @@ void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offse
   };
   std::size_t row = 0;
   for (; row < common; ++row) {
-    for (std::size_t i = 0; i < kAbreast; ++i) look_at_neighbour(i, row, ~FourBits{});
-    store_transposed(around, offsets[row], first);
+    for (std::size_t i = 0; i < kFour; ++i) look_at_neighbour(i, row, ~FourBits{});
+    store_turned(around, offsets[row], first);
   }
   for (; row < rows; ++row) {
-    for (std::size_t i = 0; i < kAbreast; ++i) {
+    for (std::size_t i = 0; i < kFour; ++i) {
       const std::size_t count = bundle.counts[first + i];
       const FourBits is_there = FourBits{} - static_cast<std::int64_t>(row < count);
       // Without a branch: which point has one neighbour more cannot be foretold.
       look_at_neighbour(i, row < count ? row : 0, is_there);
     }
-    store_transposed(around, offsets[row], first);
+    store_turned(around, offsets[row], first);
   }
-  for (std::size_t i = 0; i < kAbreast; ++i)
+  for (std::size_t i = 0; i < kFour; ++i)
     distances[first + i] = static_cast<double>(bundle.counts[first + i] + 1) / sums[i][3];
 }
 
@@ -286,7 +271,7 @@ void find_bundled_stars(const StarBundle& bundle, BundledStars& stars) {
   Views views;
   views.rows = (most + 1) / 2 * 2;
   Offsets offsets[kMostSeen];
-  for (std::size_t first = 0; first < kStarBundle; first += kAbreast)
+  for (std::size_t first = 0; first < kStarBundle; first += kFour)
     gather(bundle, first, views.rows, offsets, stars.distances);
   for (std::size_t first = 0; first < kStarBundle; first += kLanes) {
     look_around(bundle, offsets, first, views);

@@ -1,7 +1,7 @@
 // Each criterion on its own, on surfaces drawn by hand.
 #include "engine/criteria/angle.hpp"
 #include "engine/criteria/halfdisc.hpp"
-#include "engine/criteria/judge.hpp"
+#include "engine/criteria/largest_gaps.hpp"
 #include "engine/criteria/shape.hpp"
 
 #include <cmath>
@@ -104,7 +104,7 @@ TEST_CASE("the sign and the place of the normal do not change the gap") {
 }
 
 Surface<double> with_gap(double size, double used) {
-  Surface<double> surface;
+  Surface<double> surface{};
   surface.has_normal = true;
   surface.normal = {0, 0, 1};
   surface.gap = {.size = size, .used = used, .near = 0, .far = 1};
@@ -136,7 +136,7 @@ TEST_CASE("the halfdisc probability is 1 where the mean lies at the centroid of 
 
 TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small at the other three shapes") {
   const auto shape = [](double a, double b, double c) {
-    Surface<double> surface;
+    Surface<double> surface{};
     surface.eigenvalues = {a, b, c};
     return shape_probability(surface);
   };

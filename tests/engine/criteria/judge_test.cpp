@@ -1,11 +1,14 @@
 // Points judged side by side: the same bits from every instruction set, and from every place in a bundle.
 #include "engine/criteria/judge.hpp"
 
+#include "engine/criteria/criterion.hpp"
+#include "engine/criteria/largest_gaps.hpp"
 #include "tests/support/clouds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -48,13 +51,12 @@ struct FilledBundle {
 FilledBundle bundle_of(const std::vector<Neighbourhood>& points, bool given) {
   std::size_t count = 0;
   for (const Neighbourhood& offsets : points) count = std::max(count, offsets.size());
-  FilledBundle filled{.rows = std::vector<Eight>(6 * count)};
+  FilledBundle filled{.rows = std::vector<Eight>(5 * count)};
   Eight* const rows = filled.rows.data();
   Bundle& bundle = filled.bundle;
   bundle.rows = count;
   bundle.x = rows, bundle.y = rows + count, bundle.z = rows + 2 * count;
-  bundle.distance = rows + 3 * count, bundle.weight = rows + 4 * count, bundle.direction = rows + 5 * count;
-  bundle.sorted_rows = std::min(count, kMostSortedDirections);
+  bundle.distance = rows + 3 * count, bundle.weight = rows + 4 * count;
   for (std::size_t point = 0; point < kBundle; ++point) {
     bundle.counts.at[point] = double(points[point].size());
     for (int axis = 0; axis < 3; ++axis)
@@ -152,6 +154,47 @@ TEST_CASE("directions sorted side by side have the gap that is found with care")
     }
   }
   CHECK(compared == 500 * kBundle);
+}
+
+// What single precision cannot tell: gaps of nearly one size, directions side by side, neighbours at the edge
+// of the cone.
+TEST_CASE("gaps that differ by nearly nothing are told apart as with care") {
+  Random random(14);
+  const double kTurn = 2 * std::numbers::pi, up[3] = {0, 0, 1};
+  std::size_t different = 0, compared = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<Neighbourhood> points(kBundle);
+    for (Neighbourhood& offsets : points) {
+      const double little = std::pow(10, random.uniform(-12, -3)), start = random.uniform(0, kTurn);
+      const auto count = random.whole(3, 20);
+      for (std::int64_t i = 0; i < count; ++i) {
+        // Even directions but for little; every third one nearly that of the one before; heights near the
+        // cone's.
+        const double place =
+            double(random.chance(0.3) ? std::max<std::int64_t>(i, 1) - 1 : i) / double(count);
+        const double angle = start + kTurn * place + little * random.uniform(-1, 1);
+        const double height = random.chance(0.5) ? 0 : kParameters.cos_cone + little * random.uniform(-1, 1);
+        const double flat = std::sqrt(1 - height * height);
+        const double length = 1 + 0.01 * double(i);
+        offsets.emplace_back(length * flat * std::cos(angle), length * flat * std::sin(angle),
+                             length * height);
+      }
+    }
+    const FilledBundle filled = bundle_of(points, true);
+    Judgements found;
+    fastest::judge(filled.bundle, kParameters, found);
+    for (std::size_t i = 0; i < kBundle; ++i) {
+      const GapFit expected = largest_gap_carefully(filled.bundle, i, up, kParameters.cos_cone);
+      const double even = kTurn / expected.used;
+      const double angle =
+          expected.used < 3 ? 1 : std::clamp((expected.size - even) / (kTurn / 2 - even), 0.0, 1.0);
+      ++compared;
+      different += found.gap_near.at[i] != expected.near || found.gap_far.at[i] != expected.far ||
+                   std::abs(found.criteria[kAngle].at[i] - angle) > 1e-11;
+    }
+  }
+  CHECK(compared == 4000 * kBundle);
+  CHECK(different == 0);
 }
 
 }  // namespace lacuna

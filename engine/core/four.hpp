@@ -1,0 +1,58 @@
+// Numbers of four points, read point by point and turned so that they stand side by side. For *.lanes.cpp
+// (core/lanes): registers of four numbers whatever the instruction set.
+#pragma once
+
+#include "engine/core/lanes.hpp"
+
+namespace lacuna {
+inline namespace LACUNA_LANES {
+
+inline constexpr std::size_t kFour = 4;
+using Four = double __attribute__((vector_size(kFour * sizeof(double))));
+using FourBits = std::int64_t __attribute__((vector_size(sizeof(Four))));
+
+LACUNA_INLINE Four load_four(const double* from) {
+  Four four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return four;
+}
+LACUNA_INLINE void store_four(double* to, Four four) {
+  __builtin_memcpy(to, &four, sizeof four);
+}
+
+struct Turned {
+  Four x, y, z, w;
+};
+
+// From x, y, z and w of each point.
+LACUNA_INLINE Turned turn(const Four (&points)[kFour]) {
+  const FourBits low{0, 4, 2, 6}, high{1, 5, 3, 7}, left{0, 1, 4, 5}, right{2, 3, 6, 7};
+  const Four xz01 = __builtin_shuffle(points[0], points[1], low);
+  const Four yw01 = __builtin_shuffle(points[0], points[1], high);
+  const Four xz23 = __builtin_shuffle(points[2], points[3], low);
+  const Four yw23 = __builtin_shuffle(points[2], points[3], high);
+  return {__builtin_shuffle(xz01, xz23, left), __builtin_shuffle(yw01, yw23, left),
+          __builtin_shuffle(xz01, xz23, right), __builtin_shuffle(yw01, yw23, right)};
+}
+
+struct TurnedPositions {
+  Four x, y, z;
+};
+
+// Of points of three numbers each, and none beyond the last one's.
+LACUNA_INLINE TurnedPositions load_turned(const double* const (&points)[kFour]) {
+  using Two = double __attribute__((vector_size(sizeof(Four) / 2)));
+  const auto x_and_y = [&](std::size_t a, std::size_t b) {
+    Two low, high;
+    __builtin_memcpy(&low, points[a], sizeof low);
+    __builtin_memcpy(&high, points[b], sizeof high);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+  };
+  const Four xy02 = x_and_y(0, 2), xy13 = x_and_y(1, 3);
+  return {__builtin_shuffle(xy02, xy13, FourBits{0, 4, 2, 6}),
+          __builtin_shuffle(xy02, xy13, FourBits{1, 5, 3, 7}),
+          Four{points[0][2], points[1][2], points[2][2], points[3][2]}};
+}
+
+}  // namespace LACUNA_LANES
+}  // namespace lacuna

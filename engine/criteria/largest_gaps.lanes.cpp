@@ -1,0 +1,201 @@
+#include "engine/criteria/largest_gaps.hpp"
+
+#include "engine/core/sorting_network.hpp"
+#include "engine/core/vector.hpp"
+
+namespace lacuna::LACUNA_LANES {
+namespace {
+
+using Vectors = Vector<Lanes>;
+
+// As many of the eight points as fit, in single precision.
+using Few = SinglesOfEight;
+using FewBits = SinglesOfEightBits;
+
+// A direction as one whole number: its angle in parts of a turn above the neighbour's row, above kNoTurn.
+// As a number of single precision it is sorted; without a direction: infinite.
+constexpr std::int32_t kRows = 64;
+constexpr std::int32_t kTurn = 1 << 30;
+constexpr std::int32_t kNoTurn = 1 << 29;  // nothing below is a normal number
+constexpr std::int32_t kInfinite = 0x7f800000;
+
+// Two turns are told apart if they differ by more. A direction is wrong by no more than 1e-6 of a radian
+// (angle and its quotient in single precision, 4e-7; cut to 2^-24 turns, 4e-7; the row below, as much), a
+// turn by twice, a difference of two by four times that: 4e-6, and this is 1.2e-5.
+constexpr std::int32_t kDoubt = 2048;
+
+// Likewise, in units of the squared distance, whether a neighbour is within the cone around the normal.
+constexpr float kConeDoubt = 1e-5F;
+
+// Neighbours nearer than this share of the mean distance are left to others: nothing below underflows.
+constexpr float kNearest = 1e-10F;
+
+// A neighbour in the tangent plane, in units of r_p.
+struct Projection {
+  float x[kEight], y[kEight], distance[kEight];
+};
+
+Vectors normals_of(const TangentPlanes& planes, std::size_t first) {
+  return {load(planes.normals[0].at + first), load(planes.normals[1].at + first),
+          load(planes.normals[2].at + first)};
+}
+
+// Of the first `rows` neighbours of as many points as a register holds.
+void project(const Bundle& bundle, const TangentPlanes& planes, std::size_t first, std::size_t rows,
+             Projection* projections) {
+  const Frame<Lanes> frame = frame_of(normals_of(planes, first));
+  const Lanes unit = 1.0 / load(planes.mean_distances.at + first);
+  const Vectors u = frame.u * unit, v = frame.v * unit;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Vectors offset{load(bundle.x[i].at + first), load(bundle.y[i].at + first),
+                         load(bundle.z[i].at + first)};
+    store(projections[i].x + first, single(dot(u, offset)));
+    store(projections[i].y + first, single(dot(v, offset)));
+    store(projections[i].distance + first, single(load(bundle.distance[i].at + first) * unit));
+  }
+}
+
+LACUNA_INLINE Few magnitude(Few x) {
+  return reinterpret_cast<Few>(reinterpret_cast<FewBits>(x) & INT32_MAX);
+}
+
+// The angle of the direction (x, y) from 0 to 1, in turns, to 5e-8; (0, 0) gives 0. Abramowitz and
+// Stegun, 4.4.49.
+LACUNA_INLINE Few turn_of(Few y, Few x) {
+  const Few ax = magnitude(x), ay = magnitude(y);
+  const Few large = larger(ax, ay), small = smaller(ax, ay);
+  const Few t = small / larger(large, Few{} + 1e-30F);
+  const Few z = t * t;
+  Few p = z * 0.0028662257F - 0.0161657367F;
+  p = p * z + 0.0429096138F;
+  p = p * z - 0.0752896400F;
+  p = p * z + 0.1065626393F;
+  p = p * z - 0.1420889944F;
+  p = p * z + 0.1999355085F;
+  p = p * z - 0.3333314528F;
+  p = p * z + 1.0F;
+  Few turn = p * t * static_cast<float>(0.5 / std::numbers::pi);
+  turn = ay > ax ? 0.25F - turn : turn;
+  turn = x < 0.0F ? 0.5F - turn : turn;
+  return y < 0.0F ? 1.0F - turn : turn;
+}
+
+// Which neighbours the largest gap lies between, by row, in the order of turning.
+struct Between {
+  std::int32_t from[kEight], to[kEight], used[kEight], in_doubt[kEight];
+};
+
+void find_between(const Projection* projections, std::size_t rows, float squared_sine, std::size_t first,
+                  EightSingles* directions, Between& between) {
+  FewBits used{}, in_doubt{};
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Few x = load_of_eight(projections[i].x + first), y = load_of_eight(projections[i].y + first),
+              distance = load_of_eight(projections[i].distance + first);
+    const Few squared_distance = distance * distance;
+    const Few outside = (x * x + y * y) - squared_sine * squared_distance;
+    const FewBits is_used = outside > 0.0F;
+    in_doubt |= magnitude(outside) < kConeDoubt * squared_distance;
+    used -= is_used;
+    const FewBits part = __builtin_convertvector(turn_of(y, x) * static_cast<float>(kTurn / kRows), FewBits);
+    const FewBits direction = part * kRows + (kNoTurn + static_cast<std::int32_t>(i));
+    store_of_eight(directions[i].at + first,
+                   reinterpret_cast<Few>(is_used ? direction : FewBits{} + kInfinite));
+  }
+  in_doubt |= ~(load_of_eight(projections[0].distance + first) > kNearest) | (used < 2);
+
+  LACUNA_LANES::sort_columns(directions, rows, first);
+  const auto direction_at = [&](std::size_t row) {
+    return reinterpret_cast<FewBits>(load_of_eight(directions[row].at + first));
+  };
+  const FewBits start = direction_at(0);
+  FewBits here = start, from{}, to{}, largest{}, second{}, smallest = FewBits{} + kTurn;
+  const auto look_at = [&](FewBits next, FewBits turn) {
+    const FewBits is_larger = turn > largest;
+    from = is_larger ? here : from;
+    to = is_larger ? next : to;
+    second = larger(second, smaller(turn, largest));
+    largest = larger(largest, turn);
+  };
+  for (std::size_t i = 1; i < rows; ++i) {
+    const FewBits next = direction_at(i);
+    const FewBits is_there = next != kInfinite, turn = next - here;
+    look_at(next, turn & is_there);
+    smallest = smaller(smallest, is_there ? turn : kTurn + FewBits{});
+    here = is_there ? next : here;
+  }
+  const FewBits across = start + kTurn - here;
+  look_at(start, across);
+  smallest = smaller(smallest, across);
+  in_doubt |= (smallest < kDoubt) | (second > largest - kDoubt);
+
+  store_of_eight(between.from + first, from & (kRows - 1));
+  store_of_eight(between.to + first, to & (kRows - 1));
+  store_of_eight(between.used + first, used);
+  store_of_eight(between.in_doubt + first, in_doubt);
+}
+
+// Offsets of another row for each point, in the tangent plane.
+struct Direction {
+  Lanes x, y;
+};
+Direction direction_to(const Bundle& bundle, const Frame<Lanes>& frame, const std::int32_t* rows,
+                       std::size_t first) {
+  Vectors offset{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const auto row = static_cast<std::size_t>(rows[first + lane]);
+    offset.x[lane] = bundle.x[row].at[first + lane];
+    offset.y[lane] = bundle.y[row].at[first + lane];
+    offset.z[lane] = bundle.z[row].at[first + lane];
+  }
+  return {dot(frame.u, offset), dot(frame.v, offset)};
+}
+
+void measure_gaps(const Bundle& bundle, const TangentPlanes& planes, const Between& between,
+                  std::size_t first, BundledGaps& gaps) {
+  const Frame<Lanes> frame = frame_of(normals_of(planes, first));
+  const Direction a = direction_to(bundle, frame, between.from, first),
+                  b = direction_to(bundle, frame, between.to, first);
+  const Lanes turn = angle_of(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+  store(gaps.size.at + first, select(turn < 0.0, turn + 2 * std::numbers::pi, turn));
+}
+
+void set(BundledGaps& gaps, std::size_t point, const GapFit& fit) {
+  gaps.size.at[point] = fit.size;
+  gaps.used.at[point] = fit.used;
+  gaps.near.at[point] = fit.near;
+  gaps.far.at[point] = fit.far;
+}
+
+}  // namespace
+
+void find_largest_gaps(const Bundle& bundle, const TangentPlanes& planes, BundledGaps& gaps) {
+  constexpr auto kMost = static_cast<std::size_t>(kRows);
+  const std::size_t rows = bundle.rows < kMost ? bundle.rows : kMost;
+  Projection projections[kMost];
+  EightSingles directions[kMost];
+  Between between;
+  for (std::size_t first = 0; first < kEight; first += kLanes)
+    project(bundle, planes, first, rows, projections);
+  const double squared_sine = larger(1.0 - planes.cos_cone * planes.cos_cone, 0.0);
+  for (std::size_t first = 0; first < kEight; first += kSinglesOfEight)
+    find_between(projections, rows, static_cast<float>(squared_sine), first, directions, between);
+  for (std::size_t first = 0; first < kEight; first += kLanes)
+    measure_gaps(bundle, planes, between, first, gaps);
+
+  for (std::size_t point = 0; point < kEight; ++point) {
+    const double normal[3] = {planes.normals[0].at[point], planes.normals[1].at[point],
+                              planes.normals[2].at[point]};
+    const std::int32_t from = between.from[point], to = between.to[point];
+    if (normal[0] != normal[0]) {
+      set(gaps, point, {});
+    } else if (between.in_doubt[point] != 0 || bundle.counts.at[point] > static_cast<double>(kMost)) {
+      set(gaps, point, largest_gap_carefully(bundle, point, normal, planes.cos_cone));
+    } else {
+      gaps.used.at[point] = between.used[point];
+      gaps.near.at[point] = from < to ? from : to;
+      gaps.far.at[point] = from < to ? to : from;
+    }
+  }
+}
+
+}  // namespace lacuna::LACUNA_LANES
