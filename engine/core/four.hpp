@@ -20,6 +20,12 @@ LACUNA_INLINE void store_four(double* to, Four four) {
   __builtin_memcpy(to, &four, sizeof four);
 }
 
+LACUNA_INLINE Four root_of_four(Four x) {
+  Four roots;
+  for (std::size_t i = 0; i < kFour; ++i) roots[i] = __builtin_sqrt(x[i]);
+  return roots;
+}
+
 struct Turned {
   Four x, y, z, w;
 };

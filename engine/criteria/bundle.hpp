@@ -20,12 +20,13 @@ struct Bundle {
   Eight* x = nullptr;    // offsets q - p, by row
   Eight* y = nullptr;
   Eight* z = nullptr;
-  Eight given_normals[3];     // unit; NaN: to be estimated
-  Eight* distance = nullptr;  // by row: of neighbours from p, and what these count; set where they are needed
-  Eight* weight = nullptr;
+  Eight* squared_distance = nullptr;
+  Eight* weight = nullptr;  // working space
+  Eight mean_distance;      // r_p
+  Eight given_normals[3];   // unit; NaN: to be estimated
 };
 
-// Whose offsets are gathered. A point may stand there more than once.
+// Whose neighbours are gathered. A point may stand there more than once.
 struct BundledNeighbours {
   const double* positions;  // x, y, z of all points
   LocalIndex points[kBundle];
@@ -33,8 +34,8 @@ struct BundledNeighbours {
   std::uint32_t counts[kBundle];
 };
 
-// Sets x, y and z in each of the bundle's rows.
-using GatherOffsets = void(const BundledNeighbours&, Bundle&);
-LACUNA_DISPATCH(GatherOffsets, gather_offsets)
+// Sets offsets and distances in each of the bundle's rows, and their mean.
+using GatherNeighbours = void(const BundledNeighbours&, Bundle&);
+LACUNA_DISPATCH(GatherNeighbours, gather_neighbours)
 
 }  // namespace lacuna

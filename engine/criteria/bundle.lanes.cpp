@@ -11,7 +11,8 @@ void gather_four(const BundledNeighbours& of, std::size_t first, Bundle& bundle)
   const double* const positions = of.positions;
   const auto position = [=](LocalIndex point) { return positions + std::size_t{3} * point; };
   const std::size_t rows = bundle.rows;
-  Eight *const x = bundle.x, *const y = bundle.y, *const z = bundle.z;
+  Eight *const xs = bundle.x, *const ys = bundle.y, *const zs = bundle.z,
+               *const squares = bundle.squared_distance;
   const double* points[kFour];
   const LocalIndex* lists[kFour];
   std::size_t counts[kFour], common = rows;
@@ -22,11 +23,16 @@ void gather_four(const BundledNeighbours& of, std::size_t first, Bundle& bundle)
     common = counts[i] < common ? counts[i] : common;
   }
   const TurnedPositions at = load_turned(points);
+  Four sum{};
   const auto store_row = [&](std::size_t row, const double* const(&neighbours)[kFour]) {
     const TurnedPositions q = load_turned(neighbours);
-    store_four(x[row].at + first, q.x - at.x);
-    store_four(y[row].at + first, q.y - at.y);
-    store_four(z[row].at + first, q.z - at.z);
+    const Four x = q.x - at.x, y = q.y - at.y, z = q.z - at.z;
+    const Four squared = (x * x + y * y) + z * z;
+    store_four(xs[row].at + first, x);
+    store_four(ys[row].at + first, y);
+    store_four(zs[row].at + first, z);
+    store_four(squares[row].at + first, squared);
+    sum += root_of_four(squared);
   };
   const double* neighbours[kFour];
   std::size_t row = 0;
@@ -40,11 +46,13 @@ void gather_four(const BundledNeighbours& of, std::size_t first, Bundle& bundle)
       neighbours[i] = row < counts[i] ? position(lists[i][row]) : points[i];
     store_row(row, neighbours);
   }
+  for (std::size_t i = 0; i < kFour; ++i)
+    bundle.mean_distance.at[first + i] = sum[i] / static_cast<double>(counts[i]);
 }
 
 }  // namespace
 
-void gather_offsets(const BundledNeighbours& of, Bundle& bundle) {
+void gather_neighbours(const BundledNeighbours& of, Bundle& bundle) {
   for (std::size_t first = 0; first < kBundle; first += kFour) gather_four(of, first, bundle);
 }
 

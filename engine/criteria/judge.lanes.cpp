@@ -42,17 +42,6 @@ struct Part {
   LACUNA_INLINE Lanes counts() const { return load(bundle.counts.at + first); }
 };
 
-Lanes measure_distances(const Part& part) {
-  Lanes sum{};
-  for (std::size_t i = 0; i < part.bundle.rows; ++i) {
-    const Vectors offset = part.offset(i);
-    const Lanes distance = norm(offset);
-    part.set(part.bundle.distance, i, distance);
-    sum += distance;
-  }
-  return sum / part.counts();
-}
-
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
 // Sets the mean; returns exp(-d^2 / sigma^2)-weighted covariance as xx, yy, zz and xy, xz, yz, and whether
@@ -67,13 +56,12 @@ Covariance weigh(const Part& part, Lanes sigma, Surfaces& surface) {
   const Lanes counts = part.counts();
   Covariance c;
   constexpr double kTiny = -600;
-  const Vectors nearest = part.offset(std::size_t{0});
-  c.counts_for_something = dot(nearest, nearest) * falloff > kTiny;
+  c.counts_for_something = part.get(part.bundle.squared_distance, 0) * falloff > kTiny;
   Lanes total{};
   Vectors mean{};
   for (std::size_t i = 0; i < part.bundle.rows; ++i) {
     const Vectors offset = part.offset(i);
-    const Lanes kernel = exponential(dot(offset, offset) * falloff);
+    const Lanes kernel = exponential(part.get(part.bundle.squared_distance, i) * falloff);
     const Lanes weight = select(counts > static_cast<double>(i), kernel, Lanes{});
     part.set(part.bundle.weight, i, weight);
     total += weight;
@@ -175,7 +163,6 @@ Gaps gaps_of(const BundledGaps& gaps, std::size_t first) {
 void find_gaps(const Bundle& bundle, TangentPlanes& planes, Surfaces (&surfaces)[kParts]) {
   for (std::size_t i = 0; i < kParts; ++i) {
     set_normals(planes, i * kLanes, surfaces[i].has_normal, surfaces[i].normal);
-    store(planes.mean_distances.at + i * kLanes, surfaces[i].mean_distance);
   }
   BundledGaps gaps;
   LACUNA_LANES::find_largest_gaps(bundle, planes, gaps);
@@ -265,7 +252,7 @@ void judge(const Bundle& bundle, const JudgeParameters& parameters, Judgements& 
   Mask estimated[kParts];
   for (std::size_t i = 0; i < kParts; ++i) {
     const Part part{bundle, i * kLanes};
-    surfaces[i].mean_distance = measure_distances(part);
+    surfaces[i].mean_distance = load(bundle.mean_distance.at + part.first);
     fit_plane(part, parameters.sigma, surfaces[i]);
     estimated[i] = ~use_given_normals(part, surfaces[i]);
   }

@@ -18,8 +18,7 @@ inline constexpr double kNoDirection = 1e-12;
 
 struct TangentPlanes {
   Eight normals[3];  // unit; NaN: none, and no gap
-  Eight mean_distances;
-  double cos_cone;  // neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction
+  double cos_cone;   // neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction
 };
 
 // As in `Gap`.

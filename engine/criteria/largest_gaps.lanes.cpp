@@ -27,12 +27,12 @@ constexpr std::int32_t kDoubt = 2048;
 // Likewise, in units of the squared distance, whether a neighbour is within the cone around the normal.
 constexpr float kConeDoubt = 1e-5F;
 
-// Neighbours nearer than this share of the mean distance are left to others: nothing below underflows.
-constexpr float kNearest = 1e-10F;
+// A neighbour nearer than 1e-10 of the mean distance is in doubt: nothing underflows here.
+constexpr float kNearestSquared = 1e-20F;
 
 // A neighbour in the tangent plane, in units of r_p.
 struct Projection {
-  float x[kEight], y[kEight], distance[kEight];
+  float x[kEight], y[kEight], squared_distance[kEight];
 };
 
 Vectors normals_of(const TangentPlanes& planes, std::size_t first) {
@@ -44,14 +44,15 @@ Vectors normals_of(const TangentPlanes& planes, std::size_t first) {
 void project(const Bundle& bundle, const TangentPlanes& planes, std::size_t first, std::size_t rows,
              Projection* projections) {
   const Frame<Lanes> frame = frame_of(normals_of(planes, first));
-  const Lanes unit = 1.0 / load(planes.mean_distances.at + first);
+  const Lanes unit = 1.0 / load(bundle.mean_distance.at + first);
   const Vectors u = frame.u * unit, v = frame.v * unit;
   for (std::size_t i = 0; i < rows; ++i) {
     const Vectors offset{load(bundle.x[i].at + first), load(bundle.y[i].at + first),
                          load(bundle.z[i].at + first)};
     store(projections[i].x + first, single(dot(u, offset)));
     store(projections[i].y + first, single(dot(v, offset)));
-    store(projections[i].distance + first, single(load(bundle.distance[i].at + first) * unit));
+    store(projections[i].squared_distance + first,
+          single(load(bundle.squared_distance[i].at + first) * (unit * unit)));
   }
 }
 
@@ -90,8 +91,7 @@ void find_between(const Projection* projections, std::size_t rows, float squared
   FewBits used{}, in_doubt{};
   for (std::size_t i = 0; i < rows; ++i) {
     const Few x = load_of_eight(projections[i].x + first), y = load_of_eight(projections[i].y + first),
-              distance = load_of_eight(projections[i].distance + first);
-    const Few squared_distance = distance * distance;
+              squared_distance = load_of_eight(projections[i].squared_distance + first);
     const Few outside = (x * x + y * y) - squared_sine * squared_distance;
     const FewBits is_used = outside > 0.0F;
     in_doubt |= magnitude(outside) < kConeDoubt * squared_distance;
@@ -101,7 +101,7 @@ void find_between(const Projection* projections, std::size_t rows, float squared
     store_of_eight(directions[i].at + first,
                    reinterpret_cast<Few>(is_used ? direction : FewBits{} + kInfinite));
   }
-  in_doubt |= ~(load_of_eight(projections[0].distance + first) > kNearest) | (used < 2);
+  in_doubt |= ~(load_of_eight(projections[0].squared_distance + first) > kNearestSquared) | (used < 2);
 
   LACUNA_LANES::sort_columns(directions, rows, first);
   const auto direction_at = [&](std::size_t row) {

@@ -85,13 +85,14 @@ class Bundler {
       const Eigen::Vector3d normal = given_normal(p);
       for (int axis = 0; axis < 3; ++axis) bundle_.given_normals[axis].at[lane] = normal[axis];
     }
-    fastest::gather_offsets(of, bundle_);
+    fastest::gather_neighbours(of, bundle_);
     return bundle_;
   }
 
   void grow(std::size_t rows) {
     capacity_ = std::max(rows, 2 * capacity_);
-    Eight** const columns[] = {&bundle_.x, &bundle_.y, &bundle_.z, &bundle_.distance, &bundle_.weight};
+    Eight** const columns[] = {&bundle_.x, &bundle_.y, &bundle_.z, &bundle_.squared_distance,
+                               &bundle_.weight};
     memory_.resize(capacity_ * std::size(columns));
     Eight* column = memory_.data();
     for (Eight** place : columns) {

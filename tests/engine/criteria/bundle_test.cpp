@@ -4,6 +4,7 @@
 #include "tests/support/clouds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -11,11 +12,11 @@
 namespace lacuna {
 namespace {
 
-std::vector<GatherOffsets*> available_sets() {
-  std::vector<GatherOffsets*> sets{plain::gather_offsets};
+std::vector<GatherNeighbours*> available_sets() {
+  std::vector<GatherNeighbours*> sets{plain::gather_neighbours};
 #if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
-  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::gather_offsets);
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::gather_offsets);
+  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::gather_neighbours);
+  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::gather_neighbours);
 #endif
   return sets;
 }
@@ -42,19 +43,26 @@ TEST_CASE("a row has the offsets of as many neighbours as there are points, and 
       of.counts[i] = std::uint32_t(neighbours[i].size());
       rows = std::max(rows, neighbours[i].size());
     }
-    for (GatherOffsets* const gather : available_sets()) {
-      std::vector<Eight> columns(3 * rows);
+    for (GatherNeighbours* const gather : available_sets()) {
+      std::vector<Eight> columns(4 * rows);
       Bundle bundle{.rows = rows, .x = &columns[0], .y = &columns[rows], .z = &columns[2 * rows]};
+      bundle.squared_distance = &columns[3 * rows];
       gather(of, bundle);
-      for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t i = 0; i < kBundle; ++i) {
+      for (std::size_t i = 0; i < kBundle; ++i) {
+        double sum = 0;
+        for (std::size_t row = 0; row < rows; ++row) {
           const bool is_there = row < neighbours[i].size();
+          double squared = 0;
           for (std::size_t axis = 0; axis < 3; ++axis) {
             const double expected =
                 is_there ? positions[3 * neighbours[i][row] + axis] - positions[3 * of.points[i] + axis] : 0;
             wrong += columns[axis * rows + row].at[i] != expected;
+            squared += expected * expected;
           }
+          wrong += columns[3 * rows + row].at[i] != squared;
+          sum += std::sqrt(squared);
         }
+        wrong += bundle.mean_distance.at[i] != sum / double(neighbours[i].size());
       }
     }
   }

@@ -56,7 +56,7 @@ FilledBundle bundle_of(const std::vector<Neighbourhood>& points, bool given) {
   Bundle& bundle = filled.bundle;
   bundle.rows = count;
   bundle.x = rows, bundle.y = rows + count, bundle.z = rows + 2 * count;
-  bundle.distance = rows + 3 * count, bundle.weight = rows + 4 * count;
+  bundle.squared_distance = rows + 3 * count, bundle.weight = rows + 4 * count;
   for (std::size_t point = 0; point < kBundle; ++point) {
     bundle.counts.at[point] = double(points[point].size());
     for (int axis = 0; axis < 3; ++axis)
@@ -65,6 +65,8 @@ FilledBundle bundle_of(const std::vector<Neighbourhood>& points, bool given) {
       bundle.x[i].at[point] = points[point][i].x();
       bundle.y[i].at[point] = points[point][i].y();
       bundle.z[i].at[point] = points[point][i].z();
+      bundle.squared_distance[i].at[point] = points[point][i].squaredNorm();
+      bundle.mean_distance.at[point] += points[point][i].norm() / double(points[point].size());
     }
   }
   return filled;
