@@ -224,8 +224,9 @@ class TileRecorder {
     totals_.neighbours += neighbours;
     totals_.candidates += e.probability > job_.config.coherence.threshold;
     totals_.undefined_normals += !e.normal.allFinite();
-    const double length = e.mean_distance * static_cast<double>(neighbours);
-    totals_.edge_length += static_cast<Int128>(length / scan_.totals.length_unit);
+    const double length = e.mean_distance * static_cast<double>(neighbours) / scan_.totals.length_unit;
+    constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
+    totals_.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
   }
 
   // And counts all points by the way: their evaluations do not fit in the cache.

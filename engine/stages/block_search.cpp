@@ -128,17 +128,23 @@ BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<c
 
 BlockSearch::~BlockSearch() = default;
 
+void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+  for (LocalIndex begin = first, end; begin < last; begin = end) {
+    end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
+    find(begin, end, k, {rows[begin - first], rows.stride});
+  }
+}
+
 // Neighbours of the queries of a run.
-void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k) {
-  prepare(std::min(k, positions_.size() - 1));
+void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+  prepare(neighbours_of(k));
   if (neighbours_ == 0) return;
   if (guess_ == 0) guess_ = distance_to_last(first);
   list_run(first, last, first);
-  rank(first, last);
+  rank(first, last, rows);
 }
 
 void BlockSearch::prepare(std::size_t neighbours) {
-  found_.resize(kRun * neighbours);
   if (neighbours == neighbours_) return;
   neighbours_ = neighbours;
   // On a surface, twice the radius holds four times the points.
@@ -202,7 +208,7 @@ void BlockSearch::list_within(LocalIndex query, double radius, double more, Cand
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.
-void BlockSearch::rank(LocalIndex first, LocalIndex last) {
+void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
   // The query itself, its neighbours, and what comes after them, which must not be as near as the last.
   const std::size_t wanted = neighbours_ + 2;
   const bool can_rank = wanted <= kMostCandidates;
@@ -211,7 +217,7 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last) {
     const std::size_t place = query - first;
     const CandidateList& list = lists_[place];
     const Ranking& ranking = rankings_[place / kQueries];
-    const std::span found = std::span(found_).subspan(place * neighbours_, neighbours_);
+    const std::span found(rows[place], neighbours_);
     if (!can_rank || list.count == 0 || ranking.in_doubt[place % kQueries]) {
       find_carefully(query, list, found);
     } else {

@@ -31,12 +31,27 @@ class BlockSearch {
   // underflows.
   template <class Visit>
   void nearest(LocalIndex first, LocalIndex last, std::size_t k, Visit&& visit) {
+    const std::size_t count = neighbours_of(k);
+    found_.resize(kRun * count);
     for (LocalIndex begin = first, end; begin < last; begin = end) {
       end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
-      find(begin, end, k);
-      for (LocalIndex query = begin; query < end; ++query) visit(query, found(query - begin));
+      find(begin, end, k, {found_.data(), count});
+      for (LocalIndex query = begin; query < end; ++query)
+        visit(query, std::span<const LocalIndex>(found_).subspan((query - begin) * count, count));
     }
   }
+
+  // The same, to rows that begin so far apart.
+  struct Rows {
+    LocalIndex* first;
+    std::size_t stride;
+
+    LocalIndex* operator[](std::size_t row) const { return first + row * stride; }
+  };
+  void nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
+
+  // How many neighbours each query has.
+  std::size_t neighbours_of(std::size_t k) const { return std::min(k, positions_.size() - 1); }
 
   // For each query of [first, last), in order: visit(query, points) with all other points whose squared
   // distance is at most radius * radius, in neighbour order.
@@ -56,12 +71,12 @@ class BlockSearch {
   static constexpr std::size_t kRun = 2 * kQueries;  // queries that are looked around together
   struct Box;
   struct Boxes;
-  void find(LocalIndex first, LocalIndex last, std::size_t k);
+  void find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
   void prepare(std::size_t neighbours);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
-  void rank(LocalIndex first, LocalIndex last);
+  void rank(LocalIndex first, LocalIndex last, Rows rows);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
   void find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);
@@ -75,9 +90,6 @@ class BlockSearch {
   void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
   bool set_origin(const Box& run, double radius);
-  std::span<const LocalIndex> found(std::size_t place) const {
-    return std::span(found_).subspan(place * neighbours_, neighbours_);
-  }
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const PointId> ids_;

@@ -17,13 +17,16 @@ constexpr LocalIndex kTogether = 64;  // points asked together
 class Nearest {
  public:
   Nearest(BlockSearch& search, const TilePoints& points, std::size_t k) {
+    const std::size_t count = search.neighbours_of(k), stride = (count + kListLine - 1) / kListLine;
+    lines_ = std::make_unique_for_overwrite<ListLine[]>(stride * points.owned);
+    mutual_ = std::make_unique_for_overwrite<std::uint16_t[]>(stride * points.owned);
+    lists_ = {lines_.get(), stride, count, mutual_.get()};
     for (LocalIndex first = 0; first < points.owned; first += kTogether) {
       const LocalIndex last = std::min(first + kTogether, points.owned);
-      search.nearest(first, last, k, [&](LocalIndex p, std::span<const LocalIndex> found) {
-        if (p == 0) make_room(points.owned, found.size());
-        LocalIndex* const row = lines_[p * lists_.stride].points;
-        std::fill(std::copy(found.begin(), found.end(), row), row + lists_.stride * kListLine, kNoIndex);
-      });
+      const BlockSearch::Rows rows{lines_[first * stride].points, stride * kListLine};
+      search.nearest(first, last, k, rows);
+      for (LocalIndex p = first; p < last; ++p)
+        std::fill(rows[p - first] + count, rows[p - first] + rows.stride, kNoIndex);
       // Now: those before are still in the cache.
       fastest::find_mutual(lists_, first, last);
     }
@@ -45,13 +48,6 @@ class Nearest {
   }
 
  private:
-  void make_room(LocalIndex owned, std::size_t count) {
-    const std::size_t stride = (count + kListLine - 1) / kListLine;
-    lines_ = std::make_unique_for_overwrite<ListLine[]>(stride * owned);
-    mutual_ = std::make_unique_for_overwrite<std::uint16_t[]>(stride * owned);
-    lists_ = {lines_.get(), stride, count, mutual_.get()};
-  }
-
   std::unique_ptr<ListLine[]> lines_;
   std::unique_ptr<std::uint16_t[]> mutual_;
   NearestLists lists_{};
