@@ -32,13 +32,12 @@ struct Turned {
 
 // From x, y, z and w of each point.
 LACUNA_INLINE Turned turn(const Four (&points)[kFour]) {
-  const FourBits low{0, 4, 2, 6}, high{1, 5, 3, 7}, left{0, 1, 4, 5}, right{2, 3, 6, 7};
-  const Four xz01 = __builtin_shuffle(points[0], points[1], low);
-  const Four yw01 = __builtin_shuffle(points[0], points[1], high);
-  const Four xz23 = __builtin_shuffle(points[2], points[3], low);
-  const Four yw23 = __builtin_shuffle(points[2], points[3], high);
-  return {__builtin_shuffle(xz01, xz23, left), __builtin_shuffle(yw01, yw23, left),
-          __builtin_shuffle(xz01, xz23, right), __builtin_shuffle(yw01, yw23, right)};
+  const Four xz01 = __builtin_shufflevector(points[0], points[1], 0, 4, 2, 6);
+  const Four yw01 = __builtin_shufflevector(points[0], points[1], 1, 5, 3, 7);
+  const Four xz23 = __builtin_shufflevector(points[2], points[3], 0, 4, 2, 6);
+  const Four yw23 = __builtin_shufflevector(points[2], points[3], 1, 5, 3, 7);
+  return {__builtin_shufflevector(xz01, xz23, 0, 1, 4, 5), __builtin_shufflevector(yw01, yw23, 0, 1, 4, 5),
+          __builtin_shufflevector(xz01, xz23, 2, 3, 6, 7), __builtin_shufflevector(yw01, yw23, 2, 3, 6, 7)};
 }
 
 struct TurnedPositions {
@@ -55,8 +54,7 @@ LACUNA_INLINE TurnedPositions load_turned(const double* const (&points)[kFour]) 
     return __builtin_shufflevector(low, high, 0, 1, 2, 3);
   };
   const Four xy02 = x_and_y(0, 2), xy13 = x_and_y(1, 3);
-  return {__builtin_shuffle(xy02, xy13, FourBits{0, 4, 2, 6}),
-          __builtin_shuffle(xy02, xy13, FourBits{1, 5, 3, 7}),
+  return {__builtin_shufflevector(xy02, xy13, 0, 4, 2, 6), __builtin_shufflevector(xy02, xy13, 1, 5, 3, 7),
           Four{points[0][2], points[1][2], points[2][2], points[3][2]}};
 }
 

@@ -155,18 +155,18 @@ void set_normals(TangentPlanes& planes, std::size_t first, Mask has_normal, Vect
   store(planes.normals[2].at + first, normal.z);
 }
 
-Gaps gaps_of(const BundledGaps& gaps, std::size_t first) {
-  return {load(gaps.size.at + first), load(gaps.used.at + first), load(gaps.near.at + first),
-          load(gaps.far.at + first)};
-}
-
-void find_gaps(const Bundle& bundle, TangentPlanes& planes, Surfaces (&surfaces)[kParts]) {
+struct GapsByPart {
+  Gaps of[kParts];
+};
+GapsByPart find_gaps(const Bundle& bundle, const TangentPlanes& planes) {
+  BundledGaps found;
+  LACUNA_LANES::find_largest_gaps(bundle, planes, found);
+  GapsByPart gaps;
   for (std::size_t i = 0; i < kParts; ++i) {
-    set_normals(planes, i * kLanes, surfaces[i].has_normal, surfaces[i].normal);
+    const auto get = [&](const Eight& numbers) { return load(numbers.at + i * kLanes); };
+    gaps.of[i] = {get(found.size), get(found.used), get(found.near), get(found.far)};
   }
-  BundledGaps gaps;
-  LACUNA_LANES::find_largest_gaps(bundle, planes, gaps);
-  for (std::size_t i = 0; i < kParts; ++i) surfaces[i].gap = gaps_of(gaps, i * kLanes);
+  return gaps;
 }
 
 // The direction of the crease, if it is in question whether there is one.
@@ -202,17 +202,15 @@ void turn_at_creases(const Bundle& bundle, const JudgeParameters& parameters, co
     some |= is_turned[i];
   }
   if (!any(some)) return;
-  BundledGaps gaps;
-  LACUNA_LANES::find_largest_gaps(bundle, planes, gaps);
+  const GapsByPart gaps = find_gaps(bundle, planes);
   for (std::size_t i = 0; i < kParts; ++i) {
     Surfaces& surface = surfaces[i];
-    const Gaps before = surface.gap, after = gaps_of(gaps, i * kLanes);
+    const Gaps before = surface.gap;
     const Lanes probability = angle_probability(surface);
-    surface.gap = after;
+    surface.gap = gaps.of[i];
     const Mask better = is_turned[i] & (angle_probability(surface) < probability / 2.0);
     surface.normal = select(better, turned[i], surface.normal);
-    surface.gap = {select(better, after.size, before.size), select(better, after.used, before.used),
-                   select(better, after.near, before.near), select(better, after.far, before.far)};
+    surface.gap = select(better, surface.gap, before);
   }
 }
 
@@ -250,15 +248,17 @@ void combine(const Part& part, const JudgeParameters& parameters, const Surfaces
 void judge(const Bundle& bundle, const JudgeParameters& parameters, Judgements& judgements) {
   Surfaces surfaces[kParts];
   Mask estimated[kParts];
+  TangentPlanes planes;
+  planes.cos_cone = parameters.cos_cone;
   for (std::size_t i = 0; i < kParts; ++i) {
     const Part part{bundle, i * kLanes};
     surfaces[i].mean_distance = load(bundle.mean_distance.at + part.first);
     fit_plane(part, parameters.sigma, surfaces[i]);
     estimated[i] = ~use_given_normals(part, surfaces[i]);
+    set_normals(planes, part.first, surfaces[i].has_normal, surfaces[i].normal);
   }
-  TangentPlanes planes;
-  planes.cos_cone = parameters.cos_cone;
-  find_gaps(bundle, planes, surfaces);
+  const GapsByPart gaps = find_gaps(bundle, planes);
+  for (std::size_t i = 0; i < kParts; ++i) surfaces[i].gap = gaps.of[i];
   turn_at_creases(bundle, parameters, estimated, planes, surfaces);
   for (std::size_t i = 0; i < kParts; ++i) combine({bundle, i * kLanes}, parameters, surfaces[i], judgements);
 }

@@ -25,6 +25,12 @@ struct Gap {
   Real far;
 };
 
+template <class Mask, class Real>
+LACUNA_INLINE Gap<Real> select(Mask mask, const Gap<Real>& a, const Gap<Real>& b) {
+  return {select(mask, a.size, b.size), select(mask, a.used, b.used), select(mask, a.near, b.near),
+          select(mask, a.far, b.far)};
+}
+
 // p itself takes part in no sum, and every sum is taken in neighbour order.
 template <class Real>
 struct Surface {

@@ -66,7 +66,7 @@ void gather(const StarBundle& bundle, std::size_t first, std::size_t rows, Offse
   const auto look_at_neighbour = [&](std::size_t i, std::size_t row, FourBits is_there) {
     const LoadedSeat q = load_seat(bundle.seats[bundle.neighbours[first + i][row]]);
     const Four offset = (q.position - at[i].position) + (q.shift - at[i].shift);
-    const Four with_weight = __builtin_shuffle(offset, at[i].weight - q.weight, FourBits{0, 1, 2, 7});
+    const Four with_weight = __builtin_shufflevector(offset, at[i].weight - q.weight, 0, 1, 2, 7);
     const auto masked = [&](Four four) {
       return reinterpret_cast<Four>(reinterpret_cast<FourBits>(four) & is_there);
     };
