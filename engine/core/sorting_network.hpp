@@ -35,6 +35,7 @@ constexpr void for_each_comparison(std::size_t rows, Visit&& visit) {
 }
 
 inline constexpr std::size_t kMostSortedRows = 128;
+inline constexpr std::size_t kRowsInRegisters = 32;  // more of them take much longer
 
 // Those comparisons, at most kMostSortedRows rows, that put the `wanted` smallest first. Computed once for
 // each pair, then kept.
@@ -45,7 +46,7 @@ struct SortingNetwork {
 SortingNetwork sorting_network(std::size_t rows, std::size_t wanted);
 
 // Of each column, the `wanted` smallest of the first `count` numbers come first, in ascending order; the
-// others in any. Not for NaN. At most kMostSortedRows. Up to 32 rows are sorted in registers.
+// others in any. Not for NaN. At most kMostSortedRows.
 using SortRows = void(Eight* rows, std::size_t count, std::size_t wanted);
 LACUNA_DISPATCH(SortRows, sort_rows)
 using SortSingleRows = void(Sixteen* rows, std::size_t count, std::size_t wanted);

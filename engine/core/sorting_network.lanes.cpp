@@ -92,8 +92,6 @@ void sort_many(Row* rows, std::size_t count, std::size_t wanted, std::size_t fir
   }
 }
 
-constexpr std::size_t kMostInRegisters = 32;
-
 template <class Row, std::size_t... i>
 void sort_by_count(Row* rows, std::size_t count, std::size_t first, std::index_sequence<i...>) {
   using Sort = void(Row*, std::size_t, std::size_t);
@@ -105,8 +103,8 @@ void sort_by_count(Row* rows, std::size_t count, std::size_t first, std::index_s
 template <class Row>
 void sort_some(Row* rows, std::size_t count, std::size_t wanted, std::size_t first) {
   if (count < 2) return;
-  if (count <= kMostInRegisters) {
-    sort_by_count(rows, count, first, std::make_index_sequence<kMostInRegisters / 2>{});
+  if (count <= kRowsInRegisters) {
+    sort_by_count(rows, count, first, std::make_index_sequence<kRowsInRegisters / 2>{});
   } else {
     sort_many(rows, count, wanted, first);
   }

@@ -187,6 +187,7 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
       guess_ = 0.6 * radius;
     } else if (list.count > neighbours_) {
       guess_ = radius * next_guess_[list.count];
+      narrow(list);
       return;
     } else {
       guess_ = 1.4 * radius;
@@ -194,6 +195,16 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
     }
   }
   list.count = 0;
+}
+
+// Where density changes, a list holds many more than are wanted: fewer are ranked in registers. On a surface,
+// half of the squared radius holds half of the points.
+void BlockSearch::narrow(CandidateList& list) {
+  const double wanted = 1.2 * wanted_candidates(neighbours_);
+  if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
+  const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
+  fastest::narrow_list(limit, neighbours_ + 1, list);
+  set_reach(list);
 }
 
 // The points within the radius, by squared distances in sight that are `more` at most beyond it.
@@ -204,7 +215,11 @@ void BlockSearch::list_within(LocalIndex query, double radius, double more, Cand
   const double scaled = radius * sight_.scale;
   const auto limit = static_cast<float>(scaled * scaled + more);
   fastest::find_within(sight_, seen, limit, list);
-  list.squared_reach = (limit - sight_.margin) / (sight_.scale * sight_.scale);
+  set_reach(list);
+}
+
+void BlockSearch::set_reach(CandidateList& list) const {
+  list.squared_reach = (list.limit - sight_.margin) / (sight_.scale * sight_.scale);
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.

@@ -75,6 +75,8 @@ class BlockSearch {
   void prepare(std::size_t neighbours);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
+  void narrow(CandidateList& list);
+  void set_reach(CandidateList& list) const;
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
   void rank(LocalIndex first, LocalIndex last, Rows rows);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);

@@ -68,6 +68,10 @@ struct alignas(64) CandidateList {
 using FindWithin = void(const Sight&, const float query[3], float limit, CandidateList&);
 LACUNA_DISPATCH(FindWithin, find_within)
 
+// Leaves of a list only what is within a smaller limit, if that is at least so many: else it stays as it is.
+using NarrowList = void(float limit, std::size_t least, CandidateList&);
+LACUNA_DISPATCH(NarrowList, narrow_list)
+
 inline constexpr std::size_t kQueries = kSixteen;  // ranked side by side
 
 // Candidates of some queries by rank, nearest first. A key is a squared distance whose lowest bits are

@@ -154,6 +154,29 @@ void find_within(const Sight& sight, const float query[3], float limit, Candidat
   list.margin = single(sight.margin);
 }
 
+void narrow_list(float limit, std::size_t least, CandidateList& list) {
+  const auto within = [&](std::size_t first) {
+    const std::size_t there = list.count - first;
+    const std::uint32_t is_there = there < kSingles ? (1U << there) - 1 : ~0U;
+    return Choice(lanes_up_to(load(list.squared_distances + first), limit) & is_there);
+  };
+  std::size_t left = 0;
+  for (std::size_t first = 0; first < list.count; first += kSingles) left += within(first).count();
+  if (left < least) return;
+  left = 0;
+  // In place: what is written ends no later than what was read.
+  for (std::size_t first = 0; first < list.count; first += kSingles) {
+    const Choice choice = within(first);
+    SingleBits points;
+    __builtin_memcpy(&points, list.points + first, sizeof points);
+    choice.pack(list.squared_distances + left, load(list.squared_distances + first));
+    choice.pack(list.points + left, points);
+    left += choice.count();
+  }
+  list.count = left;
+  list.limit = limit;
+}
+
 void rank_candidates(const CandidateList* lists, std::size_t count, std::size_t wanted, bool ends_at_limit,
                      Ranking& ranking) {
   alignas(64) float ends[kQueries], margins[kQueries];

@@ -100,6 +100,41 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
   }
 }
 
+TEST_CASE("a narrowed list holds what is within the smaller limit, or all it held if that is too little") {
+  Random random(6);
+  std::vector<NarrowList*> sets{plain::narrow_list};
+#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
+  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::narrow_list);
+  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::narrow_list);
+#endif
+  std::size_t narrowed = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<float> all(static_cast<std::size_t>(random.whole(0, kMostCandidates)));
+    for (float& squared : all) squared = static_cast<float>(random.whole(0, 100)) / 100;
+    const float limit = 0.4F;
+    std::vector<std::pair<std::uint32_t, float>> within, found;
+    const CandidateList before = list_of(all, 1, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i] <= limit) within.emplace_back(before.points[i], all[i]);
+    }
+    for (const std::size_t least : {within.size(), within.size() + 1}) {
+      for (NarrowList* const narrow : sets) {
+        CandidateList list = before;
+        narrow(limit, least, list);
+        found.clear();
+        for (std::size_t i = 0; i < list.count; ++i)
+          found.emplace_back(list.points[i], list.squared_distances[i]);
+        const bool is_narrow = least <= within.size();
+        CHECK(list.limit == (is_narrow ? limit : 1));
+        CHECK(list.count == (is_narrow ? within.size() : all.size()));
+        if (is_narrow) CHECK(found == within);
+        narrowed += is_narrow && within.size() < all.size();
+      }
+    }
+  }
+  CHECK(narrowed > 200);
+}
+
 TEST_CASE("candidates are ranked, and doubts told, by every instruction set") {
   const float margin = 1e-5F;
   const std::vector<CandidateList> lists = {
