@@ -11,15 +11,6 @@ inline constexpr std::size_t kFour = 4;
 using Four = double __attribute__((vector_size(kFour * sizeof(double))));
 using FourBits = std::int64_t __attribute__((vector_size(sizeof(Four))));
 
-LACUNA_INLINE Four load_four(const double* from) {
-  Four four;
-  __builtin_memcpy(&four, from, sizeof four);
-  return four;
-}
-LACUNA_INLINE void store_four(double* to, Four four) {
-  __builtin_memcpy(to, &four, sizeof four);
-}
-
 LACUNA_INLINE Four root_of_four(Four x) {
   Four roots;
   for (std::size_t i = 0; i < kFour; ++i) roots[i] = __builtin_sqrt(x[i]);
@@ -48,10 +39,7 @@ struct TurnedPositions {
 LACUNA_INLINE TurnedPositions load_turned(const double* const (&points)[kFour]) {
   using Two = double __attribute__((vector_size(sizeof(Four) / 2)));
   const auto x_and_y = [&](std::size_t a, std::size_t b) {
-    Two low, high;
-    __builtin_memcpy(&low, points[a], sizeof low);
-    __builtin_memcpy(&high, points[b], sizeof high);
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    return __builtin_shufflevector(load_as<Two>(points[a]), load_as<Two>(points[b]), 0, 1, 2, 3);
   };
   const Four xy02 = x_and_y(0, 2), xy13 = x_and_y(1, 3);
   return {__builtin_shufflevector(xy02, xy13, 0, 4, 2, 6), __builtin_shufflevector(xy02, xy13, 1, 5, 3, 7),

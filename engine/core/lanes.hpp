@@ -53,34 +53,21 @@ inline constexpr std::size_t kSinglesOfEight = kSingles < kEight ? kSingles : kE
 using SinglesOfEight = float __attribute__((vector_size(kSinglesOfEight * sizeof(float))));
 using SinglesOfEightBits = std::int32_t __attribute__((vector_size(sizeof(SinglesOfEight))));
 
+template <class Register, class Number>
+LACUNA_INLINE Register load_as(const Number* from) {
+  Register numbers;
+  __builtin_memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
 LACUNA_INLINE Lanes load(const double* from) {
-  Lanes lanes;
-  __builtin_memcpy(&lanes, from, sizeof lanes);
-  return lanes;
+  return load_as<Lanes>(from);
 }
 LACUNA_INLINE Singles load(const float* from) {
-  Singles singles;
-  __builtin_memcpy(&singles, from, sizeof singles);
-  return singles;
+  return load_as<Singles>(from);
 }
-LACUNA_INLINE void store(double* to, Lanes lanes) {
-  __builtin_memcpy(to, &lanes, sizeof lanes);
-}
-LACUNA_INLINE void store(float* to, Singles singles) {
-  __builtin_memcpy(to, &singles, sizeof singles);
-}
-LACUNA_INLINE void store(float* to, SingleLanes singles) {
-  __builtin_memcpy(to, &singles, sizeof singles);
-}
-LACUNA_INLINE SinglesOfEight load_of_eight(const float* from) {
-  SinglesOfEight singles;
-  __builtin_memcpy(&singles, from, sizeof singles);
-  return singles;
-}
-LACUNA_INLINE void store_of_eight(float* to, SinglesOfEight singles) {
-  __builtin_memcpy(to, &singles, sizeof singles);
-}
-LACUNA_INLINE void store_of_eight(std::int32_t* to, SinglesOfEightBits numbers) {
+template <class Number, class Register>
+LACUNA_INLINE void store(Number* to, Register numbers) {
+  static_assert(sizeof *to == sizeof numbers[0]);
   __builtin_memcpy(to, &numbers, sizeof numbers);
 }
 LACUNA_INLINE Lanes all_lanes(double value) {

@@ -13,7 +13,7 @@ LACUNA_INLINE Lanes columns(const Eight& row, std::size_t first) {
   return load(row.at + first);
 }
 LACUNA_INLINE SinglesOfEight columns(const EightSingles& row, std::size_t first) {
-  return load_of_eight(row.at + first);
+  return load_as<SinglesOfEight>(row.at + first);
 }
 LACUNA_INLINE Singles columns(const Sixteen& row, std::size_t first) {
   return load(row.at + first);
@@ -24,7 +24,7 @@ using RegisterOf = decltype(columns(Row{}, 0));
 
 template <class Row>
 LACUNA_INLINE void set_columns(Row& row, std::size_t first, RegisterOf<Row> numbers) {
-  __builtin_memcpy(row.at + first, &numbers, sizeof numbers);
+  store(row.at + first, numbers);
 }
 
 template <class Row>

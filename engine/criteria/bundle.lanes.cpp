@@ -28,10 +28,10 @@ void gather_four(const BundledNeighbours& of, std::size_t first, Bundle& bundle)
     const TurnedPositions q = load_turned(neighbours);
     const Four x = q.x - at.x, y = q.y - at.y, z = q.z - at.z;
     const Four squared = (x * x + y * y) + z * z;
-    store_four(xs[row].at + first, x);
-    store_four(ys[row].at + first, y);
-    store_four(zs[row].at + first, z);
-    store_four(squares[row].at + first, squared);
+    store(xs[row].at + first, x);
+    store(ys[row].at + first, y);
+    store(zs[row].at + first, z);
+    store(squares[row].at + first, squared);
     sum += root_of_four(squared);
   };
   const double* neighbours[kFour];

@@ -3,6 +3,7 @@
 #include "engine/criteria/angle.hpp"
 #include "engine/criteria/halfdisc.hpp"
 #include "engine/criteria/largest_gaps.hpp"
+#include "engine/criteria/part.hpp"
 #include "engine/criteria/shape.hpp"
 
 namespace lacuna::LACUNA_LANES {
@@ -15,33 +16,6 @@ using Mask = LaneBits;
 
 constexpr double kUndefined = __builtin_nan("");
 
-// As many points of a bundle as a register holds, from `first` on.
-constexpr std::size_t kParts = kBundle / kLanes;
-struct Part {
-  const Bundle& bundle;
-  std::size_t first;
-
-  LACUNA_INLINE Lanes get(const Eight* rows, std::size_t row) const { return load(rows[row].at + first); }
-  LACUNA_INLINE void set(Eight* rows, std::size_t row, Lanes value) const {
-    store(rows[row].at + first, value);
-  }
-  LACUNA_INLINE Vectors offset(std::size_t row) const {
-    return {get(bundle.x, row), get(bundle.y, row), get(bundle.z, row)};
-  }
-  // The offset of another row for each point.
-  Vectors offset(Lanes rows) const {
-    Vectors offsets{};
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const auto row = static_cast<std::size_t>(larger(rows[lane], 0.0));
-      offsets.x[lane] = bundle.x[row].at[first + lane];
-      offsets.y[lane] = bundle.y[row].at[first + lane];
-      offsets.z[lane] = bundle.z[row].at[first + lane];
-    }
-    return offsets;
-  }
-  LACUNA_INLINE Lanes counts() const { return load(bundle.counts.at + first); }
-};
-
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
 // Sets the mean; returns exp(-d^2 / sigma^2)-weighted covariance as xx, yy, zz and xy, xz, yz, and whether
@@ -53,17 +27,17 @@ struct Covariance {
 
 Covariance weigh(const Part& part, Lanes sigma, Surfaces& surface) {
   const Lanes falloff = -1.0 / (sigma * sigma);
-  const Lanes counts = part.counts();
+  const Lanes counts = part.get(part.bundle.counts);
   Covariance c;
   constexpr double kTiny = -600;
-  c.counts_for_something = part.get(part.bundle.squared_distance, 0) * falloff > kTiny;
+  c.counts_for_something = part.get(part.bundle.squared_distance[0]) * falloff > kTiny;
   Lanes total{};
   Vectors mean{};
   for (std::size_t i = 0; i < part.bundle.rows; ++i) {
     const Vectors offset = part.offset(i);
-    const Lanes kernel = exponential(part.get(part.bundle.squared_distance, i) * falloff);
+    const Lanes kernel = exponential(part.get(part.bundle.squared_distance[i]) * falloff);
     const Lanes weight = select(counts > static_cast<double>(i), kernel, Lanes{});
-    part.set(part.bundle.weight, i, weight);
+    part.set(part.bundle.weight[i], weight);
     total += weight;
     mean = mean + offset * weight;
   }
@@ -71,7 +45,7 @@ Covariance weigh(const Part& part, Lanes sigma, Surfaces& surface) {
   surface.mean_offset = mean;
   for (std::size_t i = 0; i < part.bundle.rows; ++i) {
     const Vectors d = mean - part.offset(i);
-    const Vectors weighted = d * part.get(part.bundle.weight, i);
+    const Vectors weighted = d * part.get(part.bundle.weight[i]);
     c.diagonal = c.diagonal + Vectors{weighted.x * d.x, weighted.y * d.y, weighted.z * d.z};
     c.beside = c.beside + Vectors{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
   }
@@ -136,9 +110,7 @@ void fit_plane(const Part& part, double sigma_factor, Surfaces& surface) {
 
 // A given normal stands. Returns where there is one.
 Mask use_given_normals(const Part& part, Surfaces& surface) {
-  const auto& normals = part.bundle.given_normals;
-  const Vectors given{load(normals[0].at + part.first), load(normals[1].at + part.first),
-                      load(normals[2].at + part.first)};
+  const Vectors given = part.get(part.bundle.given_normals);
   const Mask is_given = given.x == given.x;
   surface.normal = select(is_given, given, surface.normal);
   surface.has_normal |= is_given;
@@ -147,12 +119,9 @@ Mask use_given_normals(const Part& part, Surfaces& surface) {
 
 // ---- The largest gap between directions in the tangent plane (4.2)
 
-void set_normals(TangentPlanes& planes, std::size_t first, Mask has_normal, Vectors normal) {
+void set_normals(const Part& part, Mask has_normal, Vectors normal, TangentPlanes& planes) {
   const Lanes none = all_lanes(kUndefined);
-  normal = select(has_normal, normal, {none, none, none});
-  store(planes.normals[0].at + first, normal.x);
-  store(planes.normals[1].at + first, normal.y);
-  store(planes.normals[2].at + first, normal.z);
+  part.set(planes.normals, select(has_normal, normal, {none, none, none}));
 }
 
 struct GapsByPart {
@@ -163,8 +132,8 @@ GapsByPart find_gaps(const Bundle& bundle, const TangentPlanes& planes) {
   LACUNA_LANES::find_largest_gaps(bundle, planes, found);
   GapsByPart gaps;
   for (std::size_t i = 0; i < kParts; ++i) {
-    const auto get = [&](const Eight& numbers) { return load(numbers.at + i * kLanes); };
-    gaps.of[i] = {get(found.size), get(found.used), get(found.near), get(found.far)};
+    const Part part{bundle, i * kLanes};
+    gaps.of[i] = {part.get(found.size), part.get(found.used), part.get(found.near), part.get(found.far)};
   }
   return gaps;
 }
@@ -179,7 +148,7 @@ Crease find_crease(const Part& part, double threshold, Mask estimated, const Sur
       estimated & surface.has_normal & (angle_probability(surface) > threshold) & (surface.gap.near >= 0.0),
       {}};
   if (!any(crease.is_there)) return crease;
-  const Vectors near = part.offset(surface.gap.near), far = part.offset(surface.gap.far);
+  const Vectors near = part.offset_in_rows(surface.gap.near), far = part.offset_in_rows(surface.gap.far);
   crease.direction = in_plane(far, surface.normal) - in_plane(near, surface.normal);
   constexpr double kOnePoint = 1e-12;
   crease.is_there &= norm(crease.direction) > kOnePoint * (norm(near) + norm(far));
@@ -193,12 +162,12 @@ void turn_at_creases(const Bundle& bundle, const JudgeParameters& parameters, co
   Mask is_turned[kParts], some{};
   Vectors turned[kParts];
   for (std::size_t i = 0; i < kParts; ++i) {
-    const Crease crease =
-        find_crease({bundle, i * kLanes}, parameters.crease_threshold, estimated[i], surfaces[i]);
+    const Part part{bundle, i * kLanes};
+    const Crease crease = find_crease(part, parameters.crease_threshold, estimated[i], surfaces[i]);
     const Vectors normal = cross(crease.direction, surfaces[i].normal);
     is_turned[i] = crease.is_there;
     turned[i] = normal / norm(normal);
-    set_normals(planes, i * kLanes, is_turned[i], turned[i]);
+    set_normals(part, is_turned[i], turned[i], planes);
     some |= is_turned[i];
   }
   if (!any(some)) return;
@@ -227,20 +196,15 @@ void combine(const Part& part, const JudgeParameters& parameters, const Surfaces
   Lanes sum{};
   for (std::size_t i = 0; i < 3; ++i) {
     sum += parameters.shares[i] * criteria[i];
-    store(judgements.criteria[i].at + part.first, criteria[i]);
+    part.set(judgements.criteria[i], criteria[i]);
   }
-  store(judgements.probability.at + part.first, round_to_step(sum));
-  store(judgements.mean_distance.at + part.first, surface.mean_distance);
-  const auto store_vectors = [&](Eight* to, Vectors vectors) {
-    store(to[0].at + part.first, vectors.x);
-    store(to[1].at + part.first, vectors.y);
-    store(to[2].at + part.first, vectors.z);
-  };
+  part.set(judgements.probability, round_to_step(sum));
+  part.set(judgements.mean_distance, surface.mean_distance);
+  part.set(judgements.mean_offset, surface.mean_offset);
   const Lanes none = all_lanes(kUndefined);
-  store_vectors(judgements.mean_offset, surface.mean_offset);
-  store_vectors(judgements.normal, select(surface.has_normal, surface.normal, {none, none, none}));
-  store(judgements.gap_near.at + part.first, surface.gap.near);
-  store(judgements.gap_far.at + part.first, surface.gap.far);
+  part.set(judgements.normal, select(surface.has_normal, surface.normal, {none, none, none}));
+  part.set(judgements.gap_near, surface.gap.near);
+  part.set(judgements.gap_far, surface.gap.far);
 }
 
 }  // namespace
@@ -252,10 +216,10 @@ void judge(const Bundle& bundle, const JudgeParameters& parameters, Judgements& 
   planes.cos_cone = parameters.cos_cone;
   for (std::size_t i = 0; i < kParts; ++i) {
     const Part part{bundle, i * kLanes};
-    surfaces[i].mean_distance = load(bundle.mean_distance.at + part.first);
+    surfaces[i].mean_distance = part.get(bundle.mean_distance);
     fit_plane(part, parameters.sigma, surfaces[i]);
     estimated[i] = ~use_given_normals(part, surfaces[i]);
-    set_normals(planes, part.first, surfaces[i].has_normal, surfaces[i].normal);
+    set_normals(part, surfaces[i].has_normal, surfaces[i].normal, planes);
   }
   const GapsByPart gaps = find_gaps(bundle, planes);
   for (std::size_t i = 0; i < kParts; ++i) surfaces[i].gap = gaps.of[i];

@@ -1,7 +1,7 @@
 #include "engine/criteria/largest_gaps.hpp"
 
 #include "engine/core/sorting_network.hpp"
-#include "engine/core/vector.hpp"
+#include "engine/criteria/part.hpp"
 
 namespace lacuna::LACUNA_LANES {
 namespace {
@@ -35,24 +35,18 @@ struct Projection {
   float x[kEight], y[kEight], squared_distance[kEight];
 };
 
-Vectors normals_of(const TangentPlanes& planes, std::size_t first) {
-  return {load(planes.normals[0].at + first), load(planes.normals[1].at + first),
-          load(planes.normals[2].at + first)};
-}
-
-// Of the first `rows` neighbours of as many points as a register holds.
-void project(const Bundle& bundle, const TangentPlanes& planes, std::size_t first, std::size_t rows,
-             Projection* projections) {
-  const Frame<Lanes> frame = frame_of(normals_of(planes, first));
-  const Lanes unit = 1.0 / load(bundle.mean_distance.at + first);
+// Of the first `rows` neighbours.
+void project(const Part& part, const TangentPlanes& planes, std::size_t rows, Projection* projections) {
+  const Bundle& bundle = part.bundle;
+  const Frame<Lanes> frame = frame_of(part.get(planes.normals));
+  const Lanes unit = 1.0 / part.get(bundle.mean_distance);
   const Vectors u = frame.u * unit, v = frame.v * unit;
   for (std::size_t i = 0; i < rows; ++i) {
-    const Vectors offset{load(bundle.x[i].at + first), load(bundle.y[i].at + first),
-                         load(bundle.z[i].at + first)};
-    store(projections[i].x + first, single(dot(u, offset)));
-    store(projections[i].y + first, single(dot(v, offset)));
-    store(projections[i].squared_distance + first,
-          single(load(bundle.squared_distance[i].at + first) * (unit * unit)));
+    const Vectors offset = part.offset(i);
+    Projection& to = projections[i];
+    store(to.x + part.first, single(dot(u, offset)));
+    store(to.y + part.first, single(dot(v, offset)));
+    store(to.squared_distance + part.first, single(part.get(bundle.squared_distance[i]) * (unit * unit)));
   }
 }
 
@@ -90,22 +84,22 @@ void find_between(const Projection* projections, std::size_t rows, float squared
                   EightSingles* directions, Between& between) {
   FewBits used{}, in_doubt{};
   for (std::size_t i = 0; i < rows; ++i) {
-    const Few x = load_of_eight(projections[i].x + first), y = load_of_eight(projections[i].y + first),
-              squared_distance = load_of_eight(projections[i].squared_distance + first);
+    const Few x = load_as<Few>(projections[i].x + first), y = load_as<Few>(projections[i].y + first),
+              squared_distance = load_as<Few>(projections[i].squared_distance + first);
     const Few outside = (x * x + y * y) - squared_sine * squared_distance;
     const FewBits is_used = outside > 0.0F;
     in_doubt |= magnitude(outside) < kConeDoubt * squared_distance;
     used -= is_used;
-    const FewBits part = __builtin_convertvector(turn_of(y, x) * static_cast<float>(kTurn / kRows), FewBits);
-    const FewBits direction = part * kRows + (kNoTurn + static_cast<std::int32_t>(i));
-    store_of_eight(directions[i].at + first,
-                   reinterpret_cast<Few>(is_used ? direction : FewBits{} + kInfinite));
+    const Few turn = is_used ? turn_of(y, x) : Few{};
+    const FewBits step = __builtin_convertvector(turn * static_cast<float>(kTurn / kRows), FewBits);
+    const FewBits direction = step * kRows + (kNoTurn + static_cast<std::int32_t>(i));
+    store(directions[i].at + first, reinterpret_cast<Few>(is_used ? direction : FewBits{} + kInfinite));
   }
-  in_doubt |= ~(load_of_eight(projections[0].squared_distance + first) > kNearestSquared) | (used < 2);
+  in_doubt |= ~(load_as<Few>(projections[0].squared_distance + first) > kNearestSquared) | (used < 2);
 
   LACUNA_LANES::sort_columns(directions, rows, first);
   const auto direction_at = [&](std::size_t row) {
-    return reinterpret_cast<FewBits>(load_of_eight(directions[row].at + first));
+    return reinterpret_cast<FewBits>(load_as<Few>(directions[row].at + first));
   };
   const FewBits start = direction_at(0);
   FewBits here = start, from{}, to{}, largest{}, second{}, smallest = FewBits{} + kTurn;
@@ -123,40 +117,25 @@ void find_between(const Projection* projections, std::size_t rows, float squared
     smallest = smaller(smallest, is_there ? turn : kTurn + FewBits{});
     here = is_there ? next : here;
   }
-  const FewBits across = start + kTurn - here;
+  const FewBits across = start - here + kTurn;
   look_at(start, across);
   smallest = smaller(smallest, across);
   in_doubt |= (smallest < kDoubt) | (second > largest - kDoubt);
 
-  store_of_eight(between.from + first, from & (kRows - 1));
-  store_of_eight(between.to + first, to & (kRows - 1));
-  store_of_eight(between.used + first, used);
-  store_of_eight(between.in_doubt + first, in_doubt);
+  store(between.from + first, from & (kRows - 1));
+  store(between.to + first, to & (kRows - 1));
+  store(between.used + first, used);
+  store(between.in_doubt + first, in_doubt);
 }
 
-// Offsets of another row for each point, in the tangent plane.
-struct Direction {
-  Lanes x, y;
-};
-Direction direction_to(const Bundle& bundle, const Frame<Lanes>& frame, const std::int32_t* rows,
-                       std::size_t first) {
-  Vectors offset{};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto row = static_cast<std::size_t>(rows[first + lane]);
-    offset.x[lane] = bundle.x[row].at[first + lane];
-    offset.y[lane] = bundle.y[row].at[first + lane];
-    offset.z[lane] = bundle.z[row].at[first + lane];
-  }
-  return {dot(frame.u, offset), dot(frame.v, offset)};
-}
-
-void measure_gaps(const Bundle& bundle, const TangentPlanes& planes, const Between& between,
-                  std::size_t first, BundledGaps& gaps) {
-  const Frame<Lanes> frame = frame_of(normals_of(planes, first));
-  const Direction a = direction_to(bundle, frame, between.from, first),
-                  b = direction_to(bundle, frame, between.to, first);
-  const Lanes turn = angle_of(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
-  store(gaps.size.at + first, select(turn < 0.0, turn + 2 * std::numbers::pi, turn));
+void measure_gaps(const Part& part, const TangentPlanes& planes, const Between& between, BundledGaps& gaps) {
+  const Frame<Lanes> frame = frame_of(part.get(planes.normals));
+  const Vectors from = part.offset_in_rows(between.from + part.first),
+                to = part.offset_in_rows(between.to + part.first);
+  const Lanes x = dot(frame.u, from), y = dot(frame.v, from);
+  const Lanes to_x = dot(frame.u, to), to_y = dot(frame.v, to);
+  const Lanes turn = angle_of(x * to_y - y * to_x, x * to_x + y * to_y);
+  part.set(gaps.size, select(turn < 0.0, turn + 2 * std::numbers::pi, turn));
 }
 
 void set(BundledGaps& gaps, std::size_t point, const GapFit& fit) {
@@ -175,12 +154,12 @@ void find_largest_gaps(const Bundle& bundle, const TangentPlanes& planes, Bundle
   EightSingles directions[kMost];
   Between between;
   for (std::size_t first = 0; first < kEight; first += kLanes)
-    project(bundle, planes, first, rows, projections);
+    project({bundle, first}, planes, rows, projections);
   const double squared_sine = larger(1.0 - planes.cos_cone * planes.cos_cone, 0.0);
   for (std::size_t first = 0; first < kEight; first += kSinglesOfEight)
     find_between(projections, rows, static_cast<float>(squared_sine), first, directions, between);
   for (std::size_t first = 0; first < kEight; first += kLanes)
-    measure_gaps(bundle, planes, between, first, gaps);
+    measure_gaps({bundle, first}, planes, between, gaps);
 
   for (std::size_t point = 0; point < kEight; ++point) {
     const double normal[3] = {planes.normals[0].at[point], planes.normals[1].at[point],

@@ -122,8 +122,7 @@ void look_closely(const Block* all, const double* const lows[3], const double* c
       const double* const from = all[number].coordinates[axis];
       float* const to = sight.near[i].coordinates[axis];
       for (std::size_t first = 0; first < kBlock; first += kLanes) {
-        const SingleLanes near = single((load(from + first) - origin) * scale);
-        __builtin_memcpy(to + first, &near, sizeof near);
+        store(to + first, single((load(from + first) - origin) * scale));
       }
     }
   }
@@ -167,8 +166,7 @@ void narrow_list(float limit, std::size_t least, CandidateList& list) {
   // In place: what is written ends no later than what was read.
   for (std::size_t first = 0; first < list.count; first += kSingles) {
     const Choice choice = within(first);
-    SingleBits points;
-    __builtin_memcpy(&points, list.points + first, sizeof points);
+    const auto points = load_as<SingleBits>(list.points + first);
     choice.pack(list.squared_distances + left, load(list.squared_distances + first));
     choice.pack(list.points + left, points);
     left += choice.count();

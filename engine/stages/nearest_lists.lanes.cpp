@@ -9,9 +9,7 @@ namespace {
 template <class Visit>
 LACUNA_INLINE void for_each_register(const ListLine& line, Visit&& visit) {
   for (std::size_t place = 0; place < kListLine; place += kSingles) {
-    SingleBits points;
-    __builtin_memcpy(&points, line.points + place, sizeof points);
-    visit(place, points);
+    visit(place, load_as<SingleBits>(line.points + place));
   }
 }
 
@@ -70,7 +68,7 @@ std::size_t find_one_sided(const NearestLists& lists, std::uint32_t first, std::
         const std::uint32_t there = chosen_lanes(reinterpret_cast<SingleBits>(q < owned));
         const Choice choice(there & ~(std::uint32_t{lists.mutual[line]} >> place));
         choice.pack(edges.q + found, q);
-        __builtin_memcpy(edges.p + found, &all, sizeof all);
+        store(edges.p + found, all);
         found += choice.count();
       });
     }

@@ -32,10 +32,10 @@ struct alignas(64) Offsets {
 
 LACUNA_INLINE void store_turned(const Four (&points)[kFour], Offsets& offsets, std::size_t first) {
   const Turned turned = turn(points);
-  store_four(&offsets.x[first], turned.x);
-  store_four(&offsets.y[first], turned.y);
-  store_four(&offsets.z[first], turned.z);
-  store_four(&offsets.weight[first], turned.w);
+  store(&offsets.x[first], turned.x);
+  store(&offsets.y[first], turned.y);
+  store(&offsets.z[first], turned.z);
+  store(&offsets.weight[first], turned.w);
 }
 
 // What is loaded of a seat: its eight numbers are position, shift, closeness and weight.
@@ -47,7 +47,7 @@ struct LoadedSeat {
 static_assert(sizeof(Seat) == 8 * sizeof(double));
 
 LACUNA_INLINE LoadedSeat load_seat(const Seat& seat) {
-  return {load_four(seat.position), load_four(seat.shift), load_four(seat.shift + 1)};
+  return {load_as<Four>(seat.position), load_as<Four>(seat.shift), load_as<Four>(seat.shift + 1)};
 }
 
 // Offsets of neighbours of kFour points from `first` on, 0 where there are no more, and
