@@ -26,8 +26,9 @@ struct BundledGaps {
   Eight size, used, near, far;
 };
 
-// Directions are sorted in single precision; of the largest gap, where it is larger than any other by more
-// than that can be wrong, the size is then taken in double. Which way is taken depends on the point alone.
+// Directions are sorted in single precision. Where the largest gap is larger than any other by more than that
+// can be wrong, its size is taken in double; elsewhere the point is done with care, below. Which way is taken
+// depends on the point alone.
 using FindLargestGaps = void(const Bundle&, const TangentPlanes&, BundledGaps&);
 LACUNA_DECLARE(FindLargestGaps, find_largest_gaps)
 
