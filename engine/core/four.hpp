@@ -11,12 +11,6 @@ inline constexpr std::size_t kFour = 4;
 using Four = double __attribute__((vector_size(kFour * sizeof(double))));
 using FourBits = std::int64_t __attribute__((vector_size(sizeof(Four))));
 
-LACUNA_INLINE Four root_of_four(Four x) {
-  Four roots;
-  for (std::size_t i = 0; i < kFour; ++i) roots[i] = __builtin_sqrt(x[i]);
-  return roots;
-}
-
 struct Turned {
   Four x, y, z, w;
 };

@@ -230,10 +230,15 @@ LACUNA_INLINE Real larger(Real a, Real b) {
 LACUNA_INLINE double root(double x) {
   return __builtin_sqrt(x);
 }
-LACUNA_INLINE Lanes root(Lanes x) {
-  Lanes roots;
-  for (std::size_t i = 0; i < kLanes; ++i) roots[i] = __builtin_sqrt(x[i]);
+template <class Register>
+LACUNA_INLINE Register root_of_each(Register x) {
+  static_assert(sizeof x[0] == sizeof(double));
+  Register roots;
+  for (std::size_t i = 0; i < sizeof x / sizeof x[0]; ++i) roots[i] = __builtin_sqrt(x[i]);
   return roots;
+}
+LACUNA_INLINE Lanes root(Lanes x) {
+  return root_of_each(x);
 }
 LACUNA_INLINE float root(float x) {
   return __builtin_sqrtf(x);

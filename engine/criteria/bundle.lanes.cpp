@@ -32,7 +32,7 @@ void gather_four(const BundledNeighbours& of, std::size_t first, Bundle& bundle)
     store(ys[row].at + first, y);
     store(zs[row].at + first, z);
     store(squares[row].at + first, squared);
-    sum += root_of_four(squared);
+    sum += root_of_each(squared);
   };
   const double* neighbours[kFour];
   std::size_t row = 0;

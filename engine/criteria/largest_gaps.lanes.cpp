@@ -36,9 +36,8 @@ struct Projection {
 };
 
 // Of the first `rows` neighbours.
-void project(const Part& part, const TangentPlanes& planes, std::size_t rows, Projection* projections) {
+void project(const Part& part, const Frame<Lanes>& frame, std::size_t rows, Projection* projections) {
   const Bundle& bundle = part.bundle;
-  const Frame<Lanes> frame = frame_of(part.get(planes.normals));
   const Lanes unit = 1.0 / part.get(bundle.mean_distance);
   const Vectors u = frame.u * unit, v = frame.v * unit;
   for (std::size_t i = 0; i < rows; ++i) {
@@ -128,8 +127,7 @@ void find_between(const Projection* projections, std::size_t rows, float squared
   store(between.in_doubt + first, in_doubt);
 }
 
-void measure_gaps(const Part& part, const TangentPlanes& planes, const Between& between, BundledGaps& gaps) {
-  const Frame<Lanes> frame = frame_of(part.get(planes.normals));
+void measure_gaps(const Part& part, const Frame<Lanes>& frame, const Between& between, BundledGaps& gaps) {
   const Vectors from = part.offset_in_rows(between.from + part.first),
                 to = part.offset_in_rows(between.to + part.first);
   const Lanes x = dot(frame.u, from), y = dot(frame.v, from);
@@ -153,13 +151,16 @@ void find_largest_gaps(const Bundle& bundle, const TangentPlanes& planes, Bundle
   Projection projections[kMost];
   EightSingles directions[kMost];
   Between between;
-  for (std::size_t first = 0; first < kEight; first += kLanes)
-    project({bundle, first}, planes, rows, projections);
+  Frame<Lanes> frames[kParts];
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const Part part{bundle, i * kLanes};
+    frames[i] = frame_of(part.get(planes.normals));
+    project(part, frames[i], rows, projections);
+  }
   const double squared_sine = larger(1.0 - planes.cos_cone * planes.cos_cone, 0.0);
   for (std::size_t first = 0; first < kEight; first += kSinglesOfEight)
     find_between(projections, rows, static_cast<float>(squared_sine), first, directions, between);
-  for (std::size_t first = 0; first < kEight; first += kLanes)
-    measure_gaps({bundle, first}, planes, between, gaps);
+  for (std::size_t i = 0; i < kParts; ++i) measure_gaps({bundle, i * kLanes}, frames[i], between, gaps);
 
   for (std::size_t point = 0; point < kEight; ++point) {
     const double normal[3] = {planes.normals[0].at[point], planes.normals[1].at[point],

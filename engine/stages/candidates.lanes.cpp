@@ -14,6 +14,11 @@ LACUNA_INLINE SingleBits lane_numbers() {
   return numbers;
 }
 
+// A bit for each of as many lanes as there are, of a register.
+LACUNA_INLINE std::uint32_t lanes_there(std::size_t there) {
+  return there < kSingles ? (1U << there) - 1 : ~0U;
+}
+
 // Squared distances between a box and as many others as a register holds.
 template <class Number>
 LACUNA_INLINE auto squared_gaps(const Number* low, const Number* high, const Number* const lows[3],
@@ -37,10 +42,8 @@ LACUNA_INLINE std::size_t near_blocks(const Sight& sight, const float* query, fl
   const float* const highs[3] = {sight.high[0], sight.high[1], sight.high[2]};
   SingleBits numbers = lane_numbers();
   for (std::size_t first = 0; first < sight.count; first += kSingles) {
-    const std::size_t there = sight.count - first;
-    const std::uint32_t is_there = there < kSingles ? (1U << there) - 1 : ~0U;
     const std::uint32_t within = lanes_up_to(squared_gaps(query, query, lows, highs, first), limit);
-    const Choice choice(within & is_there);
+    const Choice choice(within & lanes_there(sight.count - first));
     choice.pack(near + count, numbers);
     count += choice.count();
     numbers += static_cast<std::uint32_t>(kSingles);
@@ -155,9 +158,7 @@ void find_within(const Sight& sight, const float query[3], float limit, Candidat
 
 void narrow_list(float limit, std::size_t least, CandidateList& list) {
   const auto within = [&](std::size_t first) {
-    const std::size_t there = list.count - first;
-    const std::uint32_t is_there = there < kSingles ? (1U << there) - 1 : ~0U;
-    return Choice(lanes_up_to(load(list.squared_distances + first), limit) & is_there);
+    return Choice(lanes_up_to(load(list.squared_distances + first), limit) & lanes_there(list.count - first));
   };
   std::size_t left = 0;
   for (std::size_t first = 0; first < list.count; first += kSingles) left += within(first).count();
