@@ -6,14 +6,14 @@
 #include "engine/core/cell_index.hpp"
 #include "engine/core/scratch.hpp"
 #include "engine/stages/block_search.hpp"
-#include "engine/stages/coherence.hpp"
-#include "engine/stages/eligible_edges.hpp"
+#include "engine/boundary/coherence.hpp"
+#include "engine/boundary/paper/eligible_edges.hpp"
 #include "engine/stages/evaluate.hpp"
-#include "engine/stages/loops.hpp"
-#include "engine/stages/measure_loop.hpp"
+#include "engine/boundary/paper/loops.hpp"
+#include "engine/loops/measure_loop.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/order_tile.hpp"
-#include "engine/stages/spanning.hpp"
+#include "engine/boundary/paper/spanning.hpp"
 #include "engine/stages/split.hpp"
 #include "engine/stages/survey.hpp"
 #include "engine/stages/tile_stars.hpp"
@@ -354,16 +354,16 @@ BENCHMARK_CAPTURE(find_stars, noisy, 0.5);
 
 // ---- the global stage
 
-void settle_coherence(benchmark::State& state) {
+void remove_incoherent(benchmark::State& state) {
   const SampleCandidates sample = candidates();
   for (auto _ : state) {
     RowSet boundary = sample.boundary;  // 8 KiB
-    benchmark::DoNotOptimize(lacuna::settle_coherence(sample.candidates, boundary));
+    benchmark::DoNotOptimize(lacuna::remove_incoherent(sample.candidates, boundary));
   }
   time_per(state, "per_point", kPoints);
   time_per(state, "per_candidate", sample.candidates.size());
 }
-BENCHMARK(settle_coherence);
+BENCHMARK(remove_incoherent);
 
 void span_and_find_loops(benchmark::State& state) {
   const SampleComponent sample = component();

@@ -1,18 +1,20 @@
 #include "engine/pipeline.hpp"
 
+#include "engine/boundary/paper/paper_boundary.hpp"
+#include "engine/boundary/tangential/tangential_boundary.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/loops/measure_loops.hpp"
 #include "engine/passes/bucket.hpp"
-#include "engine/passes/coherence.hpp"
-#include "engine/passes/evaluate.hpp"
 #include "engine/passes/links.hpp"
-#include "engine/passes/measure.hpp"
-#include "engine/passes/orient.hpp"
-#include "engine/passes/publish.hpp"
-#include "engine/passes/rims.hpp"
-#include "engine/passes/trace.hpp"
+#include "engine/results/collect.hpp"
+#include "engine/results/orientation_graph.hpp"
 #include "engine/stages/split.hpp"
 
 #include <cmath>
-#include <numbers>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace lacuna {
 namespace {
@@ -23,11 +25,6 @@ double diagonal(const Eigen::AlignedBox3d& bounds) {
 
 double eps_length(const NeighbourhoodConfig& config, double extent) {
   return config.eps > 0 ? config.eps : config.eps_fraction * extent;
-}
-
-// Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
-std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
-  return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
 }
 
 Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_t tile_points,
@@ -43,38 +40,24 @@ Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_
   return summary;
 }
 
-struct Boundary {
-  TracedLoops traced;
-  RowSet coherent;
-  std::int64_t e = 0;
-};
-
-// Along the rims of the surface that the points agree on (engine/README.md).
-Boundary find_by_stars(EvaluatedScan& scan, const TileStore& store, Job& job) {
-  RawLoops rims = trace_rims(scan.stars, store.tiling(), job);
-  RowSet beside = find_beside_loops(rims, scan, store, job);
-  return {{std::move(rims)}, std::move(beside)};
+// The one place where the method is chosen.
+std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
+  if (job.config.loops.method == LoopMethod::kPaper) return std::make_unique<PaperBoundary>(store, job);
+  return std::make_unique<TangentialBoundary>(store, job);
 }
 
-// Coherence, spanning graph and breadth first search (paper, 5.1 and 5.2).
-Boundary find_by_paper(EvaluatedScan& scan, const TileStore& store, Job& job) {
-  RowSet coherent = make_coherent(scan, store, job);
-  const std::int64_t e = minimum_loop(job.config.spanning, scan.mean_neighbours());
-  return {trace_loops(scan, store, e, job), std::move(coherent), e};
-}
-
-void add_findings(const EvaluatedScan& evaluated, const Boundary& boundary, double eps, Summary& summary) {
+void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
   Counts& counts = summary.counts;
-  counts.duplicates = counts.points - counts.dropped - evaluated.totals.points;
-  counts.candidates = evaluated.totals.candidates;
-  counts.undefined_normals = evaluated.totals.undefined_normals;
-  counts.eligible_edges = boundary.traced.eligible_edges;
-  counts.components = boundary.traced.components;
-  counts.raw_loops = boundary.traced.loops.found();
-  summary.mean_neighbours = evaluated.mean_neighbours();
-  summary.mean_edge_length = evaluated.mean_edge_length();
+  counts.duplicates = counts.points - counts.dropped - totals.points;
+  counts.candidates = totals.candidates;
+  counts.undefined_normals = totals.undefined_normals;
+  counts.boundary_edges = found.edges;
+  counts.components = found.components;
+  counts.raw_loops = found.loops.found();
+  summary.mean_neighbours = totals.mean_neighbours();
+  summary.mean_edge_length = totals.mean_edge_length();
   summary.eps = eps;
-  summary.e = boundary.e;
+  summary.e = found.minimum_loop;
 }
 
 }  // namespace
@@ -84,7 +67,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   check_config(config);
   Job job(config, workspace, progress);
 
-  // Where the points are, and the points in tiles on disk.
+  // Survey and bucket: where the points are, and the points in tiles on disk.
   SurveyedScan survey = survey_scan(scan, job);
   const double extent = diagonal(survey.bounds);
   const double eps = eps_length(config.neighbourhood, extent);
@@ -93,22 +76,31 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   Summary summary = summarise(survey, tiling, tile_points, job);
   const TileStore store = bucket_scan(scan, std::move(tiling), survey.precision(), job);
 
-  // Every point judged from its neighbourhood (paper, 4.1 to 4.6).
-  Spill<Link> links = link_tiles(store, job);
-  EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
+  // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer keeps
+  // what it needs of an evaluated tile.
+  Spill<Link> halo = link_tiles(store, job);
+  Candidates candidates(store, job);
+  const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
+  std::optional<PointResults> points;
+  std::optional<OrientationGraph> orientation;
+  std::vector<TileConsumer*> consumers = {&candidates, boundary.get()};
+  if (config.output.points) consumers.push_back(&points.emplace(survey.points, store, job));
+  if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
+  const Totals totals = evaluate_tiles(store, std::move(halo), eps, extent, consumers, job);
 
-  // Loops, and the boundary points beside them.
-  const Boundary boundary = config.loops.method == LoopMethod::kStars ? find_by_stars(evaluated, store, job)
-                                                                      : find_by_paper(evaluated, store, job);
-  const RawLoops& raw_loops = boundary.traced.loops;
-  MeasuredLoops loops = measure_loops(raw_loops, evaluated, store, evaluated.mean_edge_length(), job);
+  // Boundary edges, stitched across tiles to components, and their loops.
+  const FoundLoops found = boundary->find_loops(totals, job);
+  RowSet boundary_candidates = boundary->boundary_candidates(candidates, found.loops, job);
+  MeasuredLoops loops =
+      measure_loops(found.loops, boundary->loop_points(), store.tiling(), totals.mean_edge_length(), job);
 
-  // Back into the order of the input.
-  std::optional<RowSet> turned;
-  if (config.normals.orient) turned = orient_normals(evaluated, store, job);
-  add_findings(evaluated, boundary, eps, summary);
-  return publish(std::move(evaluated), store, boundary.coherent, std::move(loops), std::move(turned),
-                 std::move(summary), job);
+  // Results, in the order of the input.
+  std::optional<RowSet> opposed_normals;
+  if (orientation) opposed_normals = orientation->opposed_normals(job);
+  add_findings(totals, found, eps, summary);
+  return collect_results({std::move(summary), std::move(loops), std::move(boundary_candidates), std::move(points),
+                          std::move(opposed_normals)},
+                         candidates, store, job);
 }
 
 Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {

@@ -56,7 +56,7 @@ Json counts(const Counts& counts, const std::vector<LoopMeasures>& loops) {
           {"candidates", counts.candidates},
           {"coherent", counts.coherent},
           {"boundary_points", counts.boundary_points},
-          {"eligible_edges", counts.eligible_edges},
+          {"boundary_edges", counts.boundary_edges},
           {"components", counts.components},
           {"raw_loops", counts.raw_loops},
           {"loops", loops.size()},

@@ -55,7 +55,7 @@ std::string print_findings(const Summary& summary) {
   };
   if (summary.e > 0) {  // the method of the paper
     rows.push_back({"eligible edges, components",
-                    print_count(counts.eligible_edges) + ", " + print_count(counts.components)});
+                    print_count(counts.boundary_edges) + ", " + print_count(counts.components)});
     rows.push_back({"shortest loop (e)", "more than " + std::to_string(summary.e) + " edges"});
   }
   if (counts.undefined_normals > 0) {

@@ -1,4 +1,4 @@
-// Parts of the graph of eligible edges, on their way to the spanning graph and its loops.
+// Vertices and edges of the boundary graph.
 #pragma once
 
 #include "engine/data/ids.hpp"
@@ -15,15 +15,14 @@ struct Vertex {
   friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
-// An eligible edge of a component of the graph; a.id < b.id. Edges are taken in ascending order of
-// (weight, lower id, higher id).
-struct ComponentEdge {
-  std::uint64_t component;
+// An edge of the boundary graph by the paper; a.id < b.id. Edges are taken in ascending order of (weight, lower id,
+// higher id).
+struct BoundaryEdge {
   double weight;
   Vertex a, b;
 
-  friend bool operator<(const ComponentEdge& x, const ComponentEdge& y) {
-    return std::tie(x.component, x.weight, x.a.id, x.b.id) < std::tie(y.component, y.weight, y.a.id, y.b.id);
+  friend bool operator<(const BoundaryEdge& x, const BoundaryEdge& y) {
+    return std::tie(x.weight, x.a.id, x.b.id) < std::tie(y.weight, y.a.id, y.b.id);
   }
 };
 

@@ -21,8 +21,8 @@ struct Counts {
   std::uint64_t candidates = 0;  // distinct points with Pi above the threshold
   std::uint64_t coherent = 0;    // of these, those left by the coherence step; by stars, those beside loops
   std::uint64_t boundary_points = 0;  // points of the input (duplicates too) coherent or on a loop
-  std::uint64_t eligible_edges = 0;   // by the paper
-  std::uint64_t components = 0;       // of the graph of eligible edges; by the paper
+  std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
+  std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
   std::uint64_t undefined_normals = 0;
 };

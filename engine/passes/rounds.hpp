@@ -1,4 +1,4 @@
-// Tiles to look at, again and again until nothing changes.
+// Tiles to visit, again and again until nothing changes.
 #pragma once
 
 #include "engine/data/tiling.hpp"
@@ -12,7 +12,7 @@
 
 namespace lacuna {
 
-// In the first round all tiles; in each further one those that were asked for in the one before.
+// In the first round all tiles; in each further one those that were requested in the one before.
 class Rounds {
  public:
   explicit Rounds(std::size_t tiles) : tiles_(tiles) {
@@ -22,19 +22,19 @@ class Rounds {
   std::span<const TileIndex> tiles() const { return tiles_; }  // none: there are no more rounds
 
   // From any thread.
-  void ask_for(std::span<const TileIndex> tiles) {
+  void request(std::span<const TileIndex> tiles) {
     const std::lock_guard lock(mutex_);
-    asked_.insert(tiles.begin(), tiles.end());
+    requested_.insert(tiles.begin(), tiles.end());
   }
   void next() {
-    tiles_.assign(asked_.begin(), asked_.end());
-    asked_.clear();
+    tiles_.assign(requested_.begin(), requested_.end());
+    requested_.clear();
   }
 
  private:
   std::vector<TileIndex> tiles_;
   std::mutex mutex_;
-  std::set<TileIndex> asked_;
+  std::set<TileIndex> requested_;
 };
 
 }  // namespace lacuna

@@ -281,7 +281,7 @@ void settle_seams(StarLists& lists, const Tiling& tiling, Job& job) {
     for_each(touched, [&](TileIndex t) { seams.find_border_stars(t, wanted); });
     for_each(rounds.tiles(), [&](TileIndex t) { seams.measure_stars(t, wanted); });
     for_each(touched, [&](TileIndex t) {
-      seams.find_rough_points(t, [&](TileIndex news) { rounds.ask_for({&news, 1}); });
+      seams.find_rough_points(t, [&](TileIndex news) { rounds.request({&news, 1}); });
     });
   }
   for_each(all, [&](TileIndex t) { seams.find_gaps(t); });

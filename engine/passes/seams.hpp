@@ -1,7 +1,7 @@
 // The stars of points that wait for other tiles.
 #pragma once
 
-#include "engine/passes/evaluate.hpp"
+#include "engine/boundary/tangential/star_lists.hpp"
 
 namespace lacuna {
 

@@ -60,7 +60,7 @@ std::string Detected::bytes() const {
   }
   const Counts& c = summary.counts;
   for (const std::uint64_t count :
-       {c.points, c.dropped, c.duplicates, c.candidates, c.coherent, c.boundary_points, c.eligible_edges,
+       {c.points, c.dropped, c.duplicates, c.candidates, c.coherent, c.boundary_points, c.boundary_edges,
         c.components, c.raw_loops, c.undefined_normals}) {
     put(bytes, count);
   }

@@ -827,6 +827,7 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       gaps.push_back(gap);
     }
   }
+  result.boundary_edges = gaps.size();  // each ends at two, and at each of them two end
   std::vector<std::pair<std::vector<PointId>, double>> rims;
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
@@ -888,6 +889,7 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
         config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
     find_coherent(config.coherence, result);
     find_eligible(positions, config.spanning, result);
+    result.boundary_edges = result.eligible.size();
     find_loops(span(result), result);
   } else {
     find_rims(positions, config.coherence.threshold, config.selection.min_confidence, result);

@@ -63,6 +63,7 @@ struct Detection {
   double mean_edge_length = 0;              // over the edges of G; 0 without edges
   double eps = 0;                           // in effect
   std::int64_t e = 0;                       // in effect
+  std::size_t boundary_edges = 0;           // of the boundary graph
   std::vector<Edge> eligible;               // with w_total, in the order in which they are taken
   std::vector<Edge> spanning;               // those accepted, in that order
   std::vector<std::vector<PointId>> loops;  // raw, as step 6 writes and sorts them

@@ -3,9 +3,7 @@
 #include "engine/stages/split.hpp"
 #include "tests/support/memory_scan.hpp"
 
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 namespace lacuna {
@@ -28,17 +26,9 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
       survey(survey_scan(scan, job)),
       store(make_store(scan, survey, job)) {}
 
-EvaluatedScan TiledScan::evaluate() {
+Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
   const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
-  return evaluate_tiles(store, link_tiles(store, job), survey.points, config.neighbourhood.eps, extent, job);
-}
-
-TracedLoops TiledScan::trace(EvaluatedScan& evaluated, std::uint64_t global_memory) {
-  if (global_memory > 0) job.memory.global = global_memory;
-  const std::int64_t e = config.spanning.e > 0
-                             ? config.spanning.e
-                             : std::llround(2 * std::sqrt(std::numbers::pi * evaluated.mean_neighbours()));
-  return trace_loops(evaluated, store, e, job);
+  return evaluate_tiles(store, link_tiles(store, job), config.neighbourhood.eps, extent, consumers, job);
 }
 
 std::map<PointId, Row> TiledScan::rows() const {

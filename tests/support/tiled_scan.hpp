@@ -1,9 +1,9 @@
 // A cloud on its way through the passes, for tests of single passes.
 #pragma once
 
+#include "engine/boundary/paper/paper_boundary.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/passes/bucket.hpp"
-#include "engine/passes/evaluate.hpp"
-#include "engine/passes/trace.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -20,9 +20,8 @@ struct TiledScan {
   TiledScan(const TiledScan&) = delete;
   TiledScan& operator=(const TiledScan&) = delete;
 
-  EvaluatedScan evaluate();  // with its links
-  // The loops, where the global stage has so many bytes; 0: as many as the job gives it.
-  TracedLoops trace(EvaluatedScan& evaluated, std::uint64_t global_memory = 0);
+  // Every point evaluated, for these consumers.
+  Totals evaluate(std::vector<TileConsumer*> consumers);
 
   std::map<PointId, Row> rows() const;  // of the stored points
   TileIndex tile_of(Row row) const { return store.tiling().tile_of_row(row); }

@@ -1,6 +1,6 @@
 #include "tools/accuracy/true_loops.hpp"
 
-#include "engine/stages/union_find.hpp"
+#include "engine/stitch/union_find.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,49 @@
+// Candidates: points whose Pi exceeds the threshold (paper, 5.1), and which of them belong to the boundary.
+#pragma once
+
+#include "engine/boundary/coherence.hpp"
+#include "engine/core/point_column.hpp"
+#include "engine/core/row_set.hpp"
+#include "engine/core/spill.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/loops/raw_loops.hpp"
+#include "engine/passes/job.hpp"
+
+#include <mutex>
+#include <vector>
+
+namespace lacuna {
+
+struct StoredCandidate {
+  Candidate candidate;
+  StoredPoint point;
+  float probability;
+};
+
+// The candidates that have gap neighbours, by tile in ascending row.
+class Candidates final : public TileConsumer {
+ public:
+  Candidates(const TileStore& store, const Job& job);
+
+  void take(const EvaluatedTile& tile) override;
+
+  std::vector<StoredCandidate> read(TileIndex tile) const { return lists_.read(tile); }
+  // Appends candidates of a tile, in ascending row. From any thread.
+  void add(TileIndex tile, std::span<const StoredCandidate> candidates);
+
+  // Those that are coherent: the greatest set of candidates of which each has both of its gap neighbours in it.
+  // Tiles are evaluated on their own, and again while a tile that their candidates depend on changes; the order
+  // does not matter. Memory: one bit per row.
+  RowSet coherent(Job& job) const;
+  // Those whose gap neighbours both lie on one of the loops.
+  RowSet beside(const RawLoops& loops, Job& job) const;
+
+ private:
+  const Tiling& tiling_;
+  Spill<StoredCandidate> lists_;
+  std::vector<std::vector<TileIndex>> dependents_;  // of each tile: those with candidates that depend on it
+  std::mutex mutex_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,22 @@
+// coherence: a candidate stays boundary only while both of its gap neighbours are (paper, 5.1).
+#pragma once
+
+#include "engine/core/row_set.hpp"
+
+#include <span>
+
+namespace lacuna {
+
+// A candidate that has gap neighbours; without any it is none.
+struct Candidate {
+  Row row;
+  Row gap_near, gap_far;
+};
+
+// Takes candidates off the boundary until each of these that is left has both of its gap neighbours on it.
+// `candidates` in ascending row; only their own bits are changed. True if any was taken off. Repeated over
+// parts of a scan, in any order, until no part changes, this gives the greatest fixed point of the whole.
+// Cost: n log n.
+bool remove_incoherent(std::span<const Candidate> candidates, RowSet& boundary);
+
+}  // namespace lacuna

@@ -1,0 +1,36 @@
+// The loops of one component of the boundary graph, spanned with what all tiles have passed on.
+#pragma once
+
+#include "engine/boundary/paper/loops.hpp"
+#include "engine/boundary/paper/spanning.hpp"
+#include "engine/core/scratch.hpp"
+#include "engine/data/component.hpp"
+#include "engine/loops/raw_loops.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/stitch/stitch.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// row_of(v): of a vertex of the graph.
+template <class RowOf>
+void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoops& loops) {
+  std::vector<Vertex> loop;
+  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
+    loop.clear();
+    for (const LocalIndex v : found) loop.push_back({graph.ids[v], row_of(v)});
+    loops.add(loop, kNoConfidence);
+  });
+}
+
+// `edges`: of a whole component, in any order. `e`: an edge may close a loop of more than e edges.
+void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job, RawLoops& loops);
+
+// The same for a component that does not fit in memory: sorted on disk and spanned in mapped arrays.
+void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
+                                std::int64_t e, const Job& job, RawLoops& loops);
+
+}  // namespace lacuna

@@ -1,0 +1,45 @@
+// eligible_edges: which edges of the proximity graph may enter the spanning graph (paper, 5.1).
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/data/component.hpp"
+#include "engine/data/evaluation.hpp"
+#include "engine/data/neighbourhoods.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// What an edge's weight needs to know of one of its ends.
+struct Strength {
+  double mean_distance;       // r_p
+  float probability;          // Pi
+  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
+};
+
+// w_total of the edge where it is eligible, w_prob < max_prob_weight and w_total < max_total_weight; else
+// a negative number. Exact in double precision.
+double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
+
+using TileEdge = WeightedEdge;  // between owned points
+
+// An edge from an owned point to a foreign one whose Pi is not known yet.
+struct Crossing {
+  LocalIndex owned;
+  LocalIndex foreign;
+  double distance;
+};
+
+struct TileEdges {
+  std::vector<TileEdge> inside;     // eligible, each edge once
+  std::vector<Crossing> crossings;  // from owned points strong enough to make the edge eligible
+};
+
+// An edge is eligible only if one of its ends is strong: Pi > 1 - max_prob_weight / 2. So only the strong
+// points' neighbours are looked at, and of an edge between tiles every strong end's tile tells.
+TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
+                         std::span<const Evaluation> evaluations, const SpanningConfig& config);
+bool is_strong(double probability, const SpanningConfig& config);
+
+}  // namespace lacuna

@@ -1,0 +1,172 @@
+#include "engine/boundary/paper/paper_boundary.hpp"
+
+#include "engine/boundary/paper/component_loops.hpp"
+#include "engine/boundary/paper/settle_part.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+// Measured: edges, vertices and graph of a component while it is spanned.
+constexpr std::uint64_t kBytesPerEdge = 120;
+
+// Of a tile.
+constexpr std::uint64_t kBytesPerVertex = 280;
+
+// Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
+std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
+  return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
+}
+
+BoundaryEdge boundary_edge(double weight, const Vertex& a, const Vertex& b) {
+  return a.id < b.id ? BoundaryEdge{weight, a, b} : BoundaryEdge{weight, b, a};
+}
+
+// The vertices that a tile knows of: its own ends of eligible edges, in ascending row, then those of other
+// tiles at the ends of its crossing edges.
+class TileVertices {
+ public:
+  TileVertices(const Tile& tile, std::span<const StoredVertex> own, std::span<const EligibleCrossing> crossings)
+      : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
+    for (LocalIndex v = 0; v < own_; ++v) {
+      numbers_[own[v].owned] = v;
+      rows_.push_back(tile.row(own[v].owned));
+      ids_.push_back(own[v].point.id);
+    }
+    for (const EligibleCrossing& crossing : crossings) foreign_.push_back(crossing.foreign.row);
+    std::sort(foreign_.begin(), foreign_.end());
+    foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());
+    rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
+    ids_.resize(rows_.size());
+    for (const EligibleCrossing& crossing : crossings) ids_[foreign(crossing)] = crossing.foreign.id;
+  }
+
+  PartVertices part() const { return {ids_, own_}; }
+  LocalIndex own(LocalIndex point) const { return numbers_[point]; }
+  LocalIndex foreign(const EligibleCrossing& crossing) const {
+    const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), crossing.foreign.row);
+    return own_ + static_cast<LocalIndex>(at - foreign_.begin());
+  }
+  Vertex operator[](LocalIndex v) const { return {ids_[v], rows_[v]}; }
+
+ private:
+  LocalIndex own_;
+  std::vector<LocalIndex> numbers_;  // of the tile's points; of those that are no vertex: any
+  std::vector<Row> rows_, foreign_;
+  std::vector<PointId> ids_;
+};
+
+}  // namespace
+
+PaperBoundary::PaperBoundary(const TileStore& store, const Job& job)
+    : BoundaryMethod(
+          LoopPointLists(job.file("loop-points"), store.tiling().tiles.size(), job.memory.spills / 12)),
+      tiling_(store.tiling()),
+      inside_(job.file("edges"), tiling_.tiles.size(), job.memory.spills / 4),
+      undecided_(job.file("undecided-crossings"), tiling_.tiles.size(), job.memory.spills / 4),
+      crossings_(job.file("crossings"), tiling_.tiles.size(), job.memory.spills / 8),
+      strengths_(job.file("strengths")),
+      config_(job.config.spanning) {}
+
+void PaperBoundary::take(const EvaluatedTile& tile) {
+  const auto strength = [&](LocalIndex p) {
+    return Strength{tile.evaluations[p].mean_distance, tile.probability(p)};
+  };
+  write_wanted(strengths_, tile, tile.is_border, strength);
+  const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
+  inside_.append(tile.index, edges.inside);
+  std::vector<StoredCrossing> undecided;
+  for (const Crossing& c : edges.crossings)
+    undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
+  undecided_.append(tile.index, undecided);
+
+  // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign neighbours.
+  std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
+  for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
+  add_loop_points(loop_points_, tile, is_end);
+}
+
+// With Pi and r of both ends.
+void PaperBoundary::decide_crossings(TileIndex t) {
+  std::vector<StoredCrossing> undecided = undecided_.read(t);
+  undecided_.drop(t);
+  std::sort(undecided.begin(), undecided.end(), [](const auto& a, const auto& b) {
+    return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
+  });
+  RunReader<Strength> foreign(strengths_);
+  std::vector<EligibleCrossing> here;
+  for (const StoredCrossing& c : undecided) {
+    const Strength& other = foreign[value(c.foreign.row)];
+    // Both tiles have the edge if both ends are strong: then that of the lower id decides.
+    if (is_strong(other.probability, config_) && c.foreign.id < c.own.id) continue;
+    const double weight = eligible_weight(c.strength, other, c.distance, config_);
+    if (weight < 0) continue;
+    here.push_back({tiling_.tiles[t].local(c.own.row), c.own, c.foreign, weight});
+    const TileIndex there = tiling_.tile_of_row(c.foreign.row);
+    crossings_.append(there, {tiling_.tiles[there].local(c.foreign.row), c.foreign, c.own, weight});
+  }
+  crossings_.append(t, here);
+}
+
+// Finds the loops that nothing outside of the tile has to do with. What may matter elsewhere goes on.
+void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>& stitch, FoundLoops& found,
+                              Job& job) {
+  const Tile& tile = tiling_.tiles[t];
+  std::vector<WeightedEdge> edges = inside_.read(t);
+  inside_.drop(t);
+  const std::vector<EligibleCrossing> crossings = crossings_.read(t);
+  crossings_.drop(t);
+  if (edges.empty() && crossings.empty()) return;
+  const TileVertices vertices(tile, loop_points_.read(t), crossings);
+  for (WeightedEdge& edge : edges) edge = {vertices.own(edge.a), vertices.own(edge.b), edge.weight};
+  for (const EligibleCrossing& crossing : crossings)
+    edges.push_back({vertices.own(crossing.owned), vertices.foreign(crossing), crossing.weight});
+  std::atomic_ref(found.edges) += static_cast<std::uint64_t>(std::count_if(
+      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
+
+  Scratch scratch(job.workspace, job.memory.limit);
+  const SettledPart settled = settle_part(vertices.part(), std::move(edges), e, scratch);
+  find_loops_of(
+      settled.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, found.loops);
+  GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = settled.links};
+  for (const EligibleCrossing& c : crossings)
+    part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
+  for (const WeightedEdge& edge : settled.passed_on) {
+    part.records.push_back(boundary_edge(edge.weight, vertices[edge.a], vertices[edge.b]));
+    part.vertex_of.push_back(edge.a);
+  }
+  stitch.add(t, std::move(part));
+}
+
+FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
+  const std::int64_t e = minimum_loop(config_, totals.mean_neighbours());
+  FoundLoops found{.loops = RawLoops(job.file("raw-loops")), .minimum_loop = e};
+  Phase phase(job, "loops", 0);
+  const std::size_t tiles = tiling_.tiles.size();
+  job.crew.for_each(tiles, [&](std::size_t t) { decide_crossings(static_cast<TileIndex>(t)); });
+
+  Stitch<BoundaryEdge> stitch(tiles, kBytesPerEdge, job);
+  std::vector<std::uint64_t> needs(tiles);
+  for (std::size_t t = 0; t < tiles; ++t) {
+    needs[t] = (inside_.count(t) + crossings_.count(t)) * kBytesPerEdge +
+               loop_points_.count(t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
+  }
+  job.crew.for_each_within(needs, job.memory.global, [&](std::size_t t) {
+    span_tile(static_cast<TileIndex>(t), e, stitch, found, job);
+  });
+  stitch.for_each_component(
+      [&](std::span<const BoundaryEdge> edges) { find_component_loops(edges, e, job, found.loops); },
+      [&](const auto& for_each_edge, std::uint64_t count) {
+        find_large_component_loops(for_each_edge, count, e, job, found.loops);
+      });
+  found.components = stitch.components();
+  found.loops.sort();
+  return found;
+}
+
+}  // namespace lacuna

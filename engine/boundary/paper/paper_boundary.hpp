@@ -1,0 +1,54 @@
+// Boundary edges of the paper: the eligible edges of G, of which the spanning graph admits those that close long
+// loops only (paper, 5.1), and its loops by breadth-first search (5.2).
+#pragma once
+
+#include "engine/boundary/boundary_method.hpp"
+#include "engine/boundary/paper/eligible_edges.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/stitch/stitch.hpp"
+
+#include <cstdint>
+
+namespace lacuna {
+
+// An edge out of the tile, to be judged once Pi of its foreign end is known.
+struct StoredCrossing {
+  Vertex own, foreign;
+  Strength strength;  // of its own end
+  double distance;
+};
+
+// An eligible edge between tiles, in the lists of both.
+struct EligibleCrossing {
+  LocalIndex owned;
+  Vertex own, foreign;
+  double weight;
+};
+
+// Each tile decides what it can: most edges, and the loops that lead to no other tile. What it passes on is stitched
+// by component, spanned again and searched. A component larger than memory is sorted on disk and spanned in mapped
+// arrays.
+class PaperBoundary final : public BoundaryMethod {
+ public:
+  PaperBoundary(const TileStore& store, const Job& job);
+
+  void take(const EvaluatedTile& tile) override;
+  FoundLoops find_loops(const Totals& totals, Job& job) override;
+  // The coherent ones.
+  RowSet boundary_candidates(const Candidates& candidates, const RawLoops&, Job& job) const override {
+    return candidates.coherent(job);
+  }
+
+ private:
+  void decide_crossings(TileIndex tile);
+  void span_tile(TileIndex tile, std::int64_t e, Stitch<BoundaryEdge>& stitch, FoundLoops& found, Job& job);
+
+  const Tiling& tiling_;
+  Spill<TileEdge> inside_;             // eligible ones, by tile
+  Spill<StoredCrossing> undecided_;    // by tile
+  Spill<EligibleCrossing> crossings_;  // by tile
+  Column<Strength> strengths_;         // by row, of points with foreign neighbours
+  const SpanningConfig& config_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,158 @@
+#include "engine/boundary/paper/spanning.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace lacuna {
+namespace {
+
+// Half steps from an open vertex, or the end of an undecided edge, to the middle of the unknown: two of them
+// may be as near to each other as one edge.
+constexpr std::int64_t kToUnknown = 1;
+
+}  // namespace
+
+// Two distinct edges close no loop of 2: e = 1 is as good as e = 2, and leaves room for half steps.
+Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,
+                   std::span<const LocalIndex> open)
+    : ids_(ids),
+      e_(std::max<std::int64_t>(e, 2)),
+      scratch_(scratch),
+      trees_(scratch.array<LocalIndex>(ids.size())),
+      nodes_(scratch.array<Node>(ids.size())),
+      nearness_(scratch.array<std::uint32_t>(open.empty() ? 0 : ids.size())),
+      horizon_(2 * (e_ - 1)) {
+  static_assert(sizeof(Node) == 32 && sizeof(MoreNeighbours) == 32);
+  for (const LocalIndex v : open) approach(v, horizon_ - kToUnknown);
+}
+
+Verdict Spanning::add(LocalEdge edge) {
+  scratch_.breathe();
+  const auto [a, b] = edge;
+  if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
+  if (may_connect_outside(a, b)) {
+    approach(a, horizon_ - kToUnknown);
+    approach(b, horizon_ - kToUnknown);
+    return Verdict::undecided;
+  }
+  trees_.unite(a, b);
+  link(a, b);
+  link(b, a);
+  if (!nearness_.empty()) {
+    approach(a, std::int64_t{nearness_[b]} - 2);
+    approach(b, std::int64_t{nearness_[a]} - 2);
+  }
+  return Verdict::taken;
+}
+
+// Can there be a path of fewer than e edges by way of what is not known?
+bool Spanning::may_connect_outside(LocalIndex a, LocalIndex b) const {
+  return !nearness_.empty() && std::int64_t{nearness_[a]} + nearness_[b] >= horizon_;
+}
+
+// v is at least so near to what is not known, and with it those around it.
+void Spanning::approach(LocalIndex v, std::int64_t nearness) {
+  const auto raise = [&](LocalIndex w, std::int64_t to) {
+    if (to <= nearness_[w]) return;
+    nearness_[w] = static_cast<std::uint32_t>(to);
+    next_.push_back(w);
+  };
+  next_.clear();
+  raise(v, nearness);
+  for (std::size_t i = 0; i < next_.size(); ++i) {
+    for_each_neighbour(nodes_[next_[i]],
+                       [&](LocalIndex w) { raise(w, std::int64_t{nearness_[next_[i]]} - 2); });
+  }
+}
+
+void Spanning::link(LocalIndex from, LocalIndex to) {
+  Node& node = nodes_[from];
+  ++half_edges_;
+  if (node.degree < Node::kInline) {
+    node.neighbours[node.degree++] = to;
+    return;
+  }
+  const std::size_t beyond = node.degree++ - Node::kInline;
+  const std::size_t place = beyond % std::tuple_size_v<decltype(MoreNeighbours::neighbours)>;
+  if (place == 0) {
+    more_.push_back({{}, node.more});
+    node.more = static_cast<std::uint32_t>(more_.size());
+  }
+  more_[node.more - 1].neighbours[place] = to;
+}
+
+template <class Visit>
+void Spanning::for_each_neighbour(const Node& node, Visit&& visit) const {
+  const std::size_t beside = std::min<std::size_t>(node.degree, Node::kInline);
+  for (std::size_t i = 0; i < beside; ++i) visit(node.neighbours[i]);
+  constexpr std::size_t kBlock = std::tuple_size_v<decltype(MoreNeighbours::neighbours)>;
+  std::size_t left = node.degree - beside;
+  for (std::uint32_t block = node.more; block != 0; block = more_[block - 1].next) {
+    const std::size_t here = (left - 1) % kBlock + 1;  // only the newest block is not full
+    for (std::size_t i = 0; i < here; ++i) visit(more_[block - 1].neighbours[i]);
+    left -= here;
+  }
+}
+
+// Is there a path of at most `limit` edges? Two balls grow towards each other, the smaller front first.
+bool Spanning::connects(LocalIndex a, LocalIndex b, std::int64_t limit) {
+  if (stamp_ > std::numeric_limits<std::uint32_t>::max() - 4) {  // every mark is used up
+    for (Node& node : nodes_) node.mark = 0;
+    stamp_ = 0;
+  }
+  stamp_ += 2;
+  std::uint32_t here = stamp_, there = stamp_ + 1;
+  near_.assign(1, a);
+  far_.assign(1, b);
+  nodes_[a].mark = here;
+  nodes_[b].mark = there;
+  for (std::int64_t length = 0; length < limit && !near_.empty() && !far_.empty(); ++length) {
+    if (near_.size() > far_.size()) {
+      near_.swap(far_);
+      std::swap(here, there);
+    }
+    if (advance(here, there)) return true;
+  }
+  return false;
+}
+
+// One step of the near front; true if it meets the far ball.
+bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
+  bool met = false;
+  next_.clear();
+  for (const LocalIndex v : near_) {
+    scratch_.breathe();
+    for_each_neighbour(nodes_[v], [&](LocalIndex w) {
+      std::uint32_t& mark = nodes_[w].mark;
+      if (mark == there) met = true;
+      if (mark >= stamp_) return;
+      mark = here;
+      next_.push_back(w);
+    });
+    if (met) return true;
+  }
+  near_.swap(next_);
+  return false;
+}
+
+bool Spanning::is_open(LocalIndex v) const {
+  return !nearness_.empty() && nearness_[v] + kToUnknown >= horizon_;
+}
+
+SpanningGraph Spanning::finish() {
+  const auto offsets = scratch_.array<std::uint64_t>(nodes_.size() + 1);
+  const auto indices = scratch_.array<LocalIndex>(half_edges_);
+  std::uint64_t end = 0;
+  for (std::size_t v = 0; v < nodes_.size(); ++v) {
+    scratch_.breathe();
+    const std::uint64_t begin = end;
+    for_each_neighbour(nodes_[v], [&](LocalIndex w) { indices[end++] = w; });
+    const auto row = indices.subspan(begin, end - begin);
+    std::sort(row.begin(), row.end(), [&](LocalIndex a, LocalIndex b) { return ids_[a] < ids_[b]; });
+    offsets[v + 1] = end;
+  }
+  return {ids_, offsets, indices};
+}
+
+}  // namespace lacuna

@@ -1,0 +1,66 @@
+// Stars on their way across tiles: what a tile alone knows of its stars, and what its borders leave open.
+#pragma once
+
+#include "engine/core/file.hpp"
+#include "engine/core/row_set.hpp"
+#include "engine/core/spill.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/data/stored_stars.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/passes/job.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// A point with neighbours in other tiles, whose star waits for their seats, or one beside such, whose star
+// waits to be measured.
+struct WaitingPoint {
+  LocalIndex place;  // in sight
+  std::uint32_t neighbours;
+  Standing standing;
+  double normal[3];
+};
+
+// A point that a waiting one sees.
+struct SeenPoint {
+  Vertex vertex;
+  Sampling sampling;  // none of border points: theirs come later
+};
+
+// Stars by tile. Those of a tile are appended in one go or in several, by one thread at a time.
+class StarSpill {
+ public:
+  StarSpill(const Job& job, const std::string& name, std::size_t tiles, std::uint64_t budget);
+
+  void append(TileIndex tile, StoredStars stars);
+  StoredStars read(TileIndex tile) const;  // in ascending owned index
+  void drop(TileIndex tile);
+
+ private:
+  Spill<StoredStar> stars_;
+  Spill<StoredCorner> corners_;
+};
+
+// What the default method keeps of the tiles; lists are by tile unless said otherwise.
+struct StarLists {
+  StarLists(const TileStore& store, const Job& job);
+
+  void drop_waiting(TileIndex tile);  // all but the gaps
+
+  Spill<WaitingPoint> waiting;                 // in ascending owned index
+  Spill<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
+  Spill<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
+  std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
+  Column<Seat> seats;                          // by row, of border points and their neighbours
+  RowSet rough;
+  RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
+  StarSpill found;       // stars of waiting points as they are found
+  StarSpill open;        // measured stars
+  Spill<Gap> gaps;       // of settled ones
+  Spill<Gap> open_gaps;  // of the others (passes/seams)
+};
+
+}  // namespace lacuna

@@ -1,0 +1,126 @@
+#include "engine/boundary/tangential/take_stars.hpp"
+
+#include "engine/stages/tile_stars.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+class StarTaker {
+ public:
+  StarTaker(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists)
+      : tile_(tile), tiling_(tiling), lists_(lists) {}
+
+  // Returns which owned points a loop may pass through.
+  std::vector<std::uint8_t> take() {
+    const TileStars found = find_stars(tile_.points, tile_.neighbourhoods, tile_.evaluations, tile_.is_border);
+    StoredStars as_found, open;
+    std::vector<Gap> gaps;
+    std::vector<std::uint8_t> is_vertex(tile_.is_border.begin(), tile_.is_border.end());
+    for (LocalIndex p = 0; p < tile_.points.owned; ++p) {
+      const Standing standing = found.standings[p];
+      if (found.is_rough[p]) lists_.rough.insert(tile_.points.rows[p]);
+      if (waits(standing)) lists_.unmeasured.insert(tile_.points.rows[p]);
+      if (standing == Standing::kInner || standing == Standing::kBorder) continue;
+      const auto agreements = found.stars.agreements_of(p);
+      const auto all_are = [&](auto... these) {
+        return std::all_of(agreements.begin(), agreements.end(),
+                           [&](Agreement a) { return ((a == these) || ...); });
+      };
+      if (standing == Standing::kRough && all_are(Agreement::kAgreed)) continue;
+      is_vertex[p] = 1;
+      if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
+        for_each_gap(found.stars[p], agreements, [&](LocalIndex from, LocalIndex to, float room) {
+          gaps.push_back({tile_.vertex(p), tile_.points.rows[from], tile_.points.rows[to], room, found.unevenness[p]});
+        });
+      } else {
+        add_star(found, p, standing == Standing::kBeside ? as_found : open);
+      }
+    }
+    add_waiting(found);
+    lists_.found.append(tile_.index, std::move(as_found));
+    lists_.open.append(tile_.index, std::move(open));
+    lists_.gaps.append(tile_.index, gaps);
+    return is_vertex;
+  }
+
+ private:
+  void add_star(const TileStars& found, LocalIndex p, StoredStars& stars) const {
+    const auto star = found.stars[p];
+    const auto agreements = found.stars.agreements_of(p);
+    if (star.empty()) return;
+    stars.add(tile_.points.ids[p], p, found.unevenness[p]);
+    for (std::size_t i = 0; i < star.size(); ++i)
+      stars.add_corner({tile_.points.rows[star[i].point], star[i].room, agreements[i]});
+  }
+
+  // Marks owned points, by is_wanted(p), and all of their neighbours.
+  template <class Wanted>
+  std::vector<std::uint8_t> with_neighbours(Wanted&& is_wanted) const {
+    std::vector<std::uint8_t> marks(tile_.points.size());
+    for (LocalIndex p = 0; p < tile_.points.owned; ++p) {
+      if (!is_wanted(p)) continue;
+      marks[p] = 1;
+      for (const LocalIndex q : tile_.neighbourhoods[p]) marks[q] = 1;
+    }
+    return marks;
+  }
+
+  // What the stars of waiting points need, here and in other tiles.
+  void add_waiting(const TileStars& found) {
+    const std::vector<std::uint8_t> is_seen =
+        with_neighbours([&](LocalIndex p) { return waits(found.standings[p]); });
+    std::vector<LocalIndex> seen;
+    for (LocalIndex p = 0; p < tile_.points.size(); ++p) {
+      if (is_seen[p]) seen.push_back(p);
+    }
+    // By row: both the owned and the foreign ones are.
+    std::inplace_merge(seen.begin(), std::lower_bound(seen.begin(), seen.end(), tile_.points.owned), seen.end(),
+                       [&](LocalIndex a, LocalIndex b) { return tile_.points.rows[a] < tile_.points.rows[b]; });
+    std::vector<LocalIndex> place(tile_.points.size());
+    std::vector<SeenPoint> in_sight;
+    std::vector<Row> rows;
+    for (const LocalIndex p : seen) {
+      rows.push_back(tile_.points.rows[p]);
+      place[p] = static_cast<LocalIndex>(in_sight.size());
+      in_sight.push_back({tile_.vertex(p), tile_.points.is_owned(p) ? found.samplings[p] : Sampling{}});
+    }
+
+    std::vector<WaitingPoint> waiting;
+    std::vector<LocalIndex> neighbours;
+    for (LocalIndex p = 0; p < tile_.points.owned; ++p) {
+      if (!waits(found.standings[p])) continue;
+      const Eigen::Vector3d& normal = tile_.evaluations[p].normal;
+      const auto around = tile_.neighbourhoods[p];
+      waiting.push_back({place[p],
+                         static_cast<std::uint32_t>(around.size()),
+                         found.standings[p],
+                         {normal.x(), normal.y(), normal.z()}});
+      for (const LocalIndex q : around) neighbours.push_back(place[q]);
+    }
+    lists_.waiting.append(tile_.index, waiting);
+    lists_.waiting_neighbours.append(tile_.index, neighbours);
+    lists_.waiting_sight.append(tile_.index, in_sight);
+    lists_.around[tile_.index] = tiling_.tiles_of(rows);
+    const std::vector<std::uint8_t> is_seated =
+        with_neighbours([&](LocalIndex p) { return tile_.is_border[p] != 0; });
+    write_wanted(lists_.seats, tile_, std::span(is_seated).first(tile_.points.owned), [&](LocalIndex p) {
+      return seat_of(tile_.points.positions[p], tile_.points.ids[p], tile_.evaluations[p]);
+    });
+  }
+
+  const EvaluatedTile& tile_;
+  const Tiling& tiling_;
+  StarLists& lists_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists) {
+  return StarTaker(tile, tiling, lists).take();
+}
+
+}  // namespace lacuna

@@ -1,0 +1,16 @@
+// take_stars: what a tile alone knows of the stars of its points.
+#pragma once
+
+#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace lacuna {
+
+// Finds the stars of the tile's active points, and of those that may become active by what other tiles have. Boundary
+// wedges that are certain and stars that are not go to the lists. Returns which owned points a loop may pass through.
+std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists);
+
+}  // namespace lacuna

@@ -1,0 +1,34 @@
+// Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one consistent
+// triangle. A boundary wedge is a point with the two such edges between which, around the point, there is no
+// consistent triangle; wedges chain to closed curves.
+#pragma once
+
+#include "engine/boundary/boundary_method.hpp"
+#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/stitch/stitch.hpp"
+
+namespace lacuna {
+
+class TangentialBoundary final : public BoundaryMethod {
+ public:
+  TangentialBoundary(const TileStore& store, const Job& job);
+
+  // Finds the stars of the tile's active points, as far as the tile alone can.
+  void take(const EvaluatedTile& tile) override;
+  // Curves of fewer than `kLeastCurve` points are left out: around so few, a sampling leaves gaps by itself.
+  FoundLoops find_loops(const Totals& totals, Job& job) override;
+  // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes through.
+  RowSet boundary_candidates(const Candidates& candidates, const RawLoops& loops, Job& job) const override {
+    return candidates.beside(loops, job);
+  }
+
+ private:
+  std::vector<Gap> wedges_of(TileIndex tile);
+
+  const Tiling& tiling_;
+  StarLists stars_;
+};
+
+inline constexpr std::size_t kLeastCurve = 8;
+
+}  // namespace lacuna

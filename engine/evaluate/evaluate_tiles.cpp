@@ -1,0 +1,220 @@
+#include "engine/evaluate/evaluate_tiles.hpp"
+
+#include "engine/core/dispatch.hpp"
+#include "engine/stages/evaluate.hpp"
+#include "engine/stages/neighbourhoods.hpp"
+#include "engine/stages/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+// Cells of other tiles within eps of a tile's cells.
+std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, double eps) {
+  std::vector<std::uint32_t> cells;
+  if (eps == 0) return cells;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, tile.first_cell, tile.last_cell,
+                       [&](std::uint32_t near) {
+                         cells.push_back(near);
+                         return true;
+                       });
+    if (cells.size() > 4 * tiling.cells.size() || cell + 1 == tile.last_cell) {
+      std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    }
+  }
+  return cells;
+}
+
+// No less than the number of points within eps of a tile's points, summed over these: by their cells, some
+// three times as many.
+std::uint64_t ball_points(const Tiling& tiling, const Tile& tile, double eps) {
+  std::uint64_t sum = 0;
+  if (eps == 0) return sum;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    std::uint64_t near_points = 0;
+    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, 0, 0, [&](std::uint32_t near) {
+      near_points += tiling.cells[near].points;
+      return true;
+    });
+    sum += tiling.cells[cell].points * near_points;
+  }
+  return sum;
+}
+
+// Foreign points that a tile sees, each once, in ascending row.
+struct Sight {
+  std::vector<StoredPoint> points;
+  std::vector<Row> rows;
+
+  LocalIndex find(Row row) const {
+    const auto at = std::lower_bound(rows.begin(), rows.end(), row);
+    return static_cast<LocalIndex>(at - rows.begin());
+  }
+};
+
+Sight foreign_sight(const TileStore& store, std::span<const Link> links,
+                    std::span<const std::uint32_t> halo) {
+  Sight sight;
+  store.read_cells(halo, sight.points, sight.rows);
+  std::vector<std::pair<Row, StoredPoint>> seen;
+  for (std::size_t i = 0; i < sight.rows.size(); ++i) seen.emplace_back(sight.rows[i], sight.points[i]);
+  for (const Link& link : links) seen.emplace_back(link.row, link.foreign);
+  std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  seen.erase(
+      std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+      seen.end());
+  sight.points.clear();
+  sight.rows.clear();
+  for (const auto& [row, point] : seen) {
+    sight.rows.push_back(row);
+    sight.points.push_back(point);
+  }
+  return sight;
+}
+
+// `links` get sorted.
+TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& links,
+                  std::span<const std::uint32_t> halo) {
+  const Tile& tile = store.tiling().tiles[index];
+  const Sight sight = foreign_sight(store, links, halo);
+  TilePoints points;
+  points.owned = static_cast<LocalIndex>(tile.points);
+  points.positions.reserve(tile.points + sight.rows.size());
+  points.ids.reserve(tile.points + sight.rows.size());
+  const auto add = [&](const StoredPoint& p) {
+    points.positions.push_back(p.position());
+    points.ids.push_back(p.id);
+  };
+  store.for_each_point(index, add);
+  std::for_each(sight.points.begin(), sight.points.end(), add);
+  points.rows.reserve(tile.points + sight.rows.size());
+  for (LocalIndex i = 0; i < tile.points; ++i) points.rows.push_back(tile.row(i));
+  points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
+
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+    return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
+  });
+  points.linked.offsets.reserve(tile.points + 1);
+  auto link = links.begin();
+  for (LocalIndex p = 0; p < points.owned; ++p) {
+    for (; link != links.end() && link->owned == p; ++link) {
+      if (link->incoming) points.linked.indices.push_back(points.owned + sight.find(link->row));
+    }
+    points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
+  }
+  return points;
+}
+
+LACUNA_VECTORISED
+LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
+  LocalIndex largest = 0;
+  for (; first < last; ++first) largest = std::max(largest, *first);
+  return largest;
+}
+
+// Of each owned point whether it has foreign neighbours. Few do, and these lie near each other.
+std::vector<std::uint8_t> border_of(const TilePoints& points, const Rows& neighbourhoods) {
+  constexpr std::size_t kRun = 64;
+  std::vector<std::uint8_t> is_border(points.owned);
+  const auto leaves = [&](std::size_t first, std::size_t last) {
+    const LocalIndex* const indices = neighbourhoods.indices.data();
+    return largest_of(indices + neighbourhoods.offsets[first], indices + neighbourhoods.offsets[last]) >=
+           points.owned;
+  };
+  for (std::size_t first = 0, last; first < is_border.size(); first = last) {
+    last = std::min<std::size_t>(first + kRun, is_border.size());
+    if (!leaves(first, last)) continue;
+    for (std::size_t p = first; p < last; ++p) is_border[p] = leaves(p, p + 1);
+  }
+  return is_border;
+}
+
+// A power of two beside which no edge is lost: 2^-60 of the scan's extent.
+double length_unit(double extent) {
+  return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
+}
+
+void operator+=(Totals& totals, const Totals& more) {
+  totals.points += more.points;
+  totals.neighbours += more.neighbours;
+  totals.candidates += more.candidates;
+  totals.undefined_normals += more.undefined_normals;
+  totals.edge_length += more.edge_length;
+}
+
+// One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
+Totals sum_up(std::span<const Evaluation> evaluations, const Rows& neighbourhoods, double threshold, double unit,
+              std::vector<LocalIndex>& candidates) {
+  Totals totals{.points = evaluations.size(), .neighbours = neighbourhoods.indices.size()};
+  for (LocalIndex p = 0; p < evaluations.size(); ++p) {
+    const Evaluation& e = evaluations[p];
+    if (e.probability > threshold) candidates.push_back(p);
+    totals.undefined_normals += !e.normal.allFinite();
+    const double length = e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / unit;
+    constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
+    totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
+  }
+  totals.candidates = candidates.size();
+  return totals;
+}
+
+}  // namespace
+
+double Totals::mean_neighbours() const {
+  return points == 0 ? 0 : static_cast<double>(neighbours) / static_cast<double>(points);
+}
+
+double Totals::mean_edge_length() const {
+  if (neighbours == 0) return 0;
+  return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
+}
+
+Totals evaluate_tiles(const TileStore& store, Spill<Link> halo, double eps, double extent,
+                      std::span<TileConsumer* const> consumers, Job& job) {
+  const Tiling& tiling = store.tiling();
+  Totals totals{.length_unit = length_unit(extent)};
+  Phase phase(job, "evaluate", tiling.points());
+
+  std::vector<std::uint64_t> needs(tiling.tiles.size());
+  job.crew.for_each(needs.size(), [&](std::size_t t) {
+    const Tile& tile = tiling.tiles[t];
+    std::uint64_t foreign = halo.count(t);
+    for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
+    needs[t] = job.tile_bytes(tile.points) + foreign * 120 + 8 * ball_points(tiling, tile, eps);
+  });
+  std::mutex mutex;
+  job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
+    const auto index = static_cast<TileIndex>(t);
+    const Tile& tile = tiling.tiles[t];
+    std::vector<Link> inbox = halo.read(t);
+    halo.drop(t);
+    const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
+    std::vector<Link>().swap(inbox);
+    const Rows neighbourhoods =
+        find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
+    const std::vector<Evaluation> evaluations =
+        evaluate(points, neighbourhoods, store.normals(index), job.config.normals, job.config.criteria);
+
+    std::vector<LocalIndex> candidates;
+    const Totals sums = sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit,
+                               candidates);
+    const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
+    for (TileConsumer* const consumer : consumers)
+      consumer->take({index, tile, points, neighbourhoods, evaluations, candidates, is_border});
+    {
+      const std::lock_guard lock(mutex);
+      totals += sums;
+    }
+    phase.advance(points.owned);
+  });
+  return totals;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,34 @@
+// evaluate, over all tiles: every point judged from its neighbourhood (paper, 4.1 to 4.6).
+#pragma once
+
+#include "engine/core/spill.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/passes/links.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace lacuna {
+
+__extension__ using Int128 = __int128;
+
+// Sums over all distinct points, exact in any order.
+struct Totals {
+  std::uint64_t points = 0;
+  std::uint64_t neighbours = 0;  // of |N_p|
+  std::uint64_t candidates = 0;  // Pi above the threshold
+  std::uint64_t undefined_normals = 0;
+  Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
+  double length_unit = 1;
+
+  double mean_neighbours() const;   // K
+  double mean_edge_length() const;  // over the edges of G
+};
+
+// Consumes the halo. `eps`: a length, 0: off. `extent`: the largest distance between points.
+Totals evaluate_tiles(const TileStore& store, Spill<Link> halo, double eps, double extent,
+                      std::span<TileConsumer* const> consumers, Job& job);
+
+}  // namespace lacuna

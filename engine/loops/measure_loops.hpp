@@ -1,0 +1,37 @@
+// Loops measured: the points of each joined with what the evaluation said of them.
+#pragma once
+
+#include "engine/core/tile_store.hpp"
+#include "engine/data/loop.hpp"
+#include "engine/loops/loop_points.hpp"
+#include "engine/loops/raw_loops.hpp"
+#include "engine/passes/job.hpp"
+
+#include <vector>
+
+namespace lacuna {
+
+struct StoredLoopPoint {
+  StoredPoint point;
+  Row row;
+  float surface[3];
+  float probability;
+};
+
+// All loops that are sure enough, in order of (first id, length, ids).
+struct MeasuredLoops {
+  Column<StoredLoopPoint> points;      // loop after loop
+  std::vector<std::uint64_t> offsets;  // loops + 1
+  std::vector<LoopMeasures> measures;
+
+  Loop read(std::size_t loop) const;
+};
+
+// In batches that fit in memory. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
+MeasuredLoops measure_loops(const RawLoops& loops, const LoopPointLists& points, const Tiling& tiling,
+                            double mean_edge_length, Job& job);
+
+// The loops that the selection reports. All are sure enough.
+std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);
+
+}  // namespace lacuna

@@ -1,0 +1,224 @@
+#include "engine/results/collect.hpp"
+
+#include "engine/core/external_sort.hpp"
+#include "engine/passes/letters.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+namespace lacuna {
+namespace {
+
+constexpr std::int32_t kNoLoop = std::numeric_limits<std::int32_t>::max();
+
+// A boundary point of one tile.
+struct Mark {
+  LocalIndex owned;
+  std::int32_t loop;  // the first reported loop through it; kNoLoop: none
+  float probability;
+  std::uint32_t coherent;
+  StoredPoint point;
+};
+
+// A boundary point of the input.
+struct StoredBoundary {
+  StoredPoint point;
+  float probability;
+  std::int32_t loop;  // -1: none
+  std::uint64_t coherent;
+
+  friend bool operator<(const StoredBoundary& a, const StoredBoundary& b) { return a.point.id < b.point.id; }
+};
+
+using BoundarySort = ExternalSort<StoredBoundary, std::less<StoredBoundary>>;
+
+class WorkspaceDetection final : public Detection {
+ public:
+  WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
+                     Column<StoredBoundary> boundary, std::optional<PointResults> results,
+                     std::optional<RowSet> turned)
+      : summary_(std::move(summary)),
+        raw_loops_(std::move(loops)),
+        selected_(std::move(selected)),
+        boundary_(std::move(boundary)),
+        results_(std::move(results)),
+        turned_(std::move(turned)) {
+    for (const std::size_t loop : selected_) loops_.push_back(raw_loops_.measures[loop]);
+  }
+
+  const Summary& summary() const override { return summary_; }
+  const std::vector<LoopMeasures>& loops() const override { return loops_; }
+  ReportedLoop read_loop(std::size_t index) const override {
+    return {loops_[index], raw_loops_.read(selected_[index])};
+  }
+
+  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
+    BoundaryReader boundary(*this);
+    for (std::uint64_t i = 0; i < summary_.counts.boundary_points; ++i) {
+      const StoredBoundary& p = boundary.next();
+      visit({p.point.id, p.point.position(), p.probability, p.loop});
+    }
+  }
+
+  void for_each_result_block(
+      const std::function<void(PointId first, std::span<const PointResult>)>& visit) const override {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    const PointResult dropped{.probability = kNaN,
+                              .angle = kNaN,
+                              .halfdisc = kNaN,
+                              .shape = kNaN,
+                              .normal = Eigen::Vector3f::Constant(kNaN)};
+    BoundaryReader boundary(*this);
+    std::uint64_t next_boundary = 0;
+    std::vector<PointResult> block;
+    for (std::size_t b = 0; b < results_->blocks(); ++b) {
+      const std::uint64_t first = b * kResultBlock;
+      const std::uint64_t last = std::min(first + kResultBlock, summary_.counts.points);
+      block.assign(last - first, dropped);
+      results_->for_each(b, [&](const StoredResult& r) { block[value(r.id) - first] = result(r); });
+      for (; next_boundary < summary_.counts.boundary_points; ++next_boundary) {
+        const StoredBoundary& p = boundary.peek();
+        if (value(p.point.id) >= last) break;
+        PointResult& point = block[value(p.point.id) - first];
+        point.boundary = 1;
+        point.coherent = p.coherent != 0;
+        point.loop = p.loop;
+        boundary.next();
+      }
+      visit(PointId{first}, block);
+    }
+  }
+
+ private:
+  class BoundaryReader {
+   public:
+    explicit BoundaryReader(const WorkspaceDetection& detection) : records_(detection.boundary_) {}
+    const StoredBoundary& peek() { return records_[at_]; }
+    const StoredBoundary& next() { return records_[at_++]; }
+
+   private:
+    RunReader<StoredBoundary> records_;
+    std::uint64_t at_ = 0;
+  };
+
+  PointResult result(const StoredResult& r) const {
+    const float sign = turned_ && turned_->contains(r.row) ? -1.0f : 1.0f;
+    return {.probability = r.probability,
+            .angle = r.criteria[0],
+            .halfdisc = r.criteria[1],
+            .shape = r.criteria[2],
+            .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
+  }
+
+  Summary summary_;
+  MeasuredLoops raw_loops_;
+  std::vector<std::size_t> selected_;
+  std::vector<LoopMeasures> loops_;
+  Column<StoredBoundary> boundary_;
+  std::optional<PointResults> results_;
+  std::optional<RowSet> turned_;
+};
+
+// Every point on a loop, to its tile.
+void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
+                Spill<Mark>& marks) {
+  Letters<Mark> letters(marks);
+  std::size_t next_selected = 0;
+  for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
+    const bool reported = next_selected < selected.size() && selected[next_selected] == i;
+    const std::int32_t name = reported ? static_cast<std::int32_t>(next_selected++) : kNoLoop;
+    for (const StoredLoopPoint& p :
+         loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
+      const TileIndex t = tiling.tile_of_row(p.row);
+      const auto owned = tiling.tiles[t].local(p.row);
+      letters.add(t, {owned, name, p.probability, 0, p.point});
+    }
+  }
+  letters.send();
+}
+
+// A tile's boundary points, each once: coherent or on a loop.
+std::vector<Mark> boundary_of_tile(const Candidates& candidates, const Tile& tile, TileIndex t,
+                                   const RowSet& boundary, const Spill<Mark>& loop_marks) {
+  std::vector<Mark> marks = loop_marks.read(t);
+  for (const StoredCandidate& c : candidates.read(t)) {
+    if (!boundary.contains(c.candidate.row)) continue;
+    const auto owned = tile.local(c.candidate.row);
+    marks.push_back({owned, kNoLoop, c.probability, 1, c.point});
+  }
+  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
+    return a.owned != b.owned ? a.owned < b.owned : a.loop < b.loop;
+  });
+  std::size_t kept = 0;
+  for (const Mark& mark : marks) {
+    if (kept > 0 && marks[kept - 1].owned == mark.owned) {
+      marks[kept - 1].coherent |= mark.coherent;
+    } else {
+      marks[kept++] = mark;
+    }
+  }
+  marks.resize(kept);
+  return marks;
+}
+
+StoredBoundary stored(const Mark& mark) {
+  return {mark.point, mark.probability, mark.loop == kNoLoop ? -1 : mark.loop, mark.coherent};
+}
+
+}  // namespace
+
+std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates, const TileStore& store,
+                                           Job& job) {
+  const Tiling& tiling = store.tiling();
+  Summary& summary = findings.summary;
+  const MeasuredLoops& loops = findings.loops;
+  Column<StoredBoundary> boundary_points(job.file("boundary"));
+  std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
+  {
+    Phase phase(job, "collect", tiling.points());
+    Spill<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
+    mark_loops(loops, selected, tiling, marks);
+    BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
+    std::mutex mutex;
+    job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
+      const Tile& tile = tiling.tiles[t];
+      const std::vector<Mark> tile_marks =
+          boundary_of_tile(candidates, tile, static_cast<TileIndex>(t), findings.boundary_candidates, marks);
+      const std::vector<Duplicate> duplicates = store.duplicates(static_cast<TileIndex>(t));
+      const std::lock_guard lock(mutex);
+      for (const Mark& mark : tile_marks) {
+        summary.counts.coherent += mark.coherent;
+        sorted.add(stored(mark));
+      }
+      for (const Duplicate& d : duplicates) {
+        const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
+                                         [](const Mark& m, LocalIndex p) { return m.owned < p; });
+        if (of == tile_marks.end() || of->owned != d.of) continue;
+        StoredBoundary duplicate = stored(*of);
+        duplicate.point.id = d.id;
+        sorted.add(duplicate);
+      }
+      phase.advance(tile.points);
+    });
+    summary.counts.boundary_points = sorted.size();
+    std::vector<StoredBoundary> block;
+    std::uint64_t written = 0;
+    const auto flush = [&] {
+      boundary_points.write(written, block);
+      written += block.size();
+      block.clear();
+    };
+    sorted.for_each([&](const StoredBoundary& p) {
+      block.push_back(p);
+      if (block.size() == 4096) flush();
+    });
+    flush();
+  }
+  summary.phases = job.phases;
+  return std::make_unique<WorkspaceDetection>(std::move(summary), std::move(findings.loops), std::move(selected),
+                                              std::move(boundary_points), std::move(findings.points),
+                                              std::move(findings.opposed_normals));
+}
+
+}  // namespace lacuna

@@ -1,0 +1,30 @@
+// The results in the order of the input, ready to be written.
+#pragma once
+
+#include "engine/boundary/candidates.hpp"
+#include "engine/core/row_set.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/data/detection.hpp"
+#include "engine/loops/measure_loops.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/results/point_results.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace lacuna {
+
+// What the stages have found.
+struct Findings {
+  Summary summary;
+  MeasuredLoops loops;
+  RowSet boundary_candidates;             // candidates that belong to the boundary
+  std::optional<PointResults> points;     // only with output.points
+  std::optional<RowSet> opposed_normals;  // rows whose normal is to be turned round
+};
+
+// Fills in the counts of boundary points.
+std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates, const TileStore& store,
+                                           Job& job);
+
+}  // namespace lacuna

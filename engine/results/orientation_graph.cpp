@@ -1,0 +1,164 @@
+#include "engine/results/orientation_graph.hpp"
+
+#include "engine/core/external_sort.hpp"
+#include "engine/core/scratch.hpp"
+#include "engine/results/orient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna {
+namespace {
+
+Eigen::Vector3d vector(const StoredNormal& n) {
+  return {n.x, n.y, n.z};
+}
+
+// Disjoint sets of rows that know for each row whether its normal opposes that of its root.
+class SignedUnionFind {
+ public:
+  SignedUnionFind(std::uint64_t rows, Scratch& scratch)
+      : scratch_(scratch), links_(scratch.array<std::uint64_t>(rows)) {}
+
+  struct Place {
+    std::uint64_t root;
+    bool opposed;
+  };
+
+  Place find(std::uint64_t x) {
+    scratch_.breathe();
+    bool opposed = false;
+    while (links_[x] != 0) {
+      const std::uint64_t up = parent(x);
+      if (links_[up] != 0) links_[x] = link(parent(up), sign(x) != sign(up));
+      opposed ^= sign(x);
+      x = parent(x);
+    }
+    return {x, opposed};
+  }
+
+  void unite(std::uint64_t a, std::uint64_t b, bool opposed) {
+    const Place at_a = find(a), at_b = find(b);
+    if (at_a.root == at_b.root) return;
+    const auto [low, high] = std::minmax(at_a.root, at_b.root);
+    links_[high] = link(low, (at_a.opposed != at_b.opposed) != opposed);
+  }
+
+ private:
+  // Parent + 1 and the sign in the lowest bit; 0: a root.
+  static std::uint64_t link(std::uint64_t parent, bool opposed) { return (parent + 1) << 1 | opposed; }
+  std::uint64_t parent(std::uint64_t x) const { return (links_[x] >> 1) - 1; }
+  bool sign(std::uint64_t x) const { return links_[x] & 1; }
+
+  Scratch& scratch_;
+  std::span<std::uint64_t> links_;
+};
+
+using EdgeSort = ExternalSort<OrientationEdge, std::less<OrientationEdge>>;
+
+void add_crossings(std::vector<OrientationCrossing> crossings, const Column<StoredNormal>& normals,
+                   const TileStore& store, TileIndex t, EdgeSort& edges) {
+  if (crossings.empty()) return;
+  std::sort(crossings.begin(), crossings.end(),
+            [](const auto& a, const auto& b) { return a.foreign < b.foreign; });
+  const Tile& tile = store.tiling().tiles[t];
+  const std::vector<StoredPoint> points = store.points(t);
+  const std::vector<StoredNormal> own = normals.read(value(tile.first_row), tile.points);
+  RunReader<StoredNormal> foreign(normals);
+  for (const OrientationCrossing& c : crossings) {
+    const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
+    if (!other.allFinite()) continue;
+    edges.add(orientation_edge({points[c.owned].id, tile.row(c.owned), vector(own[c.owned])},
+                               {c.foreign_id, c.foreign, other}));
+  }
+}
+
+bool points_down(const StoredNormal& n) {
+  if (n.z != 0) return n.z < 0;
+  return n.y != 0 ? n.y < 0 : n.x < 0;
+}
+
+}  // namespace
+
+OrientationGraph::OrientationGraph(const TileStore& store, const Job& job)
+    : store_(store),
+      forests_(job.file("orientation"), store.tiling().tiles.size(), job.memory.spills / 16),
+      crossings_(job.file("orientation-crossings"), store.tiling().tiles.size(), job.memory.spills / 16),
+      normals_(job.file("oriented-normals")) {}
+
+void OrientationGraph::take(const EvaluatedTile& tile) {
+  std::vector<StoredNormal> normals;
+  for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
+  const std::uint64_t first_row = value(tile.tile.first_row);
+  normals_.write(first_row, normals);
+
+  std::vector<OrientationEdge> edges;
+  std::vector<OrientationCrossing> crossings;
+  const TilePoints& points = tile.points;
+  const auto end = [&](LocalIndex p) {
+    return OrientedEnd{points.ids[p], points.rows[p], tile.evaluations[p].normal};
+  };
+  for (LocalIndex p = 0; p < points.owned; ++p) {
+    if (!tile.evaluations[p].normal.allFinite()) continue;
+    for (const LocalIndex q : tile.neighbourhoods[p]) {
+      if (!(points.ids[p] < points.ids[q])) continue;
+      if (!points.is_owned(q)) {
+        crossings.push_back({p, points.rows[q], points.ids[q]});
+      } else if (tile.evaluations[q].normal.allFinite()) {
+        edges.push_back(orientation_edge(end(p), end(q)));
+      }
+    }
+  }
+  forests_.append(tile.index, spanning_forest(std::move(edges), first_row, points.owned));
+  crossings_.append(tile.index, crossings);
+}
+
+RowSet OrientationGraph::opposed_normals(Job& job) {
+  const Tiling& tiling = store_.tiling();
+  Phase phase(job, "orient", tiling.points());
+  EdgeSort edges(job.file("orientation-edges"), job.memory.global / 3);
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    forests_.for_each(t, [&](const OrientationEdge& edge) { edges.add(edge); });
+    forests_.drop(t);
+    add_crossings(crossings_.read(t), normals_, store_, t, edges);
+    crossings_.drop(t);
+  }
+
+  Scratch scratch(job.workspace, job.memory.global / 2);
+  const std::uint64_t rows = tiling.row_count();
+  SignedUnionFind trees(rows, scratch);
+  edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });
+
+  // Of each tree: its topmost point, and whether the root's normal has to be turned for that one to point up.
+  struct Top {
+    double z;
+    std::uint64_t id;
+    std::uint32_t is_set, turn_root;
+  };
+  const std::span<Top> tops = scratch.array<Top>(rows);
+  const auto for_each_normal = [&](auto&& visit) {
+    for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+      const std::uint64_t first = value(tiling.tiles[t].first_row);
+      const std::vector<StoredPoint> points = store_.points(t);
+      const std::vector<StoredNormal> normals = normals_.read(first, points.size());
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        if (vector(normals[p]).allFinite()) visit(first + p, points[p], normals[p]);
+      }
+    }
+  };
+  for_each_normal([&](std::uint64_t row, const StoredPoint& point, const StoredNormal& normal) {
+    const auto [root, opposed] = trees.find(row);
+    Top& top = tops[root];
+    const bool higher = point.z != top.z ? point.z > top.z : value(point.id) < top.id;
+    if (!top.is_set || higher) top = {point.z, value(point.id), 1, opposed != points_down(normal)};
+    phase.advance(1);
+  });
+  RowSet turned(rows);
+  for_each_normal([&](std::uint64_t row, const StoredPoint&, const StoredNormal&) {
+    const auto [root, opposed] = trees.find(row);
+    if (opposed != (tops[root].turn_root != 0)) turned.insert(Row{row});
+  });
+  return turned;
+}
+
+}  // namespace lacuna

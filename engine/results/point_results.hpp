@@ -1,0 +1,46 @@
+// Results of every point of the input, for points.ply.
+#pragma once
+
+#include "engine/core/spill.hpp"
+#include "engine/core/tile_store.hpp"
+#include "engine/criteria/criterion.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/passes/job.hpp"
+
+#include <cstdint>
+
+namespace lacuna {
+
+// Of one point of the input.
+struct StoredResult {
+  PointId id;
+  Row row;  // of the distinct point
+  float probability;
+  float criteria[kCriteria];
+  float normal[3];
+};
+
+// Ids per block of results.
+inline constexpr std::uint64_t kResultBlock = 1 << 17;
+
+// By block of ids. Duplicates have the results of the point that stands for them.
+class PointResults final : public TileConsumer {
+ public:
+  // `ids`: points of the input.
+  PointResults(std::uint64_t ids, const TileStore& store, const Job& job);
+
+  void take(const EvaluatedTile& tile) override;
+
+  std::size_t blocks() const { return lists_.lists(); }
+  // visit(result), in any order.
+  template <class Visit>
+  void for_each(std::size_t block, Visit&& visit) const {
+    lists_.for_each(block, visit);
+  }
+
+ private:
+  const TileStore& store_;
+  Spill<StoredResult> lists_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,73 @@
+// Components of the boundary graph across tiles: union-find within each tile, then one global union-find over the
+// ends of the edges that cross.
+#pragma once
+
+#include "engine/core/scratch.hpp"
+#include "engine/core/spill.hpp"
+#include "engine/data/tiling.hpp"
+#include "engine/passes/job.hpp"
+#include "engine/stitch/union_find.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// An edge of the boundary graph that leaves its tile. Both tiles have it.
+struct CrossingEdge {
+  LocalIndex vertex;  // its own end, among the vertices of the tile's part
+  Row own, foreign;
+};
+
+// An open part: a component of a tile's part of the graph that crossing edges leave. It goes by one of its own
+// ends of these, a row that no other open part has.
+struct OpenPart {
+  Row name;
+  std::uint64_t records;  // of the tile in this part
+};
+
+// The open parts of one tile, numbered.
+struct TileOpenParts {
+  std::vector<OpenPart> parts;
+  std::vector<LocalIndex> part_of_root;  // by root of the tile's union-find; kNoIndex: closed
+};
+
+class Components {
+ public:
+  Components(std::size_t tiles, const Job& job);
+
+  // The open parts of a tile; their `records` are for the caller to count. `connected`: of all `vertices` of the
+  // tile's part of the graph. Counts the closed components. From any thread, once for each tile.
+  TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
+                           std::span<const CrossingEdge> crossings);
+  void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
+
+  // All tiles are added: joins open parts to components, and groups these to batches of at most `most_records`
+  // each; a component of more has a batch of its own.
+  struct Batches {
+    std::vector<std::uint64_t> records;             // of each batch
+    std::span<const std::uint32_t> batch_of;        // by component
+    std::span<const LocalIndex> component_of;       // by open part, those of tile t from first_part[t] on
+    std::vector<std::uint64_t> first_part;
+  };
+  Batches join(std::uint64_t most_records, Scratch& scratch);
+
+  // Components with an edge. Final after `join`.
+  std::uint64_t count() const { return count_; }
+
+ private:
+  struct Join {
+    Row a, b;
+  };
+  std::span<Row> sorted_ends(Scratch& scratch) const;
+
+  std::size_t tiles_;
+  Spill<OpenPart> parts_;
+  Spill<Row> ends_;    // own ends of crossing edges, ascending, each once
+  Spill<Join> joins_;  // of ends in one component
+  std::atomic<std::uint64_t> count_ = 0;
+};
+
+}  // namespace lacuna

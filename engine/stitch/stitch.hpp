@@ -1,0 +1,127 @@
+// stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
+//
+// A tile adds its part of the graph as records: boundary edges, in whatever form the method needs to find loops. What
+// lies in components that leave no tile is handed back at once. The records of the others are grouped by component, in
+// batches that fit in memory; a component larger than that is handed out from disk.
+#pragma once
+
+#include "engine/stitch/components.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+
+// A tile's part of the boundary graph.
+template <class Record>
+struct GraphPart {
+  LocalIndex vertices = 0;
+  std::span<LocalIndex> links;           // of a UnionFind over the vertices: what the edges of the part connect
+  std::vector<CrossingEdge> crossings;
+  std::vector<Record> records;           // of any components of the part
+  std::vector<LocalIndex> vertex_of;     // of each record, a vertex of its component
+};
+
+// `Record`: plain data.
+template <class Record>
+class Stitch {
+ public:
+  // `record_bytes`: memory for each record of a component while its loops are searched.
+  Stitch(std::size_t tiles, std::uint64_t record_bytes, Job& job)
+      : tiles_(tiles),
+        record_bytes_(record_bytes),
+        job_(job),
+        components_(tiles, job),
+        open_(job.file("open-records"), tiles, job.memory.spills / 8) {}
+
+  // From any thread, once for each tile. Returns the records of components that lie within the tile.
+  std::vector<Record> add(TileIndex tile, GraphPart<Record> part) {
+    UnionFind connected(part.links);
+    TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings);
+    std::vector<Record> closed;
+    std::vector<Member> members;
+    for (std::size_t i = 0; i < part.records.size(); ++i) {
+      const LocalIndex of_part = open.part_of_root[connected.find(part.vertex_of[i])];
+      if (of_part == kNoIndex) {
+        closed.push_back(part.records[i]);
+      } else {
+        members.push_back({of_part, part.records[i]});
+        ++open.parts[of_part].records;
+      }
+    }
+    components_.add(tile, open);
+    open_.append(tile, members);
+    return closed;
+  }
+
+  // visit(record) for each record of a component, as often as wanted.
+  using ForEachRecord = std::function<void(const std::function<void(const Record&)>&)>;
+
+  // All tiles are added. in_memory(records): of one component, in any order; several components at a time.
+  // on_disk(for_each, count): of one component whose records do not fit in memory; one at a time.
+  void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
+                          const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
+    Scratch scratch(job_.workspace, job_.memory.global / 3);
+    const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
+    const Components::Batches batches =
+        components_.join(std::max<std::uint64_t>(fits / job_.crew.threads(), 1), scratch);
+    Spill<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
+    job_.crew.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
+
+    std::vector<std::uint64_t> needs;
+    for (const std::uint64_t records : batches.records) needs.push_back(records > fits ? 0 : records * record_bytes_);
+    job_.crew.for_each_within(needs, job_.memory.global / 2, [&](std::size_t b) {
+      if (batches.records[b] <= fits) visit_batch(lists.read(b), in_memory);
+    });
+    for (std::size_t b = 0; b < batches.records.size(); ++b) {
+      if (batches.records[b] <= fits) continue;
+      on_disk([&](const auto& visit) { lists.for_each(b, [&](const Member& m) { visit(m.record); }); },
+              batches.records[b]);
+    }
+  }
+
+  std::uint64_t components() const { return components_.count(); }
+
+ private:
+  struct Member {
+    std::uint64_t component;  // at first: the open part of its tile
+    Record record;
+  };
+
+  void distribute(std::size_t tile, const Components::Batches& batches, Spill<Member>& lists) {
+    std::vector<Member> members = open_.read(tile);
+    open_.drop(tile);
+    for (Member& m : members) m.component = batches.component_of[batches.first_part[tile] + m.component];
+    const auto batch = [&](const Member& m) { return batches.batch_of[m.component]; };
+    std::sort(members.begin(), members.end(), [&](const Member& x, const Member& y) { return batch(x) < batch(y); });
+    for (std::size_t begin = 0, end; begin < members.size(); begin = end) {
+      for (end = begin; end < members.size() && batch(members[end]) == batch(members[begin]);) ++end;
+      lists.append(batch(members[begin]), std::span(members).subspan(begin, end - begin));
+    }
+  }
+
+  static void visit_batch(std::vector<Member> members,
+                          const std::function<void(std::span<const Record>)>& visit) {
+    std::sort(members.begin(), members.end(),
+              [](const Member& x, const Member& y) { return x.component < y.component; });
+    std::vector<Record> records;
+    for (std::size_t begin = 0, end; begin < members.size(); begin = end) {
+      records.clear();
+      for (end = begin; end < members.size() && members[end].component == members[begin].component; ++end)
+        records.push_back(members[end].record);
+      visit(records);
+    }
+  }
+
+  std::size_t tiles_;
+  std::uint64_t record_bytes_;
+  Job& job_;
+  Components components_;
+  Spill<Member> open_;
+};
+
+}  // namespace lacuna

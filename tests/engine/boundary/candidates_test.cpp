@@ -1,0 +1,114 @@
+#include "engine/boundary/candidates.hpp"
+
+#include "tests/support/tiled_scan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+std::vector<Row> all_rows(const TiledScan& scan) {
+  std::vector<Row> rows;
+  for (const auto& [id, row] : scan.rows()) rows.push_back(row);
+  return rows;
+}
+
+void shuffle(std::vector<Row>& rows, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = rows.size(); i > 1; --i)
+    std::swap(rows[i - 1], rows[std::size_t(random.whole(0, std::int64_t(i) - 1))]);
+}
+
+// The candidates that are left, by taking off one at a time.
+std::vector<Row> coherent_plainly(const std::vector<Candidate>& candidates, const std::vector<Row>& rows) {
+  std::map<Row, bool> on;
+  for (const Candidate& c : candidates) on[c.row] = true;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Candidate& c : candidates) {
+      if (!on[c.row] || (on[c.gap_near] && on[c.gap_far])) continue;
+      on[c.row] = false;
+      changed = true;
+    }
+  }
+  std::vector<Row> left;
+  for (const Row row : rows) {
+    if (on[row]) left.push_back(row);
+  }
+  return left;
+}
+
+// As the evaluation leaves the candidates: by tile, in ascending row.
+std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.row < b.row; });
+  Candidates lists(scan.store, scan.job);
+  for (const Candidate& c : candidates) {
+    const StoredCandidate stored{.candidate = c};
+    lists.add(scan.tile_of(c.row), {&stored, 1});
+  }
+  const RowSet boundary = lists.coherent(scan.job);
+  std::vector<Row> left;
+  for (const Row row : all_rows(scan)) {
+    if (boundary.contains(row)) left.push_back(row);
+  }
+  return left;
+}
+
+// Each leans on the next two, which are in other tiles as a rule.
+std::vector<Candidate> chain(const std::vector<Row>& rows) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    candidates.push_back({rows[i], rows[(i + 1) % rows.size()], rows[(i + 2) % rows.size()]});
+  return candidates;
+}
+
+TEST_CASE("a ring of candidates through all tiles stays, and unravels when one of them is none") {
+  for (const std::int64_t threads : {1, 8}) {
+    TiledScan scan(plane(30).jittered(0.2, 1), tiled({}, 20, threads));
+    REQUIRE(scan.store.tiling().tiles.size() > 20);
+    std::vector<Row> rows = all_rows(scan);
+    const std::size_t all = rows.size();
+    shuffle(rows, 1);
+    std::vector<Candidate> ring = chain(rows);
+    CHECK(coherent(ring, scan).size() == all);
+    ring.erase(ring.begin() + 100);
+    CHECK(coherent(ring, scan).empty());
+  }
+}
+
+TEST_CASE("candidates of many tiles that lean on each other at random settle as in one piece") {
+  std::size_t taken = 0, left = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    TiledScan scan(plane(20).jittered(0.2, seed), tiled({}, std::int64_t(5 * seed), seed % 2 == 0 ? 8 : 2));
+    const std::vector<Row> rows = all_rows(scan);
+    Random random(seed);
+    const auto near = [&](std::size_t i) {  // mostly: in this tile and the next ones
+      const std::int64_t at = std::int64_t(i) + random.whole(-40, 40);
+      return rows[std::size_t(std::clamp<std::int64_t>(at, 0, std::int64_t(rows.size()) - 1))];
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!random.chance(0.02))
+        candidates.push_back({rows[i], near(i), random.chance(0.7) ? rows[i] : near(i)});
+    }
+    const std::vector<Row> expected = coherent_plainly(candidates, rows);
+    INFO("seed " << seed);
+    CHECK(coherent(candidates, scan) == expected);
+    taken += candidates.size() - expected.size();
+    left += expected.size();
+  }
+  CHECK(taken > 1000);
+  CHECK(left > 1000);
+}
+
+TEST_CASE("without candidates nothing is coherent") {
+  TiledScan scan(plane(10), tiled({}, 20));
+  CHECK(coherent({}, scan).empty());
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,153 @@
+#include "engine/boundary/paper/paper_boundary.hpp"
+
+#include "tests/support/reference.hpp"
+#include "tests/support/tiled_scan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using Loops = std::vector<std::vector<PointId>>;
+
+struct Traced {
+  Loops loops;
+  std::uint64_t eligible_edges, components;
+  std::size_t wrong_rows = 0;
+
+  friend bool operator==(const Traced&, const Traced&) = default;
+};
+
+// `global_memory`: bytes for the global stage; 0: as many as the job gives it.
+Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memory) {
+  TiledScan scan(cloud, config);
+  PaperBoundary boundary(scan.store, scan.job);
+  const Totals totals = scan.evaluate({&boundary});
+  if (global_memory > 0) scan.job.memory.global = global_memory;
+  const FoundLoops traced = boundary.find_loops(totals, scan.job);
+  const std::map<PointId, Row> rows = scan.rows();
+  Traced result{.eligible_edges = traced.edges, .components = traced.components};
+  for (std::size_t i = 0; i < traced.loops.size(); ++i) {
+    result.loops.emplace_back();
+    for (const Vertex& v : traced.loops.read(i)) {
+      result.loops.back().push_back(v.id);
+      result.wrong_rows += rows.at(v.id) != v.row;
+    }
+    CHECK(traced.loops.points(i) == result.loops.back().size());
+  }
+  return result;
+}
+
+// By first id, length, ids.
+Loops in_order(Loops loops) {
+  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+    if (a[0] != b[0]) return a[0] < b[0];
+    return a.size() != b.size() ? a.size() < b.size() : a < b;
+  });
+  return loops;
+}
+
+// Edges of each component of the graph of eligible edges, most first.
+std::vector<std::size_t> component_sizes(const reference::Detection& plain) {
+  std::vector<std::size_t> tree(plain.points.size()), edges(plain.points.size());
+  std::iota(tree.begin(), tree.end(), std::size_t{0});
+  const auto root = [&](PointId id) {
+    std::size_t i = value(id);
+    while (tree[i] != i) i = tree[i] = tree[tree[i]];
+    return i;
+  };
+  for (const reference::Edge& edge : plain.eligible) tree[root(edge.low)] = root(edge.high);
+  for (const reference::Edge& edge : plain.eligible) ++edges[root(edge.low)];
+  std::erase(edges, 0u);
+  std::sort(edges.rbegin(), edges.rend());
+  return edges;
+}
+
+// A plane whose every edge is eligible, some islands with a rim each, and specks without loops.
+Cloud plane_and_islands() {
+  Cloud cloud = plane(50).punched({15, 15}, 5).punched({34, 30}, 7).jittered(0.3, 1);
+  for (int i = 0; i < 12; ++i)
+    cloud = cloud.joined(plane(6 + i).jittered(0.2, std::uint64_t(i)).translated({70. + 30 * i, 0, 0}));
+  for (int i = 0; i < 20; ++i) cloud = cloud.joined(sphere(20).scaled(2).translated({20. * i, -50, 0}));
+  return cloud.shuffled(1);
+}
+
+Config everything_eligible() {
+  Config config = with_paper_loops({});
+  config.spanning.max_prob_weight = 2.1;
+  config.spanning.max_total_weight = 4;
+  config.spanning.e = 12;
+  return config;
+}
+
+TEST_CASE("a component larger than the memory of the global stage has the loops that it has in memory") {
+  const Cloud cloud = plane_and_islands();
+  const Config config = everything_eligible();
+  const reference::Detection plain = reference::detect(cloud.positions, {}, config);
+  const std::vector<std::size_t> components = component_sizes(plain);
+  const Traced expected{in_order(plain.loops), plain.eligible.size(), components.size()};
+  REQUIRE(components.size() > 20);
+  REQUIRE(components[0] > 10'000);  // 32 bytes each and more; below, from all of them down to none fit
+  REQUIRE(components[5] < 2'000);
+  CHECK(expected.loops.size() > 10);
+  for (const std::uint64_t memory : {0, 1 << 20, 1 << 18, 1 << 14, 1}) {
+    for (const std::int64_t tile_points : {40, 500}) {
+      INFO(memory << " bytes, " << tile_points << " points a tile");
+      const bool same = trace(cloud, tiled(config, tile_points), memory) == expected;
+      CHECK(same);
+    }
+  }
+}
+
+TEST_CASE("random clouds have the loops of the plain method in as little memory as there is") {
+  std::size_t loops = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Cloud cloud = random_cloud(10'000 + seed);
+    Config config = with_paper_loops(random_config(seed, typical_spacing(cloud)));
+    config.neighbourhood.eps_fraction = 0;
+    config.normals.orient = false;
+    INFO("seed " << seed);
+    const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
+    const Traced traced = trace(cloud, tiled(config, std::int64_t(1 + 7 * (seed % 10)), 8), 1);
+    CHECK(traced.loops == in_order(plain.loops));
+    CHECK(traced.eligible_edges == plain.eligible.size());
+    CHECK(traced.components == component_sizes(plain).size());
+    CHECK(traced.wrong_rows == 0);
+    loops += traced.loops.size();
+  }
+  CHECK(loops > 20);
+}
+
+TEST_CASE("raw loops are sorted by first id, then length, then ids") {
+  const test::ScratchFolder folder;
+  RawLoops loops(folder / "loops");
+  const Loops unsorted = {{PointId{5}, PointId{6}, PointId{9}},
+                          {PointId{2}, PointId{7}, PointId{8}, PointId{9}},
+                          {PointId{2}, PointId{6}, PointId{9}},
+                          {PointId{5}, PointId{6}, PointId{8}},
+                          {PointId{2}, PointId{4}, PointId{5}}};
+  for (const std::vector<PointId>& ids : unsorted) {
+    std::vector<Vertex> loop;
+    for (const PointId id : ids) loop.push_back({id, Row{100 + value(id)}});
+    loops.add(loop, kNoConfidence);
+  }
+  CHECK(loops.size() == 5);
+  CHECK(loops.points() == 16);
+  loops.sort();
+  Loops sorted;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    sorted.emplace_back();
+    for (const Vertex& v : loops.read(i)) {
+      sorted.back().push_back(v.id);
+      CHECK(value(v.row) == 100 + value(v.id));
+    }
+  }
+  CHECK(sorted == in_order(unsorted));
+  CHECK(loops.points(2) == 4);
+}
+
+}  // namespace
+}  // namespace lacuna

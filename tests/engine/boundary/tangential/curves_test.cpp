@@ -1,0 +1,139 @@
+#include "engine/boundary/tangential/curves.hpp"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+// Ids are not rows: what is told apart by rows must not be by ids.
+Vertex vertex(std::uint64_t row) {
+  return {PointId{1000 - row}, Row{row}};
+}
+
+// The gaps of a closed rim, every second one written against its direction.
+std::vector<Gap> ring(const std::vector<std::uint64_t>& rows) {
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
+    if (i % 2 == 1) std::swap(from, to);
+    gaps.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
+  }
+  return gaps;
+}
+
+std::vector<std::vector<RimPoint>> follow(const std::vector<Gap>& wedges) {
+  std::vector<std::vector<RimPoint>> curves;
+  follow_curves(wedges, [&](std::vector<RimPoint>& curve) { curves.push_back(curve); });
+  return curves;
+}
+
+std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {},
+                             float unevenness = 1) {
+  std::vector<RimPoint> rim;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i], unevenness});
+  return rim;
+}
+
+std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
+  std::vector<std::uint64_t> ids;
+  for (const RimPoint& p : rim) ids.push_back(value(p.vertex.id));
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("wedges chain to one closed curve, through a point that it passes twice too") {
+  const std::vector<std::vector<RimPoint>> one = follow(ring({3, 9, 4, 8, 1, 7}));
+  REQUIRE(one.size() == 1);
+  std::vector<std::uint64_t> found;
+  for (const RimPoint& p : one[0]) {
+    found.push_back(value(p.vertex.row));
+    CHECK(p.room == static_cast<float>(value(p.vertex.row)));
+  }
+  std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
+  if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
+  CHECK(found == std::vector<std::uint64_t>{3, 9, 4, 8, 1, 7});
+
+  REQUIRE(follow(ring({3, 9, 4, 8, 9, 7})).size() == 1);
+  CHECK(follow(ring({3, 9, 4, 8, 9, 7}))[0].size() == 6);
+}
+
+TEST_CASE("curves that touch in a point stay apart") {
+  std::vector<Gap> wedges = ring({3, 9, 4, 8, 1, 7});
+  const std::vector<Gap> other = ring({9, 10, 11});
+  wedges.insert(wedges.end(), other.begin(), other.end());
+  const std::vector<std::vector<RimPoint>> curves = follow(wedges);
+  REQUIRE(curves.size() == 2);
+  CHECK(std::minmax({curves[0].size(), curves[1].size()}) == std::pair<std::size_t, std::size_t>(3, 6));
+}
+
+TEST_CASE("the order of the wedges does not change the curves") {
+  std::vector<Gap> wedges = ring({3, 9, 4, 8, 9, 7, 20, 21, 4, 22});
+  const auto expected = follow(wedges);
+  std::reverse(wedges.begin(), wedges.end());
+  std::rotate(wedges.begin(), wedges.begin() + 3, wedges.end());
+  const auto found = follow(wedges);
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) CHECK(ids(found[i]) == ids(expected[i]));
+}
+
+TEST_CASE("no wedges: no curve") {
+  CHECK(follow({}).empty());
+}
+
+TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour") {
+  for (const std::vector<std::uint64_t>& way :
+       {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
+    std::vector<RimPoint> rim = rim_of(way);
+    normalise(rim);
+    CHECK(ids(rim) == std::vector<std::uint64_t>{2, 5, 7, 9});
+  }
+  std::vector<RimPoint> twice = rim_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
+  normalise(twice);
+  CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
+}
+
+TEST_CASE("a rim is parted where it passes a point again, into curves that pass each point once") {
+  const auto parted = [](const std::vector<std::uint64_t>& rim) {
+    std::vector<std::vector<std::uint64_t>> curves;
+    for (const auto& curve : split_at_pinches(rim_of(rim))) curves.push_back(ids(curve));
+    return curves;
+  };
+  using Curves = std::vector<std::vector<std::uint64_t>>;
+  CHECK(parted({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
+  CHECK(parted({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
+  CHECK(parted({1, 5, 4, 1, 2, 3}) == Curves{{1, 4, 5}, {1, 2, 3}});
+  CHECK(parted({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
+  CHECK(parted({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
+  const auto rooms = split_at_pinches(rim_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
+  REQUIRE(rooms.size() == 2);
+  CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
+}
+
+TEST_CASE("confidence is the share of points with room, of six more than there are where they lie unevenly") {
+  const std::vector<std::uint64_t> twenty(20, 1);
+  const double points = 20 + 6;
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3))) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f))) == 0);
+  std::vector<float> half(20, 1.4f);
+  std::fill(half.begin(), half.begin() + 10, 2.5f);
+  CHECK(confidence(rim_of(twenty, half)) == 10 / points);
+  std::fill(half.begin(), half.begin() + 5, 1.5f);  // 10 of 1.5, 5 of 2.5
+  CHECK(confidence(rim_of(twenty, half)) == 1.25 * (5 / points));
+}
+
+TEST_CASE("the more evenly points lie around a rim, the less doubt there is") {
+  const std::vector<std::uint64_t> eight(8, 1);
+  const std::vector<float> wide(8, 3);
+  CHECK(confidence(rim_of(eight, wide, 0.5)) == 8.0 / 14);
+  CHECK(confidence(rim_of(eight, wide, 1.0f / 8)) == 8 / (8 + 42.0 / 8));
+  CHECK(confidence(rim_of(eight, wide, 0)) == 1);
+  std::vector<RimPoint> both = rim_of(eight, wide, 0);
+  for (std::size_t i = 0; i < 4; ++i) both[i].unevenness = 0.125f;
+  CHECK(confidence(both) == 8 / (8 + 42.0 / 16));
+}
+
+}  // namespace lacuna

@@ -1,0 +1,95 @@
+#include "engine/loops/measure_loops.hpp"
+
+#include "engine/loops/measure_loop.hpp"
+#include "tests/support/reference.hpp"
+#include "tests/support/tiled_scan.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+Cloud four_loops() {
+  return plane(40)
+      .punched({12, 20}, 5)
+      .punched({28, 20}, 4)
+      .jittered(0.2, 3)
+      .joined(plane(12).jittered(0.2, 4).translated({60, 0, 5}))
+      .shuffled(2);
+}
+
+bool same(const LoopMeasures& a, const LoopMeasures& b) {
+  return a.kind == b.kind && a.points == b.points && a.perimeter == b.perimeter && a.area == b.area &&
+         a.diameter == b.diameter && a.centroid == b.centroid && a.normal == b.normal &&
+         a.planarity == b.planarity && a.mean_probability == b.mean_probability && a.tiles == b.tiles;
+}
+
+TEST_CASE(
+    "points of a loop have their places and what the evaluation said, however few loops fit in memory") {
+  const Cloud cloud = four_loops();
+  const reference::Detection plain = reference::detect(cloud.positions, {}, with_paper_loops({}));
+  REQUIRE(plain.loops.size() == 4);
+  for (const std::uint64_t memory : {1 << 30, 20'000, 1}) {
+    INFO(memory << " bytes");
+    TiledScan scan(cloud, tiled(with_paper_loops({}), 50));
+    PaperBoundary boundary(scan.store, scan.job);
+    const Totals totals = scan.evaluate({&boundary});
+    const FoundLoops traced = boundary.find_loops(totals, scan.job);
+    REQUIRE(traced.loops.size() == 4);
+    scan.job.memory.global = memory;
+    const MeasuredLoops measured = measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(),
+                                                 totals.mean_edge_length(), scan.job);
+    REQUIRE(measured.measures.size() == 4);
+    REQUIRE(measured.offsets.size() == 5);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Loop loop = measured.read(i);
+      const std::vector<Vertex> vertices = traced.loops.read(i);
+      REQUIRE(loop.size() == vertices.size());
+      std::size_t wrong = 0;
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        const LoopPoint& p = loop[j];
+        const reference::Point& q = plain.points[value(vertices[j].id)];
+        wrong += p.id != vertices[j].id || p.row != vertices[j].row;
+        wrong += p.position != cloud.positions[value(p.id)];
+        wrong += std::abs(p.probability - q.probability) > 1e-6;
+        wrong += (p.surface.cast<double>() - q.surface).norm() > 1e-5;
+      }
+      CHECK(wrong == 0);
+      CHECK(same(measured.measures[i], measure_loop(loop, 64)));  // 64 mean edges of about 1
+    }
+  }
+}
+
+TEST_CASE("no loops: nothing is measured") {
+  TiledScan scan(sphere(400), tiled({}, 50));
+  PaperBoundary boundary(scan.store, scan.job);
+  const Totals totals = scan.evaluate({&boundary});
+  const FoundLoops traced = boundary.find_loops(totals, scan.job);
+  REQUIRE(traced.loops.size() == 0);
+  const MeasuredLoops measured =
+      measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(), totals.mean_edge_length(), scan.job);
+  CHECK(measured.measures.empty());
+  CHECK(measured.offsets == std::vector<std::uint64_t>{0});
+}
+
+TEST_CASE("loops are selected by points, perimeter and kind, limits included") {
+  const std::vector<LoopMeasures> loops = {{.kind = LoopKind::kRim, .points = 100, .perimeter = 50},
+                                           {.kind = LoopKind::kHole, .points = 9, .perimeter = 5},
+                                           {.kind = LoopKind::kHole, .points = 10, .perimeter = 4},
+                                           {.kind = LoopKind::kHole, .points = 30, .perimeter = 20}};
+  using Indices = std::vector<std::size_t>;
+  CHECK(select_loops(loops, {}) == Indices{0, 1, 2, 3});
+  CHECK(select_loops(loops, {.min_perimeter = 5}) == Indices{0, 1, 3});
+  CHECK(select_loops(loops, {.max_perimeter = 20}) == Indices{1, 2, 3});
+  CHECK(select_loops(loops, {.min_points = 10}) == Indices{0, 2, 3});
+  CHECK(select_loops(loops, {.holes_only = true}) == Indices{1, 2, 3});
+  CHECK(
+      select_loops(loops, {.min_perimeter = 5, .max_perimeter = 20, .min_points = 10, .holes_only = true}) ==
+      Indices{3});
+  CHECK(select_loops({}, {}).empty());
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,131 @@
+#include "engine/results/collect.hpp"
+
+#include "tests/support/detected.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using Place = std::array<double, 3>;
+
+Place place_of(const Eigen::Vector3d& p) {
+  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
+}
+
+// The first reported loop through each place.
+std::map<Place, std::int32_t> first_loops(const Detected& detected) {
+  std::map<Place, std::int32_t> loops;
+  for (std::size_t i = 0; i < detected.loops.size(); ++i) {
+    for (const LoopPoint& p : detected.loops[i].points)
+      loops.try_emplace(place_of(p.position), static_cast<std::int32_t>(i));
+  }
+  return loops;
+}
+
+// Places on more than one reported loop.
+std::size_t shared_places(const Detected& detected) {
+  std::size_t points = 0;
+  for (const ReportedLoop& loop : detected.loops) points += loop.points.size();
+  return points - first_loops(detected).size();
+}
+
+void check_published(const Detected& detected, const Cloud& cloud) {
+  const std::map<Place, std::int32_t> loops = first_loops(detected);
+  REQUIRE(detected.points.size() == cloud.size());
+  std::size_t wrong_loops = 0, wrong_boundary = 0, next = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const PointResult& p = detected.points[i];
+    const bool usable = cloud.positions[i].allFinite();
+    const auto loop = usable ? loops.find(place_of(cloud.positions[i])) : loops.end();
+    wrong_loops += p.loop != (loop == loops.end() ? -1 : loop->second);
+    wrong_boundary += (p.coherent != 0 || p.loop >= 0) && p.boundary == 0;
+    if (p.boundary == 0) continue;
+    if (next == detected.boundary.size()) {
+      FAIL_CHECK("point " << i << " is missing among the boundary points");
+      return;
+    }
+    const BoundaryPoint& b = detected.boundary[next++];
+    wrong_boundary += b.id != PointId{i} || b.position != cloud.positions[i] || b.loop != p.loop ||
+                      b.probability != p.probability;
+  }
+  CHECK(wrong_loops == 0);
+  CHECK(wrong_boundary == 0);
+  CHECK(next == detected.boundary.size());
+  CHECK(detected.summary.counts.boundary_points == next);
+}
+
+TEST_CASE("a point names the first reported loop through it, and boundary points come in input order") {
+  std::size_t shared = 0, unreported = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Cloud cloud = random_cloud(11'000 + seed).with_duplicates(50, seed);
+    Config config = tiled(random_config(seed, typical_spacing(cloud)), 100);
+    config.neighbourhood.eps_fraction = 0;
+    INFO("seed " << seed);
+    const Detected all = run_engine(cloud, config);
+    check_published(all, cloud);
+    shared += shared_places(all);
+
+    // A loop that is not reported leaves its points on the boundary.
+    config.selection.min_points = 20;
+    const Detected some = run_engine(cloud, config);
+    check_published(some, cloud);
+    CHECK(some.summary.counts.raw_loops == all.summary.counts.raw_loops);
+    CHECK(some.boundary.size() == all.boundary.size());
+    unreported += all.loops.size() - some.loops.size();
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      different += some.points[i].boundary != all.points[i].boundary ||
+                   some.points[i].coherent != all.points[i].coherent;
+    }
+    CHECK(different == 0);
+  }
+  CHECK(shared > 100);
+  CHECK(unreported > 10);
+}
+
+TEST_CASE("results come in blocks of consecutive points, each point once, the boundary across all blocks") {
+  const Cloud half = plane(280).punched({100, 100}, 10).jittered(0.2, 1);
+  const Cloud cloud = half.joined(half.with_unusable(1000, 1));  // most have a duplicate in another block
+  REQUIRE(cloud.size() > kResultBlock);
+  Config config;
+  config.output.points = true;
+  MemoryScan scan(cloud, 5000);
+  const test::ScratchFolder workspace;
+  NoProgress quiet;
+  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
+  Detected detected{.summary = detection->summary()};
+  std::size_t blocks = 0;
+  detection->for_each_result_block([&](PointId first, std::span<const PointResult> block) {
+    CHECK(value(first) == detected.points.size());
+    CHECK(block.size() <= kResultBlock);
+    ++blocks;
+    detected.points.insert(detected.points.end(), block.begin(), block.end());
+  });
+  detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
+  for (std::size_t i = 0; i < detection->loops().size(); ++i)
+    detected.loops.push_back(detection->read_loop(i));
+  CHECK(blocks == 2);
+  CHECK(detected.loops.size() == 2);
+  check_published(detected, cloud);
+
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    const PointResult &p = detected.points[i], &q = detected.points[half.size() + i];
+    if (cloud.positions[half.size() + i].allFinite()) {
+      different += p.probability != q.probability || p.boundary != q.boundary || p.loop != q.loop;
+    } else {
+      different += !std::isnan(q.probability) || q.boundary != 0 || q.loop != -1;
+    }
+  }
+  CHECK(different == 0);
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,167 @@
+#include "engine/stitch/stitch.hpp"
+
+#include "tests/support/clouds.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+// An edge between two rows; each tile has a hundred.
+struct Edge {
+  Row a, b;
+
+  friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+constexpr std::uint64_t kTilePoints = 100;
+
+std::uint64_t tile_of(Row row) {
+  return value(row) / kTilePoints;
+}
+
+using Component = std::vector<Edge>;  // sorted
+
+struct Stitched {
+  std::set<Component> components;  // with their edges, each in the list of the tile of its lower row
+  std::uint64_t count = 0;
+};
+
+// By tile: the edges with an end there.
+GraphPart<Edge> part_of(std::uint64_t tile, const std::vector<Edge>& edges, std::vector<LocalIndex>& links) {
+  links.assign(kTilePoints, 0);
+  UnionFind connected(links);
+  GraphPart<Edge> part{.vertices = kTilePoints, .links = links};
+  const auto local = [&](Row row) { return static_cast<LocalIndex>(value(row) - tile * kTilePoints); };
+  for (const Edge& edge : edges) {
+    const bool has_a = tile_of(edge.a) == tile, has_b = tile_of(edge.b) == tile;
+    if (has_a && has_b) connected.unite(local(edge.a), local(edge.b));
+    if (has_a != has_b) {
+      const Row own = has_a ? edge.a : edge.b;
+      part.crossings.push_back({local(own), own, has_a ? edge.b : edge.a});
+    }
+    if (!has_a) continue;
+    part.records.push_back(edge);
+    part.vertex_of.push_back(local(edge.a));
+  }
+  return part;
+}
+
+Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64_t memory, std::int64_t threads) {
+  const test::ScratchFolder folder;
+  const Config config = tiled({}, 100, threads);
+  NoProgress quiet;
+  Job job(config, folder.path(), quiet);
+  job.memory.global = memory;
+  Stitch<Edge> stitch(tiles, sizeof(Edge), job);
+  Stitched result;
+  std::mutex mutex;
+  const auto add = [&](Component component) {
+    std::sort(component.begin(), component.end());
+    const std::lock_guard lock(mutex);
+    CHECK(result.components.insert(component).second);
+  };
+  std::vector<Edge> closed;
+  job.crew.for_each(tiles, [&](std::size_t t) {
+    std::vector<LocalIndex> links;
+    const std::vector<Edge> here = stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
+    const std::lock_guard lock(mutex);
+    closed.insert(closed.end(), here.begin(), here.end());
+  });
+  stitch.for_each_component([&](std::span<const Edge> component) { add({component.begin(), component.end()}); },
+                            [&](const auto& for_each, std::uint64_t count) {
+                              Component component;
+                              for_each([&](const Edge& edge) { component.push_back(edge); });
+                              CHECK(component.size() == count);
+                              add(component);
+                            });
+  if (!closed.empty()) add(closed);
+  result.count = stitch.components();
+  return result;
+}
+
+// Edges by the component that a plain union-find over all rows gives them, those of closed components as one.
+Stitched stitch_plainly(const std::vector<Edge>& edges, std::uint64_t tiles) {
+  std::vector<std::uint64_t> root(tiles * kTilePoints);
+  std::iota(root.begin(), root.end(), std::uint64_t{0});
+  const auto find = [&](Row row) {
+    std::uint64_t x = value(row);
+    while (root[x] != x) x = root[x];
+    return x;
+  };
+  for (const Edge& edge : edges) root[find(edge.a)] = find(edge.b);
+  std::map<std::uint64_t, Component> components;
+  std::map<std::uint64_t, std::set<std::uint64_t>> tiles_of;
+  for (const Edge& edge : edges) {
+    components[find(edge.a)].push_back(edge);
+    tiles_of[find(edge.a)].insert({tile_of(edge.a), tile_of(edge.b)});
+  }
+  Stitched result{.count = components.size()};
+  Component closed;
+  for (auto& [name, component] : components) {
+    std::sort(component.begin(), component.end());
+    if (tiles_of[name].size() > 1) {
+      result.components.insert(component);
+    } else {
+      closed.insert(closed.end(), component.begin(), component.end());
+    }
+  }
+  std::sort(closed.begin(), closed.end());
+  if (!closed.empty()) result.components.insert(closed);
+  return result;
+}
+
+std::vector<Edge> random_edges(std::uint64_t seed, std::uint64_t tiles) {
+  Random random(seed);
+  const auto rows = static_cast<std::int64_t>(tiles * kTilePoints);
+  const double density = 0.2 + 0.1 * static_cast<double>(seed % 8);  // below and above percolation
+  std::set<Edge> edges;
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(density * static_cast<double>(rows)); ++i) {
+    const std::int64_t a = random.whole(0, rows - 1);
+    const std::int64_t b = random.chance(0.8) ? std::clamp<std::int64_t>(a + random.whole(-5, 5), 0, rows - 1)
+                                              : random.whole(0, rows - 1);
+    if (a != b) edges.insert({Row(std::min(a, b)), Row(std::max(a, b))});
+  }
+  return {edges.begin(), edges.end()};
+}
+
+TEST_CASE("components of random graphs are those of a plain union-find, in any memory") {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const std::uint64_t tiles = 1 + seed % 7;
+    const std::vector<Edge> edges = random_edges(seed, tiles);
+    const Stitched expected = stitch_plainly(edges, tiles);
+    INFO("seed " << seed << ", " << tiles << " tiles");
+    for (const std::uint64_t memory : {1 << 20, 2'000, 1}) {
+      const Stitched found = stitch(edges, tiles, memory, seed % 2 == 0 ? 8 : 1);
+      CHECK(found.components == expected.components);
+      CHECK(found.count == expected.count);
+    }
+  }
+}
+
+TEST_CASE("a chain through all tiles and back is one component") {
+  std::vector<Edge> edges;
+  for (std::uint64_t t = 0; t + 1 < 20; ++t) {
+    edges.push_back({Row{t * kTilePoints}, Row{(t + 1) * kTilePoints}});
+    edges.push_back({Row{t * kTilePoints + 7}, Row{(t + 1) * kTilePoints + 7}});
+  }
+  edges.push_back({Row{19 * kTilePoints}, Row{19 * kTilePoints + 7}});  // joins the two far from where they begin
+  CHECK(stitch(edges, 20, 1 << 20, 4).components.size() == 1);
+  CHECK(stitch(edges, 20, 1 << 20, 4).count == 1);
+}
+
+TEST_CASE("no edges: no components") {
+  CHECK(stitch({}, 5, 1 << 20, 2).components.empty());
+  CHECK(stitch({}, 5, 1 << 20, 2).count == 0);
+}
+
+}  // namespace
+}  // namespace lacuna
