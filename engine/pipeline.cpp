@@ -90,7 +90,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
 
   // Boundary edges, stitched across tiles to components, and their loops.
   const FoundLoops found = boundary->find_loops(totals, job);
-  RowSet boundary_candidates = boundary->boundary_candidates(candidates, found.loops, job);
+  RowSet coherent = candidates.coherent(job);
+  RowSet boundary_candidates = boundary->boundary_candidates(candidates, coherent, found.loops, job);
   MeasuredLoops loops =
       measure_loops(found.loops, boundary->loop_points(), store.tiling(), totals.mean_edge_length(), job);
 
@@ -98,7 +99,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
-  return collect_results({std::move(summary), std::move(loops), std::move(boundary_candidates), std::move(points),
+  return collect_results({std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates), std::move(points),
                           std::move(opposed_normals)},
                          candidates, store, job);
 }

@@ -27,7 +27,8 @@ class BoundaryMethod : public TileConsumer {
   // All tiles are taken. Consumes the edges: to be called once.
   virtual FoundLoops find_loops(const Totals& totals, Job& job) = 0;
   // The candidates that belong to the boundary, beside the points on loops.
-  virtual RowSet boundary_candidates(const Candidates& candidates, const RawLoops& loops, Job& job) const = 0;
+  virtual RowSet boundary_candidates(const Candidates& candidates, const RowSet& coherent, const RawLoops& loops,
+                                     Job& job) const = 0;
 
   // All points that the loops may pass through.
   const LoopPointLists& loop_points() const { return loop_points_; }

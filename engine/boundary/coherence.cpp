@@ -1,50 +1,64 @@
 #include "engine/boundary/coherence.hpp"
 
-#include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace lacuna {
 namespace {
 
-// The candidates that lean on each candidate: (whom, who), sorted.
-struct Leaning {
-  std::uint32_t on, who;
-};
+// By row from the first candidate's on: the candidates that have it as a gap neighbour.
+class Dependents {
+ public:
+  explicit Dependents(std::span<const Candidate> candidates)
+      : first_(value(candidates.front().row)),
+        begins_(value(candidates.back().row) - first_ + 2),
+        candidates_(2 * candidates.size()) {
+    for_each_gap(candidates, [&](std::size_t row, std::uint32_t) { ++begins_[row + 1]; });
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+    std::vector<std::uint32_t> ends(begins_.begin(), begins_.end() - 1);
+    for_each_gap(candidates, [&](std::size_t row, std::uint32_t i) { candidates_[ends[row]++] = i; });
+  }
 
-std::vector<Leaning> who_leans_on_whom(std::span<const Candidate> candidates) {
-  std::vector<Leaning> leaning;
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    for (const Row gap : {candidates[i].gap_near, candidates[i].gap_far}) {
-      const auto at = std::lower_bound(candidates.begin(), candidates.end(), gap,
-                                       [](const Candidate& c, Row row) { return c.row < row; });
-      if (at != candidates.end() && at->row == gap) {
-        leaning.push_back({static_cast<std::uint32_t>(at - candidates.begin()), i});
+  std::span<const std::uint32_t> operator[](Row row) const {
+    const std::size_t at = value(row) - first_;
+    return std::span(candidates_).subspan(begins_[at], begins_[at + 1] - begins_[at]);
+  }
+
+ private:
+  // visit(row, candidate): gap neighbours that lie among the candidates' rows.
+  template <class Visit>
+  void for_each_gap(std::span<const Candidate> candidates, Visit&& visit) const {
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+      for (const Row gap : {candidates[i].gap_near, candidates[i].gap_far}) {
+        const std::uint64_t row = value(gap) - first_;  // large where it lies before the first
+        if (row < begins_.size() - 1) visit(row, i);
       }
     }
   }
-  std::sort(leaning.begin(), leaning.end(), [](const Leaning& a, const Leaning& b) { return a.on < b.on; });
-  return leaning;
-}
+
+  std::uint64_t first_;
+  std::vector<std::uint32_t> begins_;
+  std::vector<std::uint32_t> candidates_;
+};
 
 }  // namespace
 
 bool remove_incoherent(std::span<const Candidate> candidates, RowSet& boundary) {
-  std::vector<std::uint32_t> fallen;
-  const auto look_at = [&](std::uint32_t i) {
+  std::vector<std::uint32_t> removed;
+  const auto check = [&](std::uint32_t i) {
     const Candidate& c = candidates[i];
     if (!boundary.contains(c.row)) return;
     if (boundary.contains(c.gap_near) && boundary.contains(c.gap_far)) return;
     boundary.erase(c.row);
-    fallen.push_back(i);
+    removed.push_back(i);
   };
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) look_at(i);
-  if (fallen.empty()) return false;
-  const std::vector<Leaning> leaning = who_leans_on_whom(candidates);
-  while (!fallen.empty()) {
-    const std::uint32_t gone = fallen.back();
-    fallen.pop_back();
-    auto at = std::lower_bound(leaning.begin(), leaning.end(), gone,
-                               [](const Leaning& a, std::uint32_t on) { return a.on < on; });
-    for (; at != leaning.end() && at->on == gone; ++at) look_at(at->who);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) check(i);
+  if (removed.empty()) return false;
+  const Dependents dependents(candidates);
+  while (!removed.empty()) {
+    const Row row = candidates[removed.back()].row;
+    removed.pop_back();
+    for (const std::uint32_t i : dependents[row]) check(i);
   }
   return true;
 }

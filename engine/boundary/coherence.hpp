@@ -16,7 +16,7 @@ struct Candidate {
 // Takes candidates off the boundary until each of these that is left has both of its gap neighbours on it.
 // `candidates` in ascending row; only their own bits are changed. True if any was taken off. Repeated over
 // parts of a scan, in any order, until no part changes, this gives the greatest fixed point of the whole.
-// Cost: n log n.
+// Cost: linear in the candidates and the rows between the first and the last of them.
 bool remove_incoherent(std::span<const Candidate> candidates, RowSet& boundary);
 
 }  // namespace lacuna

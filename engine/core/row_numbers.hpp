@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lacuna {
@@ -51,6 +52,18 @@ class RowNumbers {
     const Word& w = words_[value(row) / 64 - first_word_];
     return w.before +
            static_cast<LocalIndex>(std::popcount(w.bits & ((std::uint64_t{1} << value(row) % 64) - 1)));
+  }
+
+  // The same of any row; none if it was not collected.
+  std::optional<LocalIndex> find(Row row) const {
+    if (!is_dense_) {
+      const auto at = std::lower_bound(list_.begin(), list_.end(), row);
+      if (at == list_.end() || *at != row) return std::nullopt;
+      return static_cast<LocalIndex>(at - list_.begin());
+    }
+    const std::uint64_t at = value(row) / 64 - first_word_;  // large where it lies before the first
+    if (at >= words_.size() || (words_[at].bits >> value(row) % 64 & 1) == 0) return std::nullopt;
+    return number(row);
   }
 
   Row row(LocalIndex number) const {

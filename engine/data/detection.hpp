@@ -19,8 +19,8 @@ struct Counts {
   std::uint64_t dropped = 0;     // with a non-finite coordinate
   std::uint64_t duplicates = 0;  // at the coordinates of a point with a lower id
   std::uint64_t candidates = 0;  // distinct points with Pi above the threshold
-  std::uint64_t coherent = 0;    // of these, those left by the coherence step; by stars, those beside loops
-  std::uint64_t boundary_points = 0;  // points of the input (duplicates too) coherent or on a loop
+  std::uint64_t coherent = 0;    // of these, those that are coherent (paper, 5.1)
+  std::uint64_t boundary_points = 0;  // points of the input, duplicates too
   std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
@@ -49,8 +49,9 @@ struct Summary {
 // Result of one point of the input; a duplicate has those of the point that stands for it.
 struct PointResult {
   float probability, angle, halfdisc, shape;  // from 0 to 1; NaN for a dropped point
-  std::uint8_t boundary = 0;                  // coherent or on a loop
-  std::uint8_t coherent = 0;
+  // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop (tangential).
+  std::uint8_t boundary = 0;
+  std::uint8_t coherent = 0;  // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops
   std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
   Eigen::Vector3f normal;  // NaN where undefined
 };

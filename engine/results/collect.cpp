@@ -12,21 +12,26 @@ namespace {
 
 constexpr std::int32_t kNoLoop = std::numeric_limits<std::int32_t>::max();
 
-// A boundary point of one tile.
+// What a point is.
+constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
+
+// A point of one tile that is coherent or belongs to the boundary.
 struct Mark {
   LocalIndex owned;
   std::int32_t loop;  // the first reported loop through it; kNoLoop: none
   float probability;
-  std::uint32_t coherent;
+  std::uint32_t flags;
   StoredPoint point;
 };
 
-// A boundary point of the input.
+// A point of the input that is coherent or belongs to the boundary.
 struct StoredBoundary {
   StoredPoint point;
   float probability;
   std::int32_t loop;  // -1: none
-  std::uint64_t coherent;
+  std::uint64_t flags;
+
+  bool is_boundary() const { return (flags & kBoundary) != 0; }
 
   friend bool operator<(const StoredBoundary& a, const StoredBoundary& b) { return a.point.id < b.point.id; }
 };
@@ -36,12 +41,13 @@ using BoundarySort = ExternalSort<StoredBoundary, std::less<StoredBoundary>>;
 class WorkspaceDetection final : public Detection {
  public:
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
-                     Column<StoredBoundary> boundary, std::optional<PointResults> results,
+                     Column<StoredBoundary> boundary, std::uint64_t marked, std::optional<PointResults> results,
                      std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
         selected_(std::move(selected)),
         boundary_(std::move(boundary)),
+        marked_(marked),
         results_(std::move(results)),
         turned_(std::move(turned)) {
     for (const std::size_t loop : selected_) loops_.push_back(raw_loops_.measures[loop]);
@@ -55,9 +61,9 @@ class WorkspaceDetection final : public Detection {
 
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     BoundaryReader boundary(*this);
-    for (std::uint64_t i = 0; i < summary_.counts.boundary_points; ++i) {
+    for (std::uint64_t i = 0; i < marked_; ++i) {
       const StoredBoundary& p = boundary.next();
-      visit({p.point.id, p.point.position(), p.probability, p.loop});
+      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
     }
   }
 
@@ -77,12 +83,12 @@ class WorkspaceDetection final : public Detection {
       const std::uint64_t last = std::min(first + kResultBlock, summary_.counts.points);
       block.assign(last - first, dropped);
       results_->for_each(b, [&](const StoredResult& r) { block[value(r.id) - first] = result(r); });
-      for (; next_boundary < summary_.counts.boundary_points; ++next_boundary) {
+      for (; next_boundary < marked_; ++next_boundary) {
         const StoredBoundary& p = boundary.peek();
         if (value(p.point.id) >= last) break;
         PointResult& point = block[value(p.point.id) - first];
-        point.boundary = 1;
-        point.coherent = p.coherent != 0;
+        point.boundary = p.is_boundary();
+        point.coherent = (p.flags & kCoherent) != 0;
         point.loop = p.loop;
         boundary.next();
       }
@@ -115,7 +121,8 @@ class WorkspaceDetection final : public Detection {
   MeasuredLoops raw_loops_;
   std::vector<std::size_t> selected_;
   std::vector<LoopMeasures> loops_;
-  Column<StoredBoundary> boundary_;
+  Column<StoredBoundary> boundary_;  // in ascending id
+  std::uint64_t marked_;             // points in it
   std::optional<PointResults> results_;
   std::optional<RowSet> turned_;
 };
@@ -132,20 +139,21 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
          loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = tiling.tiles[t].local(p.row);
-      letters.add(t, {owned, name, p.probability, 0, p.point});
+      letters.add(t, {owned, name, p.probability, kBoundary, p.point});
     }
   }
   letters.send();
 }
 
-// A tile's boundary points, each once: coherent or on a loop.
-std::vector<Mark> boundary_of_tile(const Candidates& candidates, const Tile& tile, TileIndex t,
-                                   const RowSet& boundary, const Spill<Mark>& loop_marks) {
+// A tile's points that are coherent or belong to the boundary, each once.
+std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& findings, const Tile& tile,
+                                TileIndex t, const Spill<Mark>& loop_marks) {
   std::vector<Mark> marks = loop_marks.read(t);
   for (const StoredCandidate& c : candidates.read(t)) {
-    if (!boundary.contains(c.candidate.row)) continue;
-    const auto owned = tile.local(c.candidate.row);
-    marks.push_back({owned, kNoLoop, c.probability, 1, c.point});
+    const Row row = c.candidate.row;
+    const std::uint32_t flags = (findings.coherent.contains(row) ? kCoherent : 0) |
+                                (findings.boundary_candidates.contains(row) ? kBoundary : 0);
+    if (flags != 0) marks.push_back({tile.local(row), kNoLoop, c.probability, flags, c.point});
   }
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.loop < b.loop;
@@ -153,7 +161,7 @@ std::vector<Mark> boundary_of_tile(const Candidates& candidates, const Tile& til
   std::size_t kept = 0;
   for (const Mark& mark : marks) {
     if (kept > 0 && marks[kept - 1].owned == mark.owned) {
-      marks[kept - 1].coherent |= mark.coherent;
+      marks[kept - 1].flags |= mark.flags;
     } else {
       marks[kept++] = mark;
     }
@@ -163,7 +171,7 @@ std::vector<Mark> boundary_of_tile(const Candidates& candidates, const Tile& til
 }
 
 StoredBoundary stored(const Mark& mark) {
-  return {mark.point, mark.probability, mark.loop == kNoLoop ? -1 : mark.loop, mark.coherent};
+  return {mark.point, mark.probability, mark.loop == kNoLoop ? -1 : mark.loop, mark.flags};
 }
 
 }  // namespace
@@ -174,6 +182,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   Summary& summary = findings.summary;
   const MeasuredLoops& loops = findings.loops;
   Column<StoredBoundary> boundary_points(job.file("boundary"));
+  std::uint64_t marked = 0;
   std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
   {
     Phase phase(job, "collect", tiling.points());
@@ -184,11 +193,12 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
     job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
       const Tile& tile = tiling.tiles[t];
       const std::vector<Mark> tile_marks =
-          boundary_of_tile(candidates, tile, static_cast<TileIndex>(t), findings.boundary_candidates, marks);
+          marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t), marks);
       const std::vector<Duplicate> duplicates = store.duplicates(static_cast<TileIndex>(t));
       const std::lock_guard lock(mutex);
       for (const Mark& mark : tile_marks) {
-        summary.counts.coherent += mark.coherent;
+        summary.counts.coherent += (mark.flags & kCoherent) != 0;
+        summary.counts.boundary_points += (mark.flags & kBoundary) != 0;
         sorted.add(stored(mark));
       }
       for (const Duplicate& d : duplicates) {
@@ -197,11 +207,12 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
         if (of == tile_marks.end() || of->owned != d.of) continue;
         StoredBoundary duplicate = stored(*of);
         duplicate.point.id = d.id;
+        summary.counts.boundary_points += duplicate.is_boundary();
         sorted.add(duplicate);
       }
       phase.advance(tile.points);
     });
-    summary.counts.boundary_points = sorted.size();
+    marked = sorted.size();
     std::vector<StoredBoundary> block;
     std::uint64_t written = 0;
     const auto flush = [&] {
@@ -217,7 +228,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(std::move(summary), std::move(findings.loops), std::move(selected),
-                                              std::move(boundary_points), std::move(findings.points),
+                                              std::move(boundary_points), marked, std::move(findings.points),
                                               std::move(findings.opposed_normals));
 }
 

@@ -18,6 +18,7 @@ namespace lacuna {
 struct Findings {
   Summary summary;
   MeasuredLoops loops;
+  RowSet coherent;                        // candidates that are (paper, 5.1)
   RowSet boundary_candidates;             // candidates that belong to the boundary
   std::optional<PointResults> points;     // only with output.points
   std::optional<RowSet> opposed_normals;  // rows whose normal is to be turned round

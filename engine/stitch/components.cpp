@@ -1,6 +1,7 @@
 #include "engine/stitch/components.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace lacuna {
 namespace {
@@ -64,7 +65,9 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
   const std::span<const Row> ends = sorted_ends(scratch);
   const auto index_of = [&](Row row) {
     scratch.breathe();
-    return static_cast<LocalIndex>(std::lower_bound(ends.begin(), ends.end(), row) - ends.begin());
+    const auto at = std::lower_bound(ends.begin(), ends.end(), row);
+    assert(at != ends.end() && *at == row);  // both tiles have every crossing edge
+    return static_cast<LocalIndex>(at - ends.begin());
   };
   UnionFind components(scratch.array<LocalIndex>(ends.size()));
   for (std::size_t t = 0; t < tiles_; ++t)
@@ -72,8 +75,10 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
 
   Batches batches;
   const std::span<std::uint64_t> records = scratch.array<std::uint64_t>(ends.size());  // by component
-  const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(ends.size());   // no more parts than ends
   std::uint64_t parts = 0;
+  for (std::size_t t = 0; t < tiles_; ++t) parts += parts_.count(t);
+  const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(parts);
+  parts = 0;
   for (std::size_t t = 0; t < tiles_; ++t) {
     batches.first_part.push_back(parts);
     parts_.for_each(t, [&](const OpenPart& part) {

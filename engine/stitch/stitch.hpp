@@ -1,13 +1,14 @@
 // stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
 //
-// A tile adds its part of the graph as records: boundary edges, in whatever form the method needs to find loops. What
-// lies in components that leave no tile is handed back at once. The records of the others are grouped by component, in
-// batches that fit in memory; a component larger than that is handed out from disk.
+// A tile adds its part of the graph. Loops that lie wholly inside are its own affair; of the open components, those that
+// leave the tile, it passes on records: boundary edges, in whatever form the method needs to find loops. The records are
+// grouped by component, in batches that fit in memory; a component larger than that is handed out from disk.
 #pragma once
 
 #include "engine/stitch/components.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -22,7 +23,7 @@ struct GraphPart {
   LocalIndex vertices = 0;
   std::span<LocalIndex> links;           // of a UnionFind over the vertices: what the edges of the part connect
   std::vector<CrossingEdge> crossings;
-  std::vector<Record> records;           // of any components of the part
+  std::vector<Record> records;           // of its open components
   std::vector<LocalIndex> vertex_of;     // of each record, a vertex of its component
 };
 
@@ -38,24 +39,20 @@ class Stitch {
         components_(tiles, job),
         open_(job.file("open-records"), tiles, job.memory.spills / 8) {}
 
-  // From any thread, once for each tile. Returns the records of components that lie within the tile.
-  std::vector<Record> add(TileIndex tile, GraphPart<Record> part) {
+  // From any thread, once for each tile.
+  void add(TileIndex tile, const GraphPart<Record>& part) {
     UnionFind connected(part.links);
     TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings);
-    std::vector<Record> closed;
     std::vector<Member> members;
+    members.reserve(part.records.size());
     for (std::size_t i = 0; i < part.records.size(); ++i) {
       const LocalIndex of_part = open.part_of_root[connected.find(part.vertex_of[i])];
-      if (of_part == kNoIndex) {
-        closed.push_back(part.records[i]);
-      } else {
-        members.push_back({of_part, part.records[i]});
-        ++open.parts[of_part].records;
-      }
+      assert(of_part != kNoIndex);
+      members.push_back({of_part, part.records[i]});
+      ++open.parts[of_part].records;
     }
     components_.add(tile, open);
     open_.append(tile, members);
-    return closed;
   }
 
   // visit(record) for each record of a component, as often as wanted.

@@ -868,9 +868,9 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
   }
   for (const PointId p : result.distinct) {
     Point& point = result.points[value(p)];
-    point.coherent = point.probability > threshold && point.gap && on_loop.contains((*point.gap)[0]) &&
-                     on_loop.contains((*point.gap)[1]);
-    point.boundary = point.coherent || on_loop.contains(p);
+    const bool is_beside = point.probability > threshold && point.gap && on_loop.contains((*point.gap)[0]) &&
+                           on_loop.contains((*point.gap)[1]);
+    point.boundary = is_beside || on_loop.contains(p);
   }
 }
 
@@ -884,10 +884,10 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
   find_neighbours(positions, config.neighbourhood, result);
   for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
   if (config.normals.orient) orient_normals(positions, result);
+  find_coherent(config.coherence, result);
   if (config.loops.method == LoopMethod::kPaper) {
     result.e =
         config.spanning.e > 0 ? config.spanning.e : std::llround(2 * std::sqrt(pi * result.mean_neighbours));
-    find_coherent(config.coherence, result);
     find_eligible(positions, config.spanning, result);
     result.boundary_edges = result.eligible.size();
     find_loops(span(result), result);

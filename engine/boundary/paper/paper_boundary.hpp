@@ -35,8 +35,8 @@ class PaperBoundary final : public BoundaryMethod {
   void take(const EvaluatedTile& tile) override;
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // The coherent ones.
-  RowSet boundary_candidates(const Candidates& candidates, const RawLoops&, Job& job) const override {
-    return candidates.coherent(job);
+  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RawLoops&, Job&) const override {
+    return coherent;
   }
 
  private:

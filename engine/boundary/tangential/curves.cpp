@@ -1,10 +1,11 @@
 #include "engine/boundary/tangential/curves.hpp"
 
+#include "engine/core/row_numbers.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -13,16 +14,6 @@ namespace {
 // little where points have room by chance.
 constexpr double kDoubt = 42, kMostDoubt = 6;
 
-// The wedge at `point` that ends at `neighbour`. There is exactly one. `wedges`: in ascending row.
-std::size_t wedge_at(std::span<const Gap> wedges, Row point, Row neighbour) {
-  const auto first = std::partition_point(wedges.begin(), wedges.end(),
-                                          [&](const Gap& wedge) { return wedge.point.row < point; });
-  const auto found = std::find_if(
-      first, wedges.end(), [&](const Gap& wedge) { return wedge.from == neighbour || wedge.to == neighbour; });
-  assert(found != wedges.end() && found->point.row == point);
-  return static_cast<std::size_t>(found - wedges.begin());
-}
-
 // Place i of the rim as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
   return forwards ? (start + i) % count : (start + count - i) % count;
@@ -30,23 +21,46 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 
 }  // namespace
 
-void follow_curves(std::vector<Gap> wedges, const std::function<void(std::vector<RimPoint>&)>& visit) {
-  std::sort(wedges.begin(), wedges.end(), [](const Gap& a, const Gap& b) {
-    return std::tie(a.point.row, a.from, a.to) < std::tie(b.point.row, b.from, b.to);
+std::vector<WedgePartners> partners_of(std::span<const Gap> wedges) {
+  RowNumbers points;
+  points.collect(wedges.size(), [&](auto&& add) {
+    for (const Gap& wedge : wedges) add(wedge.point.row);
   });
-  std::vector<bool> is_done(wedges.size());
+  std::vector<LocalIndex> begins(points.size() + 1);  // of each point's wedges
+  for (const Gap& wedge : wedges) ++begins[points.number(wedge.point.row) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+
+  // The wedge at `point` with an edge to `neighbour`: there is at most one.
+  const auto find = [&](Row point, Row neighbour) {
+    const std::optional<LocalIndex> number = points.find(point);
+    if (!number) return kNoIndex;
+    for (LocalIndex i = begins[*number]; i < begins[*number + 1]; ++i) {
+      if (wedges[i].from == neighbour || wedges[i].to == neighbour) return i;
+    }
+    return kNoIndex;
+  };
+  std::vector<WedgePartners> partners;
+  partners.reserve(wedges.size());
+  for (const Gap& wedge : wedges)
+    partners.push_back({find(wedge.from, wedge.point.row), find(wedge.to, wedge.point.row)});
+  return partners;
+}
+
+void follow_curves(std::span<const Gap> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
+                   const std::function<void(std::vector<RimPoint>&)>& visit) {
+  std::vector<bool>& is_done = left_out;
   std::vector<RimPoint> curve;
-  for (std::size_t start = 0; start < wedges.size(); ++start) {
+  for (LocalIndex start = 0; start < wedges.size(); ++start) {
     if (is_done[start]) continue;
     curve.clear();
-    Row came_from = wedges[start].from;
-    for (std::size_t at = start; !is_done[at];) {
-      is_done[at] = true;
+    std::size_t side = wedges[start].from < wedges[start].to ? 1 : 0;  // where the curve goes on
+    for (LocalIndex at = start; !is_done[at];) {
       const Gap& wedge = wedges[at];
+      is_done[at] = true;
       curve.push_back({wedge.point, wedge.room, wedge.unevenness});
-      const Row next = wedge.from == came_from ? wedge.to : wedge.from;
-      came_from = wedge.point.row;
-      at = wedge_at(wedges, next, came_from);
+      at = partners[at][side];
+      assert(at != kNoIndex);  // the curve is closed
+      side = wedges[at].from == wedge.point.row ? 1 : 0;
     }
     visit(curve);
   }

@@ -4,6 +4,7 @@
 #include "engine/data/component.hpp"
 #include "engine/data/stored_stars.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -17,9 +18,17 @@ struct RimPoint {
   float room, unevenness;  // of the gap
 };
 
-// visit(curve) for each closed curve of the wedges, which come in any order. Every curve is whole: where a wedge ends,
-// another one begins. Each curve once; the order, start and direction do not depend on that of the wedges. Cost: n log n.
-void follow_curves(std::vector<Gap> wedges, const std::function<void(std::vector<RimPoint>&)>& visit);
+// The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these wedges.
+using WedgePartners = std::array<LocalIndex, 2>;
+
+// Of each wedge. `wedges`: in ascending row. Cost: linear.
+std::vector<WedgePartners> partners_of(std::span<const Gap> wedges);
+
+// visit(curve) for each closed curve, but for those of wedges that are `left_out`: whole components of the boundary
+// graph, such as leave the tile. The start and the direction of a curve do not depend on the order of the wedges of a
+// point. Cost: linear.
+void follow_curves(std::span<const Gap> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
+                   const std::function<void(std::vector<RimPoint>&)>& visit);
 
 // Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several
 // such ways the one whose ids come first).

@@ -15,44 +15,61 @@ namespace {
 // Measured: a wedge, its curve, and the curve turned and parted.
 constexpr std::uint64_t kBytesPerWedge = 160;
 
-void add_loops(std::vector<Gap> wedges, RawLoops& loops) {
-  follow_curves(std::move(wedges), [&](std::vector<RimPoint>& curve) {
-    if (curve.size() < kLeastCurve) return;
-    normalise(curve);
-    for (const std::vector<RimPoint>& simple : split_at_pinches(std::move(curve))) {
-      if (simple.size() < kLeastCurve) continue;
-      std::vector<Vertex> loop;
-      loop.reserve(simple.size());
-      for (const RimPoint& p : simple) loop.push_back(p.vertex);
-      loops.add(loop, confidence(simple));
-    }
-  });
+bool by_row(const Gap& a, const Gap& b) {
+  return a.point.row < b.point.row;
 }
 
-// The graph of a tile's wedges, in ascending row: their points, and edges to the points at their ends.
-GraphPart<Gap> graph_of(std::vector<Gap> wedges, const Tile& tile, std::vector<LocalIndex>& links) {
-  GraphPart<Gap> part;
-  std::vector<Row> points;
-  for (const Gap& wedge : wedges) {
-    if (points.empty() || points.back() != wedge.point.row) points.push_back(wedge.point.row);
-    part.vertex_of.push_back(static_cast<LocalIndex>(points.size() - 1));
+// The loops along a closed curve.
+void add_loops(std::vector<RimPoint>& curve, RawLoops& loops) {
+  if (curve.size() < kLeastCurve) return;
+  normalise(curve);
+  for (const std::vector<RimPoint>& simple : split_at_pinches(std::move(curve))) {
+    if (simple.size() < kLeastCurve) continue;
+    std::vector<Vertex> loop;
+    loop.reserve(simple.size());
+    for (const RimPoint& p : simple) loop.push_back(p.vertex);
+    loops.add(loop, confidence(simple));
   }
-  links.assign(points.size(), 0);
+}
+
+// Of a whole component.
+void add_component_loops(std::vector<Gap> wedges, RawLoops& loops) {
+  std::sort(wedges.begin(), wedges.end(), by_row);
+  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
+                [&](std::vector<RimPoint>& curve) { add_loops(curve, loops); });
+}
+
+// A tile's part of the boundary graph. Its vertices are the wedges; those of one point are connected.
+GraphPart<Gap> part_of(std::span<const Gap> wedges, std::span<const WedgePartners> partners,
+                       std::vector<LocalIndex>& links) {
+  links.assign(wedges.size(), 0);
   UnionFind connected(links);
-  for (std::size_t i = 0; i < wedges.size(); ++i) {
-    for (const Row end : {wedges[i].from, wedges[i].to}) {
-      if (tile.owns(end)) {
-        const auto at = std::lower_bound(points.begin(), points.end(), end);
-        connected.unite(part.vertex_of[i], static_cast<LocalIndex>(at - points.begin()));
+  GraphPart<Gap> part{.vertices = static_cast<LocalIndex>(wedges.size()), .links = links};
+  for (LocalIndex i = 0; i < wedges.size(); ++i) {
+    if (i > 0 && wedges[i].point == wedges[i - 1].point) connected.unite(i - 1, i);
+    for (const std::size_t side : {0, 1}) {
+      if (partners[i][side] != kNoIndex) {
+        connected.unite(i, partners[i][side]);
       } else {
-        part.crossings.push_back({part.vertex_of[i], wedges[i].point.row, end});
+        part.crossings.push_back({i, wedges[i].point.row, side == 0 ? wedges[i].from : wedges[i].to});
       }
     }
   }
-  part.vertices = static_cast<LocalIndex>(points.size());
-  part.links = links;
-  part.records = std::move(wedges);
   return part;
+}
+
+// Adds the wedges of open components, those that leave the tile, to the records of the part. Returns which they are.
+std::vector<bool> add_open_wedges(std::span<const Gap> wedges, GraphPart<Gap>& part) {
+  UnionFind connected(part.links);
+  std::vector<bool> has_crossing(wedges.size()), is_open(wedges.size());
+  for (const CrossingEdge& crossing : part.crossings) has_crossing[connected.find(crossing.vertex)] = true;
+  for (LocalIndex i = 0; i < wedges.size(); ++i) {
+    if (!has_crossing[connected.find(i)]) continue;
+    is_open[i] = true;
+    part.records.push_back(wedges[i]);
+    part.vertex_of.push_back(i);
+  }
+  return is_open;
 }
 
 }  // namespace
@@ -73,7 +90,7 @@ std::vector<Gap> TangentialBoundary::wedges_of(TileIndex t) {
   const std::vector<Gap> open = stars_.open_gaps.read(t);
   stars_.open_gaps.drop(t);
   wedges.insert(wedges.end(), open.begin(), open.end());
-  merge_runs(wedges, [](const Gap& a, const Gap& b) { return a.point.row < b.point.row; });
+  merge_runs(wedges, by_row);
   return wedges;
 }
 
@@ -85,19 +102,23 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   const std::size_t tiles = tiling_.tiles.size();
   Stitch<Gap> stitch(tiles, kBytesPerWedge, job);
   job.crew.for_each(tiles, [&](std::size_t t) {
-    std::vector<Gap> wedges = wedges_of(static_cast<TileIndex>(t));
+    const std::vector<Gap> wedges = wedges_of(static_cast<TileIndex>(t));
+    const std::vector<WedgePartners> partners = partners_of(wedges);
     std::atomic_ref(found.edges) += wedges.size();  // each wedge ends at two edges, each edge at two wedges
     std::vector<LocalIndex> links;
-    add_loops(stitch.add(static_cast<TileIndex>(t), graph_of(std::move(wedges), tiling_.tiles[t], links)),
-              found.loops);
+    GraphPart<Gap> part = part_of(wedges, partners, links);
+    std::vector<bool> is_open = add_open_wedges(wedges, part);
+    stitch.add(static_cast<TileIndex>(t), part);
+    follow_curves(wedges, partners, std::move(is_open),
+                  [&](std::vector<RimPoint>& curve) { add_loops(curve, found.loops); });
   });
   stitch.for_each_component(
-      [&](std::span<const Gap> wedges) { add_loops({wedges.begin(), wedges.end()}, found.loops); },
+      [&](std::span<const Gap> wedges) { add_component_loops({wedges.begin(), wedges.end()}, found.loops); },
       [&](const auto& for_each_wedge, std::uint64_t count) {
         std::vector<Gap> wedges;
         wedges.reserve(count);
         for_each_wedge([&](const Gap& wedge) { wedges.push_back(wedge); });
-        add_loops(std::move(wedges), found.loops);
+        add_component_loops(std::move(wedges), found.loops);
       });
   found.components = stitch.components();
   found.loops.sort();

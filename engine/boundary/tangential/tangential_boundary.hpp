@@ -18,7 +18,8 @@ class TangentialBoundary final : public BoundaryMethod {
   // Curves of fewer than `kLeastCurve` points are left out: around so few, a sampling leaves gaps by itself.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes through.
-  RowSet boundary_candidates(const Candidates& candidates, const RawLoops& loops, Job& job) const override {
+  RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
+                             Job& job) const override {
     return candidates.beside(loops, job);
   }
 

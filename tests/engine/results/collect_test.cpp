@@ -45,7 +45,7 @@ void check_published(const Detected& detected, const Cloud& cloud) {
     const bool usable = cloud.positions[i].allFinite();
     const auto loop = usable ? loops.find(place_of(cloud.positions[i])) : loops.end();
     wrong_loops += p.loop != (loop == loops.end() ? -1 : loop->second);
-    wrong_boundary += (p.coherent != 0 || p.loop >= 0) && p.boundary == 0;
+    wrong_boundary += p.loop >= 0 && p.boundary == 0;
     if (p.boundary == 0) continue;
     if (next == detected.boundary.size()) {
       FAIL_CHECK("point " << i << " is missing among the boundary points");

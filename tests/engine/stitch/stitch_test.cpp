@@ -48,7 +48,11 @@ GraphPart<Edge> part_of(std::uint64_t tile, const std::vector<Edge>& edges, std:
       const Row own = has_a ? edge.a : edge.b;
       part.crossings.push_back({local(own), own, has_a ? edge.b : edge.a});
     }
-    if (!has_a) continue;
+  }
+  std::set<LocalIndex> open;  // roots
+  for (const CrossingEdge& crossing : part.crossings) open.insert(connected.find(crossing.vertex));
+  for (const Edge& edge : edges) {
+    if (tile_of(edge.a) != tile || !open.contains(connected.find(local(edge.a)))) continue;
     part.records.push_back(edge);
     part.vertex_of.push_back(local(edge.a));
   }
@@ -69,12 +73,9 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
     const std::lock_guard lock(mutex);
     CHECK(result.components.insert(component).second);
   };
-  std::vector<Edge> closed;
   job.crew.for_each(tiles, [&](std::size_t t) {
     std::vector<LocalIndex> links;
-    const std::vector<Edge> here = stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
-    const std::lock_guard lock(mutex);
-    closed.insert(closed.end(), here.begin(), here.end());
+    stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
   });
   stitch.for_each_component([&](std::span<const Edge> component) { add({component.begin(), component.end()}); },
                             [&](const auto& for_each, std::uint64_t count) {
@@ -83,12 +84,11 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
                               CHECK(component.size() == count);
                               add(component);
                             });
-  if (!closed.empty()) add(closed);
   result.count = stitch.components();
   return result;
 }
 
-// Edges by the component that a plain union-find over all rows gives them, those of closed components as one.
+// By a plain union-find over all rows: the components that lie in several tiles, and the number of all.
 Stitched stitch_plainly(const std::vector<Edge>& edges, std::uint64_t tiles) {
   std::vector<std::uint64_t> root(tiles * kTilePoints);
   std::iota(root.begin(), root.end(), std::uint64_t{0});
@@ -105,17 +105,10 @@ Stitched stitch_plainly(const std::vector<Edge>& edges, std::uint64_t tiles) {
     tiles_of[find(edge.a)].insert({tile_of(edge.a), tile_of(edge.b)});
   }
   Stitched result{.count = components.size()};
-  Component closed;
   for (auto& [name, component] : components) {
     std::sort(component.begin(), component.end());
-    if (tiles_of[name].size() > 1) {
-      result.components.insert(component);
-    } else {
-      closed.insert(closed.end(), component.begin(), component.end());
-    }
+    if (tiles_of[name].size() > 1) result.components.insert(component);
   }
-  std::sort(closed.begin(), closed.end());
-  if (!closed.empty()) result.components.insert(closed);
   return result;
 }
 
