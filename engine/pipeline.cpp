@@ -94,7 +94,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   const TileStore store = bucket_scan(scan, std::move(tiling), survey.precision(), job);
 
   // Every point judged from its neighbourhood (paper, 4.1 to 4.6).
-  Spill<Link> links = link_tiles(store, job);
+  AppendLists<Link> links = link_tiles(store, job);
   EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
 
   // Loops, and the boundary points beside them.

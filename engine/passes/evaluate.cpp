@@ -1,10 +1,10 @@
 #include "engine/passes/evaluate.hpp"
 
-#include "engine/core/merge_runs.hpp"
 #include "engine/passes/record_tile.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/reach.hpp"
+#include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +202,7 @@ double EvaluatedScan::mean_edge_length() const {
          totals.length_unit;
 }
 
-EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps,
+EvaluatedScan evaluate_tiles(const TileStore& store, AppendLists<Link> links, std::uint64_t ids, double eps,
                              double extent, Job& job) {
   const Tiling& tiling = store.tiling();
   EvaluatedScan scan(store, blocks(ids, job), job);

@@ -1,14 +1,14 @@
 // Every point evaluated, and what the global stage needs of the points: a small part of the scan.
 #pragma once
 
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
 #include "engine/data/orientation.hpp"
 #include "engine/data/stored_stars.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/passes/links.hpp"
 #include "engine/stages/coherence.hpp"
 #include "engine/stages/eligible_edges.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <span>
@@ -82,8 +82,8 @@ class StarSpill {
   void drop(TileIndex tile);
 
  private:
-  Spill<StoredStar> stars_;
-  Spill<StoredCorner> corners_;
+  AppendLists<StoredStar> stars_;
+  AppendLists<StoredCorner> corners_;
 };
 
 __extension__ using Int128 = __int128;
@@ -103,8 +103,8 @@ struct Totals {
 struct EdgeLists {
   EdgeLists(const TileStore& store, const Job& job);
 
-  Spill<TileEdge> inside;  // eligible ones
-  Spill<StoredCrossing> crossings;
+  AppendLists<TileEdge> inside;  // eligible ones
+  AppendLists<StoredCrossing> crossings;
   Column<Strength> strengths;  // by row, of points with neighbours in other tiles
 };
 
@@ -114,17 +114,17 @@ struct StarLists {
 
   void drop_waiting(TileIndex tile);  // all but the gaps
 
-  Spill<WaitingPoint> waiting;                 // in ascending owned index
-  Spill<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
-  Spill<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
+  AppendLists<WaitingPoint> waiting;           // in ascending owned index
+  AppendLists<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
+  AppendLists<SeenPoint> waiting_sight;        // these points and their neighbours, in ascending row
   std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
   Column<Seat> seats;                          // by row, of border points and their neighbours
   RowSet rough;
-  RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
-  StarSpill found;       // stars of waiting points as they are found
-  StarSpill open;        // measured stars
-  Spill<Gap> gaps;       // of settled ones
-  Spill<Gap> open_gaps;  // of the others (passes/seams)
+  RowSet unmeasured;           // of waiting points, those whose stars are not measured yet
+  StarSpill found;             // stars of waiting points as they are found
+  StarSpill open;              // measured stars
+  AppendLists<Gap> gaps;       // of settled ones
+  AppendLists<Gap> open_gaps;  // of the others (passes/seams)
 };
 
 struct EvaluatedScan {
@@ -132,11 +132,11 @@ struct EvaluatedScan {
 
   EdgeLists edges;
   StarLists stars;
-  Spill<StoredVertex> vertices;        // in ascending owned index
-  Spill<StoredCandidate> candidates;   // in ascending row
-  Spill<StoredResult> results;         // by block of ids; empty without output.points
-  Spill<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
-  Spill<OrientationCrossing> orientation_crossings;
+  AppendLists<StoredVertex> vertices;        // in ascending owned index
+  AppendLists<StoredCandidate> candidates;   // in ascending row
+  AppendLists<StoredResult> results;         // by block of ids; empty without output.points
+  AppendLists<OrientationEdge> orientation;  // each tile's own spanning forest; empty unless asked for
+  AppendLists<OrientationCrossing> orientation_crossings;
   Column<StoredNormal> normals;                 // by row; likewise
   std::vector<std::vector<TileIndex>> leaning;  // tiles with candidates whose gap neighbours are in this one
   Totals totals;
@@ -149,7 +149,7 @@ struct EvaluatedScan {
 inline constexpr std::uint64_t kResultBlock = 1 << 17;
 
 // Consumes the links. `eps`: a length, 0: off. `extent`: the largest distance between points.
-EvaluatedScan evaluate_tiles(const TileStore& store, Spill<Link> links, std::uint64_t ids, double eps,
+EvaluatedScan evaluate_tiles(const TileStore& store, AppendLists<Link> links, std::uint64_t ids, double eps,
                              double extent, Job& job);
 
 }  // namespace lacuna

@@ -1,8 +1,8 @@
 #include "engine/passes/orient.hpp"
 
-#include "engine/core/external_sort.hpp"
-#include "engine/core/scratch.hpp"
 #include "engine/stages/orient.hpp"
+#include "engine/store/scratch.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ class SignedUnionFind {
   };
 
   Place find(std::uint64_t x) {
-    scratch_.breathe();
+    scratch_.trim();
     bool opposed = false;
     while (links_[x] != 0) {
       const std::uint64_t up = parent(x);
@@ -54,7 +54,7 @@ class SignedUnionFind {
   std::span<std::uint64_t> links_;
 };
 
-using EdgeSort = ExternalSort<OrientationEdge, std::less<OrientationEdge>>;
+using EdgeSort = SortedRuns<OrientationEdge>;
 
 void add_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, EdgeSort& edges) {
   std::vector<OrientationCrossing> crossings = scan.orientation_crossings.read(t);
@@ -65,7 +65,7 @@ void add_crossings(EvaluatedScan& scan, const TileStore& store, TileIndex t, Edg
   const Tile& tile = store.tiling().tiles[t];
   const std::vector<StoredPoint> points = store.points(t);
   const std::vector<StoredNormal> own = scan.normals.read(value(tile.first_row), tile.points);
-  RunReader<StoredNormal> foreign(scan.normals);
+  ColumnReader<StoredNormal> foreign(scan.normals);
   for (const OrientationCrossing& c : crossings) {
     const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
     if (!other.allFinite()) continue;

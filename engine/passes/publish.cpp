@@ -1,7 +1,7 @@
 #include "engine/passes/publish.hpp"
 
-#include "engine/core/external_sort.hpp"
 #include "engine/passes/letters.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -31,12 +31,12 @@ struct StoredBoundary {
   friend bool operator<(const StoredBoundary& a, const StoredBoundary& b) { return a.point.id < b.point.id; }
 };
 
-using BoundarySort = ExternalSort<StoredBoundary, std::less<StoredBoundary>>;
+using BoundarySort = SortedRuns<StoredBoundary>;
 
 class WorkspaceDetection final : public Detection {
  public:
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
-                     Column<StoredBoundary> boundary, Spill<StoredResult> results,
+                     Column<StoredBoundary> boundary, AppendLists<StoredResult> results,
                      std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
@@ -98,7 +98,7 @@ class WorkspaceDetection final : public Detection {
     const StoredBoundary& next() { return records_[at_++]; }
 
    private:
-    RunReader<StoredBoundary> records_;
+    ColumnReader<StoredBoundary> records_;
     std::uint64_t at_ = 0;
   };
 
@@ -116,13 +116,13 @@ class WorkspaceDetection final : public Detection {
   std::vector<std::size_t> selected_;
   std::vector<LoopMeasures> loops_;
   Column<StoredBoundary> boundary_;
-  Spill<StoredResult> results_;
+  AppendLists<StoredResult> results_;
   std::optional<RowSet> turned_;
 };
 
 // Every point on a loop, to its tile.
 void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
-                Spill<Mark>& marks) {
+                AppendLists<Mark>& marks) {
   Letters<Mark> letters(marks);
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
@@ -140,7 +140,7 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
 
 // A tile's boundary points, each once: coherent or on a loop.
 std::vector<Mark> boundary_of_tile(const EvaluatedScan& scan, const Tile& tile, TileIndex t,
-                                   const RowSet& boundary, const Spill<Mark>& loop_marks) {
+                                   const RowSet& boundary, const AppendLists<Mark>& loop_marks) {
   std::vector<Mark> marks = loop_marks.read(t);
   for (const StoredCandidate& c : scan.candidates.read(t)) {
     if (!boundary.contains(c.candidate.row)) continue;
@@ -176,7 +176,7 @@ std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, c
   std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
   {
     Phase phase(job, "publish", tiling.points());
-    Spill<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
+    AppendLists<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
     mark_loops(loops, selected, tiling, marks);
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;

@@ -1,8 +1,8 @@
 #include "engine/passes/rims.hpp"
 
-#include "engine/core/merge_runs.hpp"
 #include "engine/passes/seams.hpp"
 #include "engine/stages/rims.hpp"
+#include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -91,7 +91,7 @@ class OpenRims {
     return partners;
   }
 
-  GrowingColumn<RimPoint> points_;
+  Column<RimPoint> points_;
   std::vector<Part> parts_;
   std::vector<End> ends_;
   std::mutex mutex_;

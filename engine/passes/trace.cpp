@@ -1,13 +1,13 @@
 #include "engine/passes/trace.hpp"
 
-#include "engine/core/external_sort.hpp"
-#include "engine/core/row_numbers.hpp"
-#include "engine/core/scratch.hpp"
 #include "engine/stages/loops.hpp"
 #include "engine/stages/order_edges.hpp"
 #include "engine/stages/settle_part.hpp"
 #include "engine/stages/spanning.hpp"
 #include "engine/stages/union_find.hpp"
+#include "engine/store/row_numbers.hpp"
+#include "engine/store/scratch.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -46,13 +46,13 @@ ComponentEdge component_edge(std::uint64_t component, double weight, const Verte
 // ---- seams: crossings judged with Pi and r of both ends
 
 void judge_crossings(EvaluatedScan& scan, const Tiling& tiling, TileIndex t, const SpanningConfig& config,
-                     Spill<SeamEdge>& seams) {
+                     AppendLists<SeamEdge>& seams) {
   std::vector<StoredCrossing> crossings = scan.edges.crossings.read(t);
   scan.edges.crossings.drop(t);
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
-  RunReader<Strength> foreign(scan.edges.strengths);
+  ColumnReader<Strength> foreign(scan.edges.strengths);
   std::vector<SeamEdge> here;
   for (const StoredCrossing& c : crossings) {
     const Strength& other = foreign[value(c.foreign.row)];
@@ -132,12 +132,11 @@ void trace_on_disk(const std::function<void(const std::function<void(const Compo
       add(edge.b.row);
     });
   });
-  ExternalSort<ComponentEdge, std::less<ComponentEdge>> sorted(job.file("large-edges"),
-                                                               job.memory.global / 4);
+  SortedRuns<ComponentEdge> sorted(job.file("large-edges"), job.memory.global / 4);
   Scratch scratch(job.workspace, job.memory.global * 5 / 8);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const ComponentEdge& edge) {
-    scratch.breathe();
+    scratch.trim();
     sorted.add(edge);
     ids[rows.number(edge.a.row)] = edge.a.id;
     ids[rows.number(edge.b.row)] = edge.b.id;
@@ -293,7 +292,7 @@ class Tracer {
     Scratch scratch(job_.workspace, job_.memory.global / 3);
     const std::span<Row> ends = seam_ends(scratch);
     const auto end_of = [&](Row row) {
-      scratch.breathe();
+      scratch.trim();
       return static_cast<LocalIndex>(std::lower_bound(ends.begin(), ends.end(), row) - ends.begin());
     };
     UnionFind components(scratch.array<LocalIndex>(ends.size()));
@@ -320,14 +319,14 @@ class Tracer {
     const std::span<std::uint32_t> batch_of = scratch.array<std::uint32_t>(ends.size());
     std::vector<std::uint64_t> batch_edges;
     for (std::size_t c = 0; c < ends.size(); ++c) {
-      scratch.breathe();
+      scratch.trim();
       components_ += components.find(static_cast<LocalIndex>(c)) == c;
       if (edge_counts[c] == 0) continue;
       if (batch_edges.empty() || batch_edges.back() + edge_counts[c] > most) batch_edges.push_back(0);
       batch_edges.back() += edge_counts[c];
       batch_of[c] = static_cast<std::uint32_t>(batch_edges.size() - 1);
     }
-    Spill<ComponentEdge> batches(job_.file("batches"), batch_edges.size(), job_.memory.spills / 4);
+    AppendLists<ComponentEdge> batches(job_.file("batches"), batch_edges.size(), job_.memory.spills / 4);
     job_.crew.for_each(tiles_, [&](std::size_t t) {
       std::vector<ComponentEdge> edges = open_edges_.read(t);
       open_edges_.drop(t);
@@ -354,7 +353,7 @@ class Tracer {
   }
 
   static void append_batches(std::vector<ComponentEdge>& edges, std::span<const std::uint32_t> batch_of,
-                             Spill<ComponentEdge>& batches) {
+                             AppendLists<ComponentEdge>& batches) {
     const auto batch = [&](const ComponentEdge& edge) { return batch_of[edge.component]; };
     std::sort(edges.begin(), edges.end(),
               [&](const ComponentEdge& x, const ComponentEdge& y) { return batch(x) < batch(y); });
@@ -378,7 +377,7 @@ class Tracer {
       sort_once(rows);
       for (const Row row : rows) {
         ends[count++] = row;
-        scratch.breathe();
+        scratch.trim();
       }
     }
     return ends.first(count);
@@ -389,10 +388,10 @@ class Tracer {
   std::int64_t e_;
   Job& job_;
   std::size_t tiles_;
-  Spill<SeamEdge> seams_;
-  Spill<ComponentEdge> open_edges_;
-  Spill<Join> joins_;
-  Spill<OpenPart> open_parts_;
+  AppendLists<SeamEdge> seams_;
+  AppendLists<ComponentEdge> open_edges_;
+  AppendLists<Join> joins_;
+  AppendLists<OpenPart> open_parts_;
   TracedLoops traced_;
   std::atomic<std::uint64_t> eligible_edges_ = 0, components_ = 0;
 };

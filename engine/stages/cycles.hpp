@@ -2,8 +2,8 @@
 // graph is known.
 #pragma once
 
-#include "engine/core/scratch.hpp"
 #include "engine/stages/spanning.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <cstdint>
 #include <span>

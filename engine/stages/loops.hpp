@@ -1,8 +1,8 @@
 // loops: closed loops of the spanning graph, by breadth-first search (paper, 5.2).
 #pragma once
 
-#include "engine/core/scratch.hpp"
 #include "engine/stages/spanning.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <functional>
 #include <span>

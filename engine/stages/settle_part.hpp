@@ -2,9 +2,9 @@
 // its loops without knowing the rest.
 #pragma once
 
-#include "engine/core/scratch.hpp"
 #include "engine/data/component.hpp"
 #include "engine/stages/spanning.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <cstdint>
 #include <span>

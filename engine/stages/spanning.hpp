@@ -1,9 +1,9 @@
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 
-#include "engine/core/scratch.hpp"
 #include "engine/data/component.hpp"
 #include "engine/stages/union_find.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <array>
 #include <cstdint>
