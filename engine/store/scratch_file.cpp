@@ -25,11 +25,6 @@ namespace {
   fail(path, "cannot " + action + ": " + std::strerror(error));
 }
 
-[[noreturn]] void fail_short(const std::filesystem::path& path, std::uint64_t end, std::uint64_t written) {
-  fail(path, "the file was cut short during the run: it ends at byte " + std::to_string(end) + ", and " +
-                 std::to_string(written) + " bytes were written");
-}
-
 std::string at_byte(std::uint64_t offset) {
   return " at byte " + std::to_string(offset);
 }
@@ -52,13 +47,15 @@ ScratchFile::~ScratchFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-// Before each write: one beyond the new end would turn what was cut off into zeros.
+// Before each write, too: one beyond the new end would turn what was cut off into zeros.
 void ScratchFile::check_length() const {
   const std::uint64_t written = size_;
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail_with(errno, path_, "read the length");
   const auto length = static_cast<std::uint64_t>(status.st_size);
-  if (length < written) fail_short(path_, length, written);
+  if (length < written)
+    fail(path_, "the file was cut short during the run: " + std::to_string(length) + " of " +
+                    std::to_string(written) + " bytes are left");
 }
 
 void ScratchFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
@@ -87,7 +84,10 @@ void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
     const ssize_t got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail_with(errno, path_, "read" + at_byte(offset));
-    if (got == 0) fail_short(path_, offset, size_);
+    if (got == 0) {
+      check_length();
+      fail(path_, "nothing was written" + at_byte(offset));
+    }
     offset += static_cast<std::uint64_t>(got);
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }

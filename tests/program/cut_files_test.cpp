@@ -50,10 +50,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
                                                         {"stars", "results"},
                                                         {"stars", "vertices"},
                                                         {"stars", "waiting-sight"},
-                                                        {"paper", "strengths"},
-                                                        {"paper", "edges"},
-                                                        {"paper", "crossings"},
-                                                        {"paper", "open-edges"}}) {
+                                                        {"paper", "strengths"}}) {
     INFO(file << ", --method " << method);
     const Run run(method);
     bool was_cut = false;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <malloc.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -87,6 +88,21 @@ TEST_CASE("appends from many threads lose nothing") {
   std::vector<std::uint64_t> expected(160'000);
   std::iota(expected.begin(), expected.end(), 0);
   CHECK(all == expected);
+}
+
+TEST_CASE("many lists on disk in many small pieces take no more memory than their budget and a table") {
+  const ScratchFolder folder;
+  const auto in_use = [] { return ::mallinfo2().uordblks + ::mallinfo2().hblkhd; };
+  const std::size_t before = in_use();
+  constexpr std::uint64_t kLists = 500, kRecords = 500'000;
+  AppendLists<std::uint64_t> lists(folder / "lists", kLists, 0);
+  for (std::uint64_t i = 0; i < kRecords; ++i) lists.append(i % kLists, i);
+  CHECK(in_use() - before < 160 << 10);
+  for (const std::size_t list : {0, 1, 499}) {
+    const std::vector<std::uint64_t> read = lists.read(list);
+    REQUIRE(read.size() == kRecords / kLists);
+    for (std::size_t i = 0; i < read.size(); ++i) REQUIRE(read[i] == i * kLists + list);
+  }
 }
 
 TEST_CASE("lists whose file was cut short are an error to read and to append to, never zeros") {
