@@ -45,7 +45,7 @@ class AppendBytes {
     std::uint64_t offset = 0, size = 0;  // size 0: none
   };
   struct List {
-    std::vector<std::byte> buffer;  // empty, or room for an extent's link and then what was appended
+    std::vector<std::byte> buffer;  // empty, or space for an Extent and then what was appended
     Extent last;                    // the latest on disk
     std::uint64_t size = 0;
 
