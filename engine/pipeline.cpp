@@ -78,7 +78,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
 
   // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer keeps
   // what it needs of an evaluated tile.
-  Spill<Link> halo = link_tiles(store, job);
+  AppendLists<Link> halo = link_tiles(store, job);
   Candidates candidates(store, job);
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
   std::optional<PointResults> points;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/boundary/candidates.hpp"
-#include "engine/core/row_set.hpp"
+#include "engine/store/row_set.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/loops/loop_points.hpp"
 #include "engine/loops/raw_loops.hpp"

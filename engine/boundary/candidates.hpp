@@ -2,10 +2,10 @@
 #pragma once
 
 #include "engine/boundary/coherence.hpp"
-#include "engine/core/point_column.hpp"
-#include "engine/core/row_set.hpp"
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/point_column.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/loops/raw_loops.hpp"
 #include "engine/passes/job.hpp"
@@ -41,7 +41,7 @@ class Candidates final : public TileConsumer {
 
  private:
   const Tiling& tiling_;
-  Spill<StoredCandidate> lists_;
+  AppendLists<StoredCandidate> lists_;
   std::vector<std::vector<TileIndex>> dependents_;  // of each tile: those with candidates that depend on it
   std::mutex mutex_;
 };

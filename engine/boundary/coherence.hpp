@@ -1,7 +1,7 @@
 // coherence: a candidate stays boundary only while both of its gap neighbours are (paper, 5.1).
 #pragma once
 
-#include "engine/core/row_set.hpp"
+#include "engine/store/row_set.hpp"
 
 #include <span>
 

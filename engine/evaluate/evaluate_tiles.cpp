@@ -176,7 +176,7 @@ double Totals::mean_edge_length() const {
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
 }
 
-Totals evaluate_tiles(const TileStore& store, Spill<Link> halo, double eps, double extent,
+Totals evaluate_tiles(const TileStore& store, AppendLists<Link> halo, double eps, double extent,
                       std::span<TileConsumer* const> consumers, Job& job) {
   const Tiling& tiling = store.tiling();
   Totals totals{.length_unit = length_unit(extent)};

@@ -1,8 +1,8 @@
 // evaluate, over all tiles: every point judged from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/passes/links.hpp"
@@ -28,7 +28,7 @@ struct Totals {
 };
 
 // Consumes the halo. `eps`: a length, 0: off. `extent`: the largest distance between points.
-Totals evaluate_tiles(const TileStore& store, Spill<Link> halo, double eps, double extent,
+Totals evaluate_tiles(const TileStore& store, AppendLists<Link> halo, double eps, double extent,
                       std::span<TileConsumer* const> consumers, Job& job);
 
 }  // namespace lacuna

@@ -2,8 +2,8 @@
 // of the tile stays: the neighbour graph never touches the disk.
 #pragma once
 
-#include "engine/core/file.hpp"
-#include "engine/core/point_column.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/point_column.hpp"
 #include "engine/data/component.hpp"
 #include "engine/data/evaluation.hpp"
 #include "engine/data/neighbourhoods.hpp"

@@ -2,7 +2,7 @@
 // so measuring loops does not read the tile store again.
 #pragma once
 
-#include "engine/core/spill.hpp"
+#include "engine/store/append_lists.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct StoredVertex {
 };
 
 // By tile, in ascending owned index.
-using LoopPointLists = Spill<StoredVertex>;
+using LoopPointLists = AppendLists<StoredVertex>;
 
 // Appends the owned points that are wanted.
 inline void add_loop_points(LoopPointLists& lists, const EvaluatedTile& tile,

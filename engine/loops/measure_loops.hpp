@@ -1,7 +1,7 @@
 // Loops measured: the points of each joined with what the evaluation said of them.
 #pragma once
 
-#include "engine/core/tile_store.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/data/loop.hpp"
 #include "engine/loops/loop_points.hpp"
 #include "engine/loops/raw_loops.hpp"

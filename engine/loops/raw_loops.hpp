@@ -1,8 +1,8 @@
 // Loops as they are found, by either method.
 #pragma once
 
-#include "engine/core/file.hpp"
 #include "engine/data/component.hpp"
+#include "engine/store/column.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -41,7 +41,7 @@ class RawLoops {
   };
   double min_confidence_;
   std::uint64_t found_ = 0;
-  GrowingColumn<Vertex> vertices_;
+  Column<Vertex> vertices_;
   std::vector<Entry> index_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };

@@ -1,10 +1,10 @@
 // The first two passes: where the points are, and the points themselves sorted into tiles on disk.
 #pragma once
 
-#include "engine/core/tile_store.hpp"
 #include "engine/data/points.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/stages/survey.hpp"
+#include "engine/store/tile_store.hpp"
 
 namespace lacuna {
 

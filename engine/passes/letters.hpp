@@ -1,8 +1,8 @@
 // Records on their way to other tiles.
 #pragma once
 
-#include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
+#include "engine/store/append_lists.hpp"
 
 #include <map>
 #include <vector>
@@ -14,7 +14,7 @@ namespace lacuna {
 template <class Record>
 class Letters {
  public:
-  explicit Letters(Spill<Record>& lists) : lists_(lists) {}
+  explicit Letters(AppendLists<Record>& lists) : lists_(lists) {}
 
   void add(TileIndex to, const Record& record) {
     constexpr std::size_t kMost = 1 << 14;
@@ -30,7 +30,7 @@ class Letters {
   }
 
  private:
-  Spill<Record>& lists_;
+  AppendLists<Record>& lists_;
   std::map<TileIndex, std::vector<Record>> letters_;
   std::size_t gathered_ = 0;
 };

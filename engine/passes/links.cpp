@@ -162,7 +162,7 @@ class BorderPlan {
 
 class Linker {
  public:
-  Linker(const TileStore& store, std::size_t k, TileIndex tile, Spill<Link>& inboxes)
+  Linker(const TileStore& store, std::size_t k, TileIndex tile, AppendLists<Link>& inboxes)
       : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), letters_(inboxes) {}
 
   void link_group(const Group& group) {
@@ -292,13 +292,13 @@ class Linker {
 
 }  // namespace
 
-Spill<Link> link_tiles(const TileStore& store, Job& job) {
+AppendLists<Link> link_tiles(const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
   Phase phase(job, "links", tiling.points());
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(tile.points));
-  Spill<Link> inboxes(job.file("links"), tiling.tiles.size(), job.memory.spills / 2);
+  AppendLists<Link> inboxes(job.file("links"), tiling.tiles.size(), job.memory.spills / 2);
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarReach / 4);

@@ -1,9 +1,9 @@
 // Links between tiles: who has whom among its nearest neighbours, across the border.
 #pragma once
 
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
 #include "engine/passes/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 
 namespace lacuna {
 
@@ -22,6 +22,6 @@ struct Link {
 // foreign cell. Their exact neighbours are searched among all cells within that reach, so no halo is taken
 // on trust. Where the reach holds too many points (lone outliers, whose neighbours are far), a point's
 // neighbours are found one cell after the other instead, nearest cell first.
-Spill<Link> link_tiles(const TileStore& store, Job& job);
+AppendLists<Link> link_tiles(const TileStore& store, Job& job);
 
 }  // namespace lacuna

@@ -253,8 +253,8 @@ class Seams {
   const Tiling& tiling_;
   std::vector<std::uint8_t> is_found_, is_measured_;  // of tiles: all their waiting stars are
   RowSet told_;                                       // border points that have told of the sampling
-  Spill<ToldSampling> samplings_;
-  Spill<Claim> claims_;
+  AppendLists<ToldSampling> samplings_;
+  AppendLists<Claim> claims_;
 };
 
 }  // namespace

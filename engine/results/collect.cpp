@@ -1,6 +1,6 @@
 #include "engine/results/collect.hpp"
 
-#include "engine/core/external_sort.hpp"
+#include "engine/store/sorted_runs.hpp"
 #include "engine/passes/letters.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct StoredBoundary {
   friend bool operator<(const StoredBoundary& a, const StoredBoundary& b) { return a.point.id < b.point.id; }
 };
 
-using BoundarySort = ExternalSort<StoredBoundary, std::less<StoredBoundary>>;
+using BoundarySort = SortedRuns<StoredBoundary>;
 
 class WorkspaceDetection final : public Detection {
  public:
@@ -104,7 +104,7 @@ class WorkspaceDetection final : public Detection {
     const StoredBoundary& next() { return records_[at_++]; }
 
    private:
-    RunReader<StoredBoundary> records_;
+    ColumnReader<StoredBoundary> records_;
     std::uint64_t at_ = 0;
   };
 
@@ -129,7 +129,7 @@ class WorkspaceDetection final : public Detection {
 
 // Every point on a loop, to its tile.
 void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
-                Spill<Mark>& marks) {
+                AppendLists<Mark>& marks) {
   Letters<Mark> letters(marks);
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
@@ -147,7 +147,7 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
 
 // A tile's points that are coherent or belong to the boundary, each once.
 std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& findings, const Tile& tile,
-                                TileIndex t, const Spill<Mark>& loop_marks) {
+                                TileIndex t, const AppendLists<Mark>& loop_marks) {
   std::vector<Mark> marks = loop_marks.read(t);
   for (const StoredCandidate& c : candidates.read(t)) {
     const Row row = c.candidate.row;
@@ -186,7 +186,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
   {
     Phase phase(job, "collect", tiling.points());
-    Spill<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
+    AppendLists<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
     mark_loops(loops, selected, tiling, marks);
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/boundary/candidates.hpp"
-#include "engine/core/row_set.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/data/detection.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/passes/job.hpp"

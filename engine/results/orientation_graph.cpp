@@ -1,7 +1,7 @@
 #include "engine/results/orientation_graph.hpp"
 
-#include "engine/core/external_sort.hpp"
-#include "engine/core/scratch.hpp"
+#include "engine/store/sorted_runs.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/results/orient.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class SignedUnionFind {
   };
 
   Place find(std::uint64_t x) {
-    scratch_.breathe();
+    scratch_.trim();
     bool opposed = false;
     while (links_[x] != 0) {
       const std::uint64_t up = parent(x);
@@ -54,7 +54,7 @@ class SignedUnionFind {
   std::span<std::uint64_t> links_;
 };
 
-using EdgeSort = ExternalSort<OrientationEdge, std::less<OrientationEdge>>;
+using EdgeSort = SortedRuns<OrientationEdge>;
 
 void add_crossings(std::vector<OrientationCrossing> crossings, const Column<StoredNormal>& normals,
                    const TileStore& store, TileIndex t, EdgeSort& edges) {
@@ -64,7 +64,7 @@ void add_crossings(std::vector<OrientationCrossing> crossings, const Column<Stor
   const Tile& tile = store.tiling().tiles[t];
   const std::vector<StoredPoint> points = store.points(t);
   const std::vector<StoredNormal> own = normals.read(value(tile.first_row), tile.points);
-  RunReader<StoredNormal> foreign(normals);
+  ColumnReader<StoredNormal> foreign(normals);
   for (const OrientationCrossing& c : crossings) {
     const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
     if (!other.allFinite()) continue;

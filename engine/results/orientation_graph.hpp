@@ -1,9 +1,9 @@
 // Consistent orientation of the normals over all tiles (Hoppe et al. 1992), exact.
 #pragma once
 
-#include "engine/core/row_set.hpp"
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/data/orientation.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/passes/job.hpp"
@@ -33,8 +33,8 @@ class OrientationGraph final : public TileConsumer {
 
  private:
   const TileStore& store_;
-  Spill<OrientationEdge> forests_;         // by tile
-  Spill<OrientationCrossing> crossings_;   // by tile
+  AppendLists<OrientationEdge> forests_;         // by tile
+  AppendLists<OrientationCrossing> crossings_;   // by tile
   Column<StoredNormal> normals_;           // by row
 };
 

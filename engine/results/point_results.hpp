@@ -1,8 +1,8 @@
 // Results of every point of the input, for points.ply.
 #pragma once
 
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/criteria/criterion.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/passes/job.hpp"
@@ -40,7 +40,7 @@ class PointResults final : public TileConsumer {
 
  private:
   const TileStore& store_;
-  Spill<StoredResult> lists_;
+  AppendLists<StoredResult> lists_;
 };
 
 }  // namespace lacuna

@@ -2,10 +2,10 @@
 // told of theirs.
 #pragma once
 
-#include "engine/core/row_set.hpp"
 #include "engine/data/stored_stars.hpp"
 #include "engine/data/tiling.hpp"
 #include "engine/stages/stars.hpp"
+#include "engine/store/row_set.hpp"
 
 #include <cstdint>
 #include <functional>

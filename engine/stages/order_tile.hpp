@@ -1,8 +1,8 @@
 // order_tile: a tile's points in cell order, without exact duplicates.
 #pragma once
 
-#include "engine/core/tile_store.hpp"
 #include "engine/data/tiling.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,9 +1,9 @@
 // survey: counts points per cell while they stream by.
 #pragma once
 
-#include "engine/core/point_column.hpp"
 #include "engine/data/points.hpp"
 #include "engine/data/tiling.hpp"
+#include "engine/store/point_column.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -56,7 +56,7 @@ std::span<Row> Components::sorted_ends(Scratch& scratch) const {
   for (std::size_t t = 0; t < tiles_; ++t) {
     const std::vector<Row> of_tile = ends_.read(t);
     end = std::copy(of_tile.begin(), of_tile.end(), end);
-    scratch.breathe();
+    scratch.trim();
   }
   return ends;
 }
@@ -64,7 +64,7 @@ std::span<Row> Components::sorted_ends(Scratch& scratch) const {
 Components::Batches Components::join(std::uint64_t most_records, Scratch& scratch) {
   const std::span<const Row> ends = sorted_ends(scratch);
   const auto index_of = [&](Row row) {
-    scratch.breathe();
+    scratch.trim();
     const auto at = std::lower_bound(ends.begin(), ends.end(), row);
     assert(at != ends.end() && *at == row);  // both tiles have every crossing edge
     return static_cast<LocalIndex>(at - ends.begin());
@@ -90,7 +90,7 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
 
   const std::span<std::uint32_t> batch_of = scratch.array<std::uint32_t>(ends.size());
   for (LocalIndex c = 0; c < ends.size(); ++c) {
-    scratch.breathe();
+    scratch.trim();
     count_ += components.find(c) == c;
     if (records[c] == 0) continue;
     if (batches.records.empty() || batches.records.back() + records[c] > most_records) batches.records.push_back(0);

@@ -2,8 +2,8 @@
 // ends of the edges that cross.
 #pragma once
 
-#include "engine/core/scratch.hpp"
-#include "engine/core/spill.hpp"
+#include "engine/store/scratch.hpp"
+#include "engine/store/append_lists.hpp"
 #include "engine/data/tiling.hpp"
 #include "engine/passes/job.hpp"
 #include "engine/stitch/union_find.hpp"
@@ -64,9 +64,9 @@ class Components {
   std::span<Row> sorted_ends(Scratch& scratch) const;
 
   std::size_t tiles_;
-  Spill<OpenPart> parts_;
-  Spill<Row> ends_;    // own ends of crossing edges, ascending, each once
-  Spill<Join> joins_;  // of ends in one component
+  AppendLists<OpenPart> parts_;
+  AppendLists<Row> ends_;    // own ends of crossing edges, ascending, each once
+  AppendLists<Join> joins_;  // of ends in one component
   std::atomic<std::uint64_t> count_ = 0;
 };
 

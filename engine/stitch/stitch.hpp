@@ -66,7 +66,7 @@ class Stitch {
     const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
     const Components::Batches batches =
         components_.join(std::max<std::uint64_t>(fits / job_.crew.threads(), 1), scratch);
-    Spill<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
+    AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
     job_.crew.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
 
     std::vector<std::uint64_t> needs;
@@ -89,7 +89,7 @@ class Stitch {
     Record record;
   };
 
-  void distribute(std::size_t tile, const Components::Batches& batches, Spill<Member>& lists) {
+  void distribute(std::size_t tile, const Components::Batches& batches, AppendLists<Member>& lists) {
     std::vector<Member> members = open_.read(tile);
     open_.drop(tile);
     for (Member& m : members) m.component = batches.component_of[batches.first_part[tile] + m.component];
@@ -118,7 +118,7 @@ class Stitch {
   std::uint64_t record_bytes_;
   Job& job_;
   Components components_;
-  Spill<Member> open_;
+  AppendLists<Member> open_;
 };
 
 }  // namespace lacuna

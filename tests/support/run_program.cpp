@@ -31,7 +31,7 @@ std::uint64_t peak_resident(pid_t process) {
   return 0;
 }
 
-ProgramResult run_until(std::vector<std::string> words, int signal, const std::function<bool()>& moment) {
+ProgramResult run(std::vector<std::string> words, const std::function<void(pid_t)>& meanwhile) {
   const ScratchFolder scratch;
   const std::filesystem::path out = scratch / "out";
   const std::filesystem::path err = scratch / "err";
@@ -50,14 +50,10 @@ ProgramResult run_until(std::vector<std::string> words, int signal, const std::f
 
   int status = 0;
   std::uint64_t peak = 0;
-  bool sent = false;
   while (waitpid(child, &status, WNOHANG) == 0) {
     // The last look counts: an early one may see the child before it is the program.
     if (const std::uint64_t resident = peak_resident(child)) peak = resident;
-    if (signal != 0 && !sent && moment()) {
-      kill(child, signal);
-      sent = true;
-    }
+    meanwhile(child);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const int exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
@@ -67,18 +63,28 @@ ProgramResult run_until(std::vector<std::string> words, int signal, const std::f
 }  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& arguments) {
-  return run_program_until(arguments, 0, [] { return false; });
+  return run_program_beside(arguments, [](pid_t) {});
 }
 
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
                                 const std::function<bool()>& moment) {
+  bool sent = false;
+  return run_program_beside(arguments, [&](pid_t program) {
+    if (sent || !moment()) return;
+    kill(program, signal);
+    sent = true;
+  });
+}
+
+ProgramResult run_program_beside(const std::vector<std::string>& arguments,
+                                 const std::function<void(pid_t)>& meanwhile) {
   std::vector<std::string> words = {LACUNA_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  return run_until(std::move(words), signal, moment);
+  return run(std::move(words), meanwhile);
 }
 
 ProgramResult run_command(const std::vector<std::string>& words) {
-  return run_until(words, 0, [] { return false; });
+  return run(words, [](pid_t) {});
 }
 
 std::size_t count_lines(const std::string& text) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace lacuna::test {
 
 struct ProgramResult {
@@ -25,6 +27,10 @@ ProgramResult run_command(const std::vector<std::string>& words);
 // Sends `signal` as soon as `moment` returns true; without it, if the program ends first.
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
                                 const std::function<bool()>& moment);
+
+// Calls meanwhile(process) every millisecond until the program ends.
+ProgramResult run_program_beside(const std::vector<std::string>& arguments,
+                                 const std::function<void(pid_t)>& meanwhile);
 
 std::size_t count_lines(const std::string& text);
 

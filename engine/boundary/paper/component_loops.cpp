@@ -1,8 +1,8 @@
 #include "engine/boundary/paper/component_loops.hpp"
 
 #include "engine/boundary/paper/order_edges.hpp"
-#include "engine/core/external_sort.hpp"
-#include "engine/core/row_numbers.hpp"
+#include "engine/store/sorted_runs.hpp"
+#include "engine/store/row_numbers.hpp"
 
 #include <functional>
 
@@ -46,12 +46,12 @@ void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_e
       add(edge.b.row);
     });
   });
-  ExternalSort<BoundaryEdge, std::less<BoundaryEdge>> sorted(job.file("large-edges"),
+  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"),
                                                                job.memory.global / 4);
   Scratch scratch(job.workspace, job.memory.global * 5 / 8);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {
-    scratch.breathe();
+    scratch.trim();
     sorted.add(edge);
     ids[rows.number(edge.a.row)] = edge.a.id;
     ids[rows.number(edge.b.row)] = edge.b.id;

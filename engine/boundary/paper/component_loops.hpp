@@ -3,7 +3,7 @@
 
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/data/component.hpp"
 #include "engine/loops/raw_loops.hpp"
 #include "engine/passes/job.hpp"

@@ -36,7 +36,7 @@ class Cycles {
     parent_[root] = root;
     enter(v);
     for (;;) {
-      scratch_.breathe();
+      scratch_.trim();
       if (next_[v] < graph_[v].size()) {
         const LocalIndex w = graph_[v][next_[v]++];
         if (entered_[w] == 0) {
@@ -116,7 +116,7 @@ SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch) {
   const auto indices = scratch.array<LocalIndex>(graph.indices.size());
   std::uint64_t end = 0;
   for (LocalIndex v = 0; v < graph.size(); ++v) {
-    scratch.breathe();
+    scratch.trim();
     for (const LocalIndex w : graph[v]) {
       if (cycles.keeps(v, w)) indices[end++] = w;
     }

@@ -2,7 +2,7 @@
 // graph is known.
 #pragma once
 
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/boundary/paper/spanning.hpp"
 
 #include <cstdint>

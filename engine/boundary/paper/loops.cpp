@@ -26,7 +26,7 @@ class Search {
     seen_[origin] = stamp_;
     queue_[tail++] = origin;
     while (head < tail) {
-      scratch_.breathe();
+      scratch_.trim();
       const LocalIndex v = queue_[head++];
       for (const LocalIndex w : graph_[v]) {
         if (seen_[w] != stamp_) {
@@ -70,7 +70,7 @@ void find_loops(const SpanningGraph& graph, Scratch& scratch,
   if (cycles.indices.empty()) return;
   std::vector<LocalIndex> origins;
   for (LocalIndex v = 0; v < graph.size(); ++v) {
-    scratch.breathe();
+    scratch.trim();
     if (!cycles[v].empty()) origins.push_back(v);
   }
   std::sort(origins.begin(), origins.end(),

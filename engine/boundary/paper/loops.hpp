@@ -1,7 +1,7 @@
 // loops: closed loops of the spanning graph, by breadth-first search (paper, 5.2).
 #pragma once
 
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/boundary/paper/spanning.hpp"
 
 #include <functional>

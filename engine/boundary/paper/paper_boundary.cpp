@@ -98,7 +98,7 @@ void PaperBoundary::decide_crossings(TileIndex t) {
   std::sort(undecided.begin(), undecided.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
-  RunReader<Strength> foreign(strengths_);
+  ColumnReader<Strength> foreign(strengths_);
   std::vector<EligibleCrossing> here;
   for (const StoredCrossing& c : undecided) {
     const Strength& other = foreign[value(c.foreign.row)];

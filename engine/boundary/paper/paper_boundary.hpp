@@ -4,7 +4,7 @@
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/stitch/stitch.hpp"
 
 #include <cstdint>
@@ -44,9 +44,9 @@ class PaperBoundary final : public BoundaryMethod {
   void span_tile(TileIndex tile, std::int64_t e, Stitch<BoundaryEdge>& stitch, FoundLoops& found, Job& job);
 
   const Tiling& tiling_;
-  Spill<TileEdge> inside_;             // eligible ones, by tile
-  Spill<StoredCrossing> undecided_;    // by tile
-  Spill<EligibleCrossing> crossings_;  // by tile
+  AppendLists<TileEdge> inside_;             // eligible ones, by tile
+  AppendLists<StoredCrossing> undecided_;    // by tile
+  AppendLists<EligibleCrossing> crossings_;  // by tile
   Column<Strength> strengths_;         // by row, of points with foreign neighbours
   const SpanningConfig& config_;
 };

@@ -2,7 +2,7 @@
 // its loops without knowing the rest.
 #pragma once
 
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/data/component.hpp"
 #include "engine/boundary/paper/spanning.hpp"
 

@@ -28,7 +28,7 @@ Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratc
 }
 
 Verdict Spanning::add(LocalEdge edge) {
-  scratch_.breathe();
+  scratch_.trim();
   const auto [a, b] = edge;
   if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
   if (may_connect_outside(a, b)) {
@@ -122,7 +122,7 @@ bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
   bool met = false;
   next_.clear();
   for (const LocalIndex v : near_) {
-    scratch_.breathe();
+    scratch_.trim();
     for_each_neighbour(nodes_[v], [&](LocalIndex w) {
       std::uint32_t& mark = nodes_[w].mark;
       if (mark == there) met = true;
@@ -145,7 +145,7 @@ SpanningGraph Spanning::finish() {
   const auto indices = scratch_.array<LocalIndex>(half_edges_);
   std::uint64_t end = 0;
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
-    scratch_.breathe();
+    scratch_.trim();
     const std::uint64_t begin = end;
     for_each_neighbour(nodes_[v], [&](LocalIndex w) { indices[end++] = w; });
     const auto row = indices.subspan(begin, end - begin);

@@ -1,7 +1,7 @@
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 #include "engine/data/component.hpp"
 #include "engine/stitch/union_find.hpp"
 

@@ -1,6 +1,6 @@
 #include "engine/boundary/tangential/curves.hpp"
 
-#include "engine/core/row_numbers.hpp"
+#include "engine/store/row_numbers.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "engine/boundary/tangential/star_lists.hpp"
 
-#include "engine/core/merge_runs.hpp"
+#include "engine/store/merge_runs.hpp"
 
 #include <utility>
 

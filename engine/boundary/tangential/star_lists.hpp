@@ -1,10 +1,10 @@
 // Stars on their way across tiles: what a tile alone knows of its stars, and what its borders leave open.
 #pragma once
 
-#include "engine/core/file.hpp"
-#include "engine/core/row_set.hpp"
-#include "engine/core/spill.hpp"
-#include "engine/core/tile_store.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/data/stored_stars.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/passes/job.hpp"
@@ -40,8 +40,8 @@ class StarSpill {
   void drop(TileIndex tile);
 
  private:
-  Spill<StoredStar> stars_;
-  Spill<StoredCorner> corners_;
+  AppendLists<StoredStar> stars_;
+  AppendLists<StoredCorner> corners_;
 };
 
 // What the default method keeps of the tiles; lists are by tile unless said otherwise.
@@ -50,17 +50,17 @@ struct StarLists {
 
   void drop_waiting(TileIndex tile);  // all but the gaps
 
-  Spill<WaitingPoint> waiting;                 // in ascending owned index
-  Spill<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
-  Spill<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
+  AppendLists<WaitingPoint> waiting;                 // in ascending owned index
+  AppendLists<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
+  AppendLists<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
   std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
   Column<Seat> seats;                          // by row, of border points and their neighbours
   RowSet rough;
   RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
   StarSpill found;       // stars of waiting points as they are found
   StarSpill open;        // measured stars
-  Spill<Gap> gaps;       // of settled ones
-  Spill<Gap> open_gaps;  // of the others (passes/seams)
+  AppendLists<Gap> gaps;       // of settled ones
+  AppendLists<Gap> open_gaps;  // of the others (passes/seams)
 };
 
 }  // namespace lacuna

@@ -2,7 +2,7 @@
 
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
-#include "engine/core/merge_runs.hpp"
+#include "engine/store/merge_runs.hpp"
 #include "engine/passes/seams.hpp"
 
 #include <algorithm>

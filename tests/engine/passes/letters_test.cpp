@@ -14,7 +14,7 @@ using test::ScratchFolder;
 
 TEST_CASE("every record arrives at its tile in the order in which it was added, and few are held back") {
   const ScratchFolder folder;
-  Spill<std::uint32_t> lists(folder / "lists", 3, 1 << 20);
+  AppendLists<std::uint32_t> lists(folder / "lists", 3, 1 << 20);
   std::vector<std::vector<std::uint32_t>> wanted(3);
   Letters<std::uint32_t> letters(lists);
   Random random(1);

@@ -1,4 +1,4 @@
-#include "engine/core/row_numbers.hpp"
+#include "engine/store/row_numbers.hpp"
 
 #include "tests/support/clouds.hpp"
 

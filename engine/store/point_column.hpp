@@ -1,8 +1,8 @@
 // The points of the tile store on disk: one per row, in half of the bytes where nothing is lost by it.
 #pragma once
 
-#include "engine/core/file.hpp"
 #include "engine/data/ids.hpp"
+#include "engine/store/column.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -41,7 +41,8 @@ class PointColumn {
   };
   void write_single(Column<SinglePoint>& column, std::uint64_t row, std::span<const StoredPoint> points);
 
-  std::variant<Column<SinglePoint>, Column<StoredPoint>> column_;
+  using Columns = std::variant<Column<SinglePoint>, Column<StoredPoint>>;
+  Columns column_;
 };
 
 }  // namespace lacuna

@@ -2,11 +2,11 @@
 // the cells around it are a few.
 #pragma once
 
-#include "engine/core/column_filler.hpp"
-#include "engine/core/file.hpp"
-#include "engine/core/point_column.hpp"
-#include "engine/core/spill.hpp"
 #include "engine/data/tiling.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/column_filler.hpp"
+#include "engine/store/point_column.hpp"
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,7 @@ class TileStore {
   bool has_normals_;
   PointColumn points_;
   Column<StoredNormal> normals_;
-  Spill<Duplicate> duplicates_;
+  AppendLists<Duplicate> duplicates_;
 };
 
 template <class Visit>

@@ -1,4 +1,4 @@
-#include "engine/core/tile_store.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include "engine/core/error.hpp"
 

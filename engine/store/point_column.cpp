@@ -1,4 +1,4 @@
-#include "engine/core/point_column.hpp"
+#include "engine/store/point_column.hpp"
 
 #include "engine/core/error.hpp"
 
@@ -14,9 +14,9 @@ constexpr std::size_t kPart = 4096;
 }  // namespace
 
 PointColumn::PointColumn(std::filesystem::path path, Precision precision)
-    : column_(std::in_place_type<Column<StoredPoint>>, path) {
-  if (precision == Precision::kSingle) column_.emplace<Column<SinglePoint>>(std::move(path));
-}
+    : column_(precision == Precision::kSingle
+                  ? Columns(std::in_place_type<Column<SinglePoint>>, std::move(path))
+                  : Columns(std::in_place_type<Column<StoredPoint>>, std::move(path))) {}
 
 void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) {
   if (auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {

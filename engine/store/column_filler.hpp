@@ -5,7 +5,7 @@
 // is full. Pieces together stay within the memory given, and none is larger than makes a write cheaper.
 #pragma once
 
-#include "engine/core/file.hpp"
+#include "engine/store/column.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Points on disk come back as they were, in either precision.
-#include "engine/core/point_column.hpp"
+#include "engine/store/point_column.hpp"
 
 #include "engine/core/error.hpp"
 #include "engine/stages/survey.hpp"

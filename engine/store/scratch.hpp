@@ -1,5 +1,5 @@
-// Flat arrays for the global stage: in memory while they are small, else mapped from a file of the
-// workspace, so that algorithms see plain spans either way.
+// Flat arrays for the global stage: in memory while they are small, else mapped from files, so that
+// algorithms have plain spans either way.
 #pragma once
 
 #include <cstddef>
@@ -29,12 +29,15 @@ class Scratch {
 
   // To be called now and then from loops over the arrays (every call is one decrement): gives part of
   // the mapped pages back to the system while they are more than the budget. What they hold stays.
-  void breathe() {
-    if (--breaths_left_ == 0) release();
+  void trim() {
+    if (--trims_left_ == 0) release();
   }
 
  private:
-  struct Mapping;
+  struct Mapping {
+    std::byte* address;
+    std::size_t bytes;
+  };
   std::byte* allocate(std::size_t bytes);
   void release();
 
@@ -43,7 +46,7 @@ class Scratch {
   std::uint64_t in_memory_ = 0;
   std::uint64_t mapped_before_ = 0;  // of other files: the program and its libraries
   std::uint64_t next_part_ = 0;
-  std::uint64_t breaths_left_;
+  std::uint64_t trims_left_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::vector<Mapping> mappings_;
 };

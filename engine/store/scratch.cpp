@@ -1,12 +1,9 @@
-#include "engine/core/scratch.hpp"
+#include "engine/store/scratch.hpp"
 
-#include "engine/core/error.hpp"
-#include "engine/core/file.hpp"
+#include "engine/store/scratch_file.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <cstring>
 #include <sstream>
 #include <string>
 
@@ -15,17 +12,10 @@
 #include <unistd.h>
 
 namespace lacuna {
-
-struct Scratch::Mapping {
-  std::unique_ptr<ScratchFile> file;
-  std::byte* address;
-  std::size_t bytes;
-};
-
 namespace {
 
-// Breaths between two looks at how much is resident. A fault may map a 64 KiB window of pages.
-constexpr std::uint64_t kBreaths = 256;
+// Calls of trim() between two looks at how much is resident. A fault may map a 64 KiB window of pages.
+constexpr std::uint64_t kTrims = 256;
 
 // Parts of each mapping that are given back in turn: most of what is in use stays.
 constexpr std::uint64_t kParts = 8;
@@ -49,7 +39,7 @@ std::string unique_name() {
 }  // namespace
 
 Scratch::Scratch(std::filesystem::path folder, std::uint64_t budget)
-    : folder_(std::move(folder)), budget_(budget), breaths_left_(kBreaths) {}
+    : folder_(std::move(folder)), budget_(budget), trims_left_(kTrims) {}
 
 Scratch::~Scratch() {
   for (const Mapping& mapping : mappings_) ::munmap(mapping.address, mapping.bytes);
@@ -62,23 +52,15 @@ std::byte* Scratch::allocate(std::size_t bytes) {
     return blocks_.emplace_back(new std::byte[bytes]()).get();
   }
   if (mappings_.empty()) mapped_before_ = resident_mapped();
-  auto file = std::make_unique<ScratchFile>(folder_ / unique_name());
-  // posix_fallocate rather than a sparse file: a full disk is an error here, not a SIGBUS later.
-  if (const int error = ::posix_fallocate(file->descriptor(), 0, static_cast<off_t>(bytes)); error != 0) {
-    throw Error(file->path().string() + ": cannot reserve " + std::to_string(bytes) +
-                " bytes: " + std::strerror(error));
-  }
-  void* address = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file->descriptor(), 0);
-  if (address == MAP_FAILED) {
-    throw Error(file->path().string() + ": cannot map: " + std::strerror(errno));
-  }
+  // The mapping alone keeps the file: it has no name and no descriptor by which anyone could cut it short.
+  std::byte* const address = ScratchFile(folder_ / unique_name()).map(bytes);
   ::madvise(address, bytes, MADV_RANDOM);  // no read-around: a fault brings in what was asked for
-  mappings_.push_back({std::move(file), static_cast<std::byte*>(address), bytes});
-  return mappings_.back().address;
+  mappings_.push_back({address, bytes});
+  return address;
 }
 
 void Scratch::release() {
-  breaths_left_ = kBreaths;
+  trims_left_ = kTrims;
   if (mappings_.empty() || resident_mapped() < mapped_before_ + budget_ - in_memory_) return;
   const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   for (const Mapping& mapping : mappings_) {

@@ -1,0 +1,116 @@
+#include "engine/store/append_lists.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <cstring>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint64_t kLeastBudget = 1 << 16;
+
+}  // namespace
+
+AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
+    : file_(std::move(path)), lists_(lists) {
+  const std::uint64_t table = lists * sizeof(List);
+  budget_ = std::max(budget - std::min(table, budget), kLeastBudget);
+}
+
+void AppendBytes::append(std::size_t index, std::span<const std::byte> bytes) {
+  const std::lock_guard lock(*mutex_);
+  List& list = lists_[index];
+  const std::size_t before = list.buffer.capacity();
+  if (list.buffer.empty()) {
+    list.buffer.reserve(sizeof(Extent) + bytes.size());
+    list.buffer.resize(sizeof(Extent));
+  }
+  list.buffer.insert(list.buffer.end(), bytes.begin(), bytes.end());
+  list.size += bytes.size();
+  buffered_ += list.buffer.capacity() - before;
+  if (buffered_ > budget_) relieve();
+}
+
+std::uint64_t AppendBytes::size(std::size_t list) const {
+  const std::lock_guard lock(*mutex_);
+  return lists_[list].size;
+}
+
+// take_tail(place, bytes): what is in memory, under the lock; then take_extent(place, extent) for each
+// extent, the last first, without it.
+template <class TakeTail, class TakeExtent>
+void AppendBytes::walk(std::size_t index, TakeTail&& take_tail, TakeExtent&& take_extent) const {
+  std::uint64_t end;  // of what is not taken yet
+  Extent extent;
+  {
+    const std::lock_guard lock(*mutex_);
+    const List& list = lists_[index];
+    end = list.size - list.tail().size();
+    extent = list.last;
+    take_tail(end, list.tail());
+  }
+  while (end > 0) {
+    if (extent.size == 0 || extent.size > end)
+      throw Error(file_.path().string() + ": the file was changed during the run: a list of it is broken");
+    end -= extent.size;
+    take_extent(end, extent);
+    if (end > 0) file_.read(extent.offset - sizeof(Extent), std::as_writable_bytes(std::span(&extent, 1)));
+  }
+}
+
+void AppendBytes::read(std::size_t list, std::byte* to) const {
+  walk(
+      list, [&](std::uint64_t place, auto tail) { std::copy(tail.begin(), tail.end(), to + place); },
+      [&](std::uint64_t place, const Extent& extent) {
+        file_.read(extent.offset, {to + place, extent.size});
+      });
+}
+
+void AppendBytes::for_each_part(std::size_t list, std::span<std::byte> part,
+                                const std::function<void(std::size_t)>& visit) const {
+  std::vector<std::byte> last;
+  const auto in_parts = [&](std::uint64_t size, auto&& fill) {
+    for (std::uint64_t from = 0, count; from < size; from += count) {
+      count = std::min<std::uint64_t>(part.size(), size - from);
+      fill(from, part.first(count));
+      visit(count);
+    }
+  };
+  walk(
+      list, [&](std::uint64_t, auto tail) { last.assign(tail.begin(), tail.end()); },
+      [&](std::uint64_t, const Extent& extent) {
+        in_parts(extent.size, [&](std::uint64_t from, auto to) { file_.read(extent.offset + from, to); });
+      });
+  in_parts(last.size(),
+           [&](std::uint64_t from, auto to) { std::copy_n(&last[from], to.size(), to.begin()); });
+}
+
+void AppendBytes::drop(std::size_t index) {
+  const std::lock_guard lock(*mutex_);
+  buffered_ -= lists_[index].buffer.capacity();
+  lists_[index] = List{};
+}
+
+void AppendBytes::write_out(List& list) {
+  std::memcpy(list.buffer.data(), &list.last, sizeof(Extent));
+  const std::uint64_t offset = file_.append(list.buffer);
+  list.last = {offset + sizeof(Extent), list.tail().size()};
+  buffered_ -= list.buffer.capacity();
+  std::vector<std::byte>().swap(list.buffer);
+}
+
+// Writes the fullest buffers until half of the budget is free.
+void AppendBytes::relieve() {
+  std::vector<List*> fullest;
+  for (List& list : lists_) {
+    if (list.buffer.capacity() > 0) fullest.push_back(&list);
+  }
+  std::sort(fullest.begin(), fullest.end(),
+            [](const List* a, const List* b) { return a->buffer.capacity() > b->buffer.capacity(); });
+  for (List* list : fullest) {
+    if (buffered_ <= budget_ / 2) break;
+    write_out(*list);
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,103 @@
+// Many append-only lists of records, which together may be larger than memory: one per tile, mostly.
+//
+// Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to
+// the end of the one file, each as an extent of its list, until half of the budget is free. So the file is
+// written in long runs, whatever the order of appends. On disk, each extent is preceded by the place of the
+// list's extent before it: in memory a list is its buffer and 48 bytes, however many extents it has.
+//
+// The order of records within a list depends on threads and budget: a reader sorts them by what they hold.
+// Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
+#pragma once
+
+#include "engine/store/scratch_file.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace lacuna {
+
+class AppendBytes {
+ public:
+  AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget);
+
+  // May be called from any thread; the bytes of one call stay together.
+  void append(std::size_t list, std::span<const std::byte> bytes);
+  std::uint64_t size(std::size_t list) const;  // bytes appended so far
+  std::size_t lists() const { return lists_.size(); }
+  // Not while others append to the same list. to: `size(list)` bytes.
+  void read(std::size_t list, std::byte* to) const;
+  // The same in parts, in any order: visit(bytes) when so many of `part` are filled.
+  void for_each_part(std::size_t list, std::span<std::byte> part,
+                     const std::function<void(std::size_t)>& visit) const;
+  // Frees the list's buffer; what it held is gone.
+  void drop(std::size_t list);
+
+ private:
+  struct Extent {
+    std::uint64_t offset = 0, size = 0;  // size 0: none
+  };
+  struct List {
+    std::vector<std::byte> buffer;  // empty, or space for an Extent and then what was appended
+    Extent last;                    // the latest on disk
+    std::uint64_t size = 0;
+
+    std::span<const std::byte> tail() const {
+      return std::span(buffer).subspan(std::min(buffer.size(), sizeof(Extent)));
+    }
+  };
+  template <class TakeTail, class TakeExtent>
+  void walk(std::size_t list, TakeTail&& take_tail, TakeExtent&& take_extent) const;
+  void write_out(List& list);
+  void relieve();
+
+  ScratchFile file_;
+  std::uint64_t budget_;
+  std::uint64_t buffered_ = 0;
+  std::vector<List> lists_;
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // not held while extents are read
+};
+
+template <class Record>
+class AppendLists {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  // Memory: `budget` bytes, and never less than 64 KiB.
+  AppendLists(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
+      : bytes_(std::move(path), lists, budget) {}
+
+  void append(std::size_t list, std::span<const Record> records) {
+    if (!records.empty()) bytes_.append(list, std::as_bytes(records));
+  }
+  void append(std::size_t list, const Record& record) { append(list, std::span(&record, 1)); }
+  std::uint64_t count(std::size_t list) const { return bytes_.size(list) / sizeof(Record); }
+  std::size_t lists() const { return bytes_.lists(); }
+  std::vector<Record> read(std::size_t list) const {
+    std::vector<Record> records(count(list));
+    bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
+    return records;
+  }
+  // visit(record) for each, in any order, with only a part of them in memory.
+  template <class Visit>
+  void for_each(std::size_t list, Visit&& visit) const {
+    constexpr std::uint64_t kPart = 1 << 14;
+    std::vector<Record> part(std::min(kPart, count(list)));
+    bytes_.for_each_part(list, std::as_writable_bytes(std::span(part)), [&](std::size_t bytes) {
+      for (const Record& record : std::span(part).first(bytes / sizeof(Record))) visit(record);
+    });
+  }
+  void drop(std::size_t list) { bytes_.drop(list); }
+
+ private:
+  AppendBytes bytes_;
+};
+
+}  // namespace lacuna

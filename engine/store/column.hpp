@@ -1,0 +1,71 @@
+// One record of plain data per row, on disk.
+#pragma once
+
+#include "engine/store/scratch_file.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace lacuna {
+
+// Reads and writes may come from several threads, but no read of a row while it is written.
+template <class Record>
+class Column {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  explicit Column(std::filesystem::path path) : file_(std::move(path)) {}
+
+  void write(std::uint64_t row, std::span<const Record> records) {
+    file_.write(row * sizeof(Record), std::as_bytes(records));
+  }
+  // Writes behind all that was appended before; returns the row of the first. A column is appended to or
+  // written by row, not both.
+  std::uint64_t append(std::span<const Record> records) {
+    return file_.append(std::as_bytes(records)) / sizeof(Record);
+  }
+  std::uint64_t size() const { return file_.size() / sizeof(Record); }  // rows, up to the last one written
+
+  // Rows below `size()`; those in between that were never written are zeros.
+  void read(std::uint64_t row, std::span<Record> records) const {
+    file_.read(row * sizeof(Record), std::as_writable_bytes(records));
+  }
+  std::vector<Record> read(std::uint64_t row, std::size_t count) const {
+    std::vector<Record> records(count);
+    read(row, std::span(records));
+    return records;
+  }
+
+ private:
+  ScratchFile file_;
+};
+
+// Records of rows in ascending order, read in runs: for a few here and there.
+template <class Record>
+class ColumnReader {
+ public:
+  explicit ColumnReader(const Column<Record>& column) : column_(column) {}
+
+  const Record& operator[](std::uint64_t row) {
+    constexpr std::uint64_t kRun = 256;
+    if (run_.empty() || row >= first_ + run_.size()) {
+      assert(row < column_.size());
+      first_ = row;
+      run_.resize(std::min(kRun, column_.size() - row));
+      column_.read(row, std::span(run_));
+    }
+    return run_[row - first_];
+  }
+
+ private:
+  const Column<Record>& column_;
+  std::uint64_t first_ = 0;
+  std::vector<Record> run_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,107 @@
+#include "engine/store/scratch_file.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
+  throw Error(path.string() + ": " + problem);
+}
+
+[[noreturn]] void fail_with(int error, const std::filesystem::path& path, const std::string& action) {
+  fail(path, "cannot " + action + ": " + std::strerror(error));
+}
+
+std::string at_byte(std::uint64_t offset) {
+  return " at byte " + std::to_string(offset);
+}
+
+}  // namespace
+
+ScratchFile::ScratchFile(std::filesystem::path path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) fail_with(errno, path_, "create");
+  ::unlink(path_.c_str());
+}
+
+ScratchFile::ScratchFile(ScratchFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_.load()),
+      appended_(other.appended_.load()) {}
+
+ScratchFile::~ScratchFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+// Before each write, too: one beyond the new end would turn what was cut off into zeros.
+void ScratchFile::check_length() const {
+  const std::uint64_t written = size_;
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail_with(errno, path_, "read the length");
+  const auto length = static_cast<std::uint64_t>(status.st_size);
+  if (length < written)
+    fail(path_, "the file was cut short during the run: " + std::to_string(length) + " of " +
+                    std::to_string(written) + " bytes are left");
+}
+
+void ScratchFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;
+  check_length();
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_with(errno, path_, "write" + at_byte(offset));
+    if (written == 0) fail(path_, "cannot write" + at_byte(offset) + ": the system takes no more bytes");
+    offset += static_cast<std::uint64_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  for (std::uint64_t size = size_; size < offset && !size_.compare_exchange_weak(size, offset);) continue;
+}
+
+std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
+  const std::uint64_t offset = appended_.fetch_add(bytes.size());
+  write(offset, bytes);
+  return offset;
+}
+
+void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
+  assert(bytes.empty() || offset + bytes.size() <= size_);
+  while (!bytes.empty()) {
+    const ssize_t got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_with(errno, path_, "read" + at_byte(offset));
+    if (got == 0) {
+      check_length();
+      fail(path_, "nothing was written" + at_byte(offset));
+    }
+    offset += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+}
+
+std::byte* ScratchFile::map(std::size_t bytes) const {
+  // posix_fallocate rather than a sparse file: a full disk is an error here, not a SIGBUS later.
+  int error;
+  do error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
+  while (error == EINTR);
+  if (error != 0) fail_with(error, path_, "reserve " + std::to_string(bytes) + " bytes");
+  void* const address = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+  if (address == MAP_FAILED) fail_with(errno, path_, "map " + std::to_string(bytes) + " bytes");
+  return static_cast<std::byte*>(address);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,125 @@
+// Lists that are appended to, beyond the memory that they have.
+#include "engine/store/append_lists.hpp"
+
+#include "engine/core/error.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/open_files.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+using test::ScratchFolder;
+
+struct Record {
+  std::uint64_t key, payload;
+  friend auto operator<=>(const Record&, const Record&) = default;
+};
+
+TEST_CASE("lists beyond the budget read back all that was appended, each its own") {
+  const ScratchFolder folder;
+  constexpr std::size_t kLists = 37;
+  AppendLists<Record> lists(folder / "lists", kLists, 0);  // the least budget there is
+  std::vector<std::vector<Record>> expected(kLists);
+  Random random(2);
+  std::vector<Record> batch;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const auto list =
+        static_cast<std::size_t>(random.chance(0.5) ? 0 : random.whole(0, kLists - 2));  // one stays empty
+    batch.clear();
+    for (std::int64_t n = random.whole(0, 40); n > 0; --n) batch.push_back({random.next(), i});
+    lists.append(list, batch);
+    expected[list].insert(expected[list].end(), batch.begin(), batch.end());
+    if (i == 2000) {
+      lists.drop(3);
+      expected[3].clear();
+    }
+  }
+  for (std::size_t list = 0; list < kLists; ++list) {
+    INFO("list " << list);
+    std::vector<Record> read = lists.read(list), visited;
+    CHECK(lists.count(list) == expected[list].size());
+    lists.for_each(list, [&](const Record& record) { visited.push_back(record); });
+    std::sort(read.begin(), read.end());
+    std::sort(visited.begin(), visited.end());
+    CHECK(visited == read);
+    std::sort(expected[list].begin(), expected[list].end());
+    CHECK(read == expected[list]);
+  }
+  CHECK(test::has_open(getpid(), "lists"));
+}
+
+TEST_CASE("one thread's appends to a list stay in order") {
+  const ScratchFolder folder;
+  AppendLists<std::uint64_t> lists(folder / "lists", 3, 0);
+  for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
+  for (std::size_t list = 0; list < 3; ++list) {
+    const std::vector<std::uint64_t> read = lists.read(list);
+    CHECK(std::is_sorted(read.begin(), read.end()));
+    CHECK(read.size() == (list == 0 ? 33334u : 33333u));
+  }
+}
+
+TEST_CASE("appends from many threads lose nothing") {
+  const ScratchFolder folder;
+  AppendLists<std::uint64_t> lists(folder / "lists", 5, 0);
+  std::vector<std::thread> threads;
+  for (std::uint64_t t = 0; t < 8; ++t) {
+    threads.emplace_back([&lists, t] {
+      for (std::uint64_t i = 0; i < 20'000; ++i) lists.append((t + i) % 5, t * 20'000 + i);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  std::vector<std::uint64_t> all;
+  for (std::size_t list = 0; list < 5; ++list) {
+    const std::vector<std::uint64_t> read = lists.read(list);
+    all.insert(all.end(), read.begin(), read.end());
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<std::uint64_t> expected(160'000);
+  std::iota(expected.begin(), expected.end(), 0);
+  CHECK(all == expected);
+}
+
+TEST_CASE("many lists on disk in many small pieces take no more memory than their budget and a table") {
+  const ScratchFolder folder;
+  const auto in_use = [] { return ::mallinfo2().uordblks + ::mallinfo2().hblkhd; };
+  const std::size_t before = in_use();
+  constexpr std::uint64_t kLists = 500, kRecords = 500'000;
+  AppendLists<std::uint64_t> lists(folder / "lists", kLists, 0);
+  for (std::uint64_t i = 0; i < kRecords; ++i) lists.append(i % kLists, i);
+  CHECK(in_use() - before < 160 << 10);
+  for (const std::size_t list : {0, 1, 499}) {
+    const std::vector<std::uint64_t> read = lists.read(list);
+    REQUIRE(read.size() == kRecords / kLists);
+    for (std::size_t i = 0; i < read.size(); ++i) REQUIRE(read[i] == i * kLists + list);
+  }
+}
+
+TEST_CASE("lists whose file was cut short are an error to read and to append to, never zeros") {
+  const ScratchFolder folder;
+  AppendLists<std::uint64_t> lists(folder / "lists", 3, 0);
+  for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
+  REQUIRE(test::cut_open_file(getpid(), "lists"));
+  const auto names_file = Catch::Matchers::Contains((folder / "lists").string() + ": the file was cut short");
+  for (std::size_t list = 0; list < 3; ++list) {
+    CHECK_THROWS_WITH(lists.read(list), names_file);
+    CHECK_THROWS_WITH(lists.for_each(list, [](std::uint64_t) {}), names_file);
+  }
+  const auto go_on = [&] {
+    for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
+  };
+  CHECK_THROWS_WITH(go_on(), names_file);
+}
+
+}  // namespace
+}  // namespace lacuna
