@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::mutex mutex;  // of the list, and of what must not be half done when a signal ends the process
+std::recursive_mutex mutex;  // of the list, and of what must not be half done when a signal ends the process
 std::vector<fs::path> folders;  // absolute
 
 // Other threads may still add files, so removing takes several rounds.

@@ -32,13 +32,13 @@ class TemporaryFolder {
 // thread that tries stops there, as the process is about to end.
 void remove_temporary_folders();
 
-// As long as it lives, remove_temporary_folders waits.
+// As long as it lives, remove_temporary_folders waits. The thread that has it may make and keep folders.
 class RemovalPause {
  public:
   RemovalPause();
 
  private:
-  std::unique_lock<std::mutex> lock_;
+  std::unique_lock<std::recursive_mutex> lock_;
 };
 
 // Folders in `parent` whose names begin with `prefix`, in order: earlier runs left them.
