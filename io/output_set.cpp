@@ -61,23 +61,21 @@ void sync_folder(const fs::path& folder) {
   const int status = ::fsync(descriptor);
   const int reason = errno;
   ::close(descriptor);
-  if (status != 0 && reason != EINVAL)
-    fail(folder, "cannot be written", reason);  // EINVAL: it has no such call
+  const bool is_unsupported = reason == EINVAL;  // some network file systems
+  if (status != 0 && !is_unsupported) fail(folder, "cannot be written", reason);
 }
 
 }  // namespace
 
 bool is_own_file(const fs::path& file, std::string_view mark) {
+  const auto found = find(file);
+  if (!found || !S_ISREG(found->st_mode)) return false;  // a pipe or a device is not even opened
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
-  struct stat opened {};
   std::string begin(mark.size(), '\0');
-  const bool is_own =
-      ::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) &&
-      ::pread(descriptor, begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
-      begin == mark;
+  const ssize_t length = ::pread(descriptor, begin.data(), begin.size(), 0);
   ::close(descriptor);
-  return is_own;
+  return length == static_cast<ssize_t>(mark.size()) && begin == mark;
 }
 
 void check_output(const fs::path& file, std::string_view mark, Overwrite overwrite) {
