@@ -18,6 +18,7 @@
 #include "engine/stages/tile_stars.hpp"
 #include "engine/store/scratch.hpp"
 #include "io/file_scan.hpp"
+#include "io/output_set.hpp"
 #include "tests/support/point_tree.hpp"
 #include "tools/synth/ply_output.hpp"
 #include "tools/synth/random.hpp"
@@ -158,12 +159,14 @@ class SampleFile {
   SampleFile()
       : path_(std::filesystem::temp_directory_path() /
               ("lacuna-stages-" + std::to_string(::getpid()) + ".ply")) {
-    synth::PlyOutput out(path_, synth::Coordinates::kFloat, synth::Extras::kNone);
+    OutputSet set(Overwrite::kOwn);
+    synth::PlyOutput out(set.add(path_, synth::kScanMark), synth::Coordinates::kFloat, synth::Extras::kNone);
     for (int copy = 0; copy < 16; ++copy) {
       for (const Eigen::Vector3d& p : batch(SampleOrder::kScanline).positions) out.add({p.x(), p.y(), p.z()});
     }
     rows_ = out.count();
-    out.commit();
+    out.finish();
+    set.commit();
   }
   ~SampleFile() { std::filesystem::remove(path_); }
   SampleFile(const SampleFile&) = delete;

@@ -155,8 +155,9 @@ PlyHeader read_ply_header(InputFile& in) {
   return std::move(parser.header);
 }
 
-std::string print_ply_header(const PlyHeader& header) {
+std::string print_ply_header(const PlyHeader& header, std::string_view comment) {
   std::string text = std::string("ply\nformat ") + ply_name(header.format) + " 1.0\n";
+  text += "comment " + std::string(comment) + '\n';
   for (const PlyElement& element : header.elements) {
     text += "element " + element.name + ' ' + std::to_string(element.count) + '\n';
     for (const PlyProperty& property : element.properties) {

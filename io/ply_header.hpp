@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna {
@@ -38,7 +39,7 @@ struct PlyHeader {
 // element. The counts are as declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);
 
-// The header as text, "\n" at line ends.
-std::string print_ply_header(const PlyHeader& header);
+// The header as text, "\n" at line ends, with one comment.
+std::string print_ply_header(const PlyHeader& header, std::string_view comment);
 
 }  // namespace lacuna

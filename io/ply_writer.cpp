@@ -16,7 +16,7 @@ PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements) : out_(o
     assert(!element.has_lists());
     missing_bytes_ += element.count * element.layout().stride;
   }
-  out_.write(print_ply_header(header));
+  out_.write(print_ply_header(header, "lacuna detect"));
 }
 
 void PlyWriter::put_as(Scalar type, double value) {

@@ -6,10 +6,14 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace lacuna {
+
+// How each file of a PlyWriter begins: an earlier one is recognised by it.
+inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
 
 class PlyWriter {
  public:

@@ -4,22 +4,31 @@
 #include "engine/config.hpp"
 #include "engine/data/detection.hpp"
 #include "io/file_scan.hpp"
-#include "io/output_file.hpp"
+#include "io/output_set.hpp"
 #include "io/ply_header.hpp"
 
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 namespace lacuna {
 
-// Writes holes.json, loops.ply, boundary.ply and, when asked for, points.ply. They appear together, when all
-// are complete, in place of those of an earlier run; holes.json last. Makes the folder if it is missing.
-// Throws `Error`.
-void write_results(const Detection& detection, const FileScan& scan, const Config& config,
-                   const std::filesystem::path& folder);
+// The files that a run writes: loops.ply, boundary.ply, points.ply if the config wants it, and holes.json.
+std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
-// Throws `Error` if results in `folder` would take the place of a file of the input. write_results asks, too;
-// a program asks before the work.
-void check_output_folder(const FileScan& scan, const std::filesystem::path& folder);
+// Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
+// `detect`, with Overwrite::kAny any regular file, but never an input. write_results checks it, too; a
+// program checks before the work.
+void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
+                         Overwrite overwrite);
+
+// Writes the result files as one set (io/output_set.hpp). The points.ply of an earlier run does not belong to
+// the new results: it goes. Makes the folder if it is missing. Throws `Error`.
+void write_results(const Detection& detection, const FileScan& scan, const Config& config,
+                   const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
+
+// How a report begins: an earlier one is recognised by it.
+inline constexpr std::string_view kReportMark = "{\n  \"lacuna\": \"";
 
 // The report: parameters, counts, times, and one line for each loop, in order. A loop's line depends on the
 // loop alone. What is not finite is null.

@@ -5,8 +5,8 @@
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
+#include "io/temporary_folder.hpp"
 #include "tools/parameter_options.hpp"
-#include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/value_options.hpp"
@@ -41,6 +41,7 @@ struct DetectArguments {
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
   bool keep_workspace = false;
+  bool overwrite = false;
   ParameterOptions parameters;
 };
 
@@ -49,35 +50,34 @@ void require(const CLI::App& command, const std::string& option) {
 }
 
 // Writes the results; returns what to tell about them.
-std::string detect_to(const fs::path& out, const DetectArguments& arguments, const Config& config) {
+std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   FileScan scan(arguments.scans, {.columns = config.input.columns});
 
-  check_output_folder(scan, out);
-  const MadeFolder out_folder(out);
+  const MadeFolder out_folder(arguments.out);
+  const fs::path& out = out_folder.path();
   const FolderLock alone(out);
-  for (const std::string_view name : kResultFiles) remove_on_signal(partial_path(out / name));
+  check_output_folder(scan, config, out, overwrite);
+  for (const fs::path& left : find_folders(out, kTemporaryPrefix))
+    spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
-  const std::string prefix = config.run.workspace.empty() ? ".lacuna-" : "lacuna-";
-  if (config.run.workspace.empty()) {  // elsewhere, other runs may have theirs
-    for (const fs::path& left : find_workspaces(out, prefix))
-      spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  }
-  const Workspace workspace(parent.path(), prefix, arguments.keep_workspace);
+  TemporaryFolder workspace(parent.path(), config.run.workspace.empty() ? kTemporaryPrefix : "lacuna-");
+  if (arguments.keep_workspace) workspace.keep();
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
 
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  write_results(*detection, scan, config, out);
+  write_results(*detection, scan, config, out, overwrite);
   progress->end();
 
   const Clock::time_point end = Clock::now();
   std::string told = print_summary(*detection, arguments.scans,
                                    {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                     .total_seconds = std::chrono::duration<double>(end - start).count()});
-  told += print_result_files(out);
+  for (const fs::path& file : result_files(config, out)) told += "written: " + file.string() + "\n";
   if (arguments.keep_workspace) told += "workspace kept: " + workspace.path().string() + "\n";
   return told;
 }
@@ -95,7 +95,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   if (arguments.quiet) quiet_log();
   arguments.parameters.warn_of_idle_options(config);
 
-  const std::string told = detect_to(arguments.out, arguments, config);
+  const std::string told = detect_to(arguments, config);
   if (!arguments.quiet) std::cout << told;
 }
 
@@ -116,6 +116,8 @@ void add_detect_command(CLI::App& app) {
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
   command->add_flag("--keep-workspace", arguments->keep_workspace,
                     "Leave the workspace with index.vdb, the cells and tiles for OpenVDB's tools");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace files that lacuna detect did not write, too, where results need their names");
   command->callback([command, arguments] { run_detect(*command, *arguments); });
 }
 

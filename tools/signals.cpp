@@ -1,15 +1,11 @@
 #include "tools/signals.hpp"
 
+#include "io/temporary_folder.hpp"
 #include "tools/terminal.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
-#include <mutex>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 #include <pthread.h>
 #include <unistd.h>
@@ -17,27 +13,14 @@
 namespace lacuna {
 namespace {
 
-std::mutex paths_mutex;
-std::vector<std::filesystem::path> paths;
 std::atomic<bool> interrupted = false;
-
-// Other threads may still be adding files, so removing takes several rounds.
-void remove_persistently(const std::filesystem::path& path) {
-  for (int round = 0; round < 100; ++round) {
-    std::error_code error;
-    std::filesystem::remove_all(path, error);
-    if (!error && !std::filesystem::exists(path, error)) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
 
 void wait_for_signal(sigset_t signals) {
   int signal = 0;
   sigwait(&signals, &signal);
   interrupted = true;
   clear_progress();
-  const std::lock_guard lock(paths_mutex);  // kept: nothing is added any more
-  for (const auto& path : paths) remove_persistently(path);
+  remove_temporary_folders();
   _exit(128 + signal);
 }
 
@@ -54,23 +37,6 @@ void handle_signals() {
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread(wait_for_signal, signals).detach();
-}
-
-void remove_on_signal(const std::filesystem::path& path) {
-  const std::lock_guard lock(paths_mutex);
-  paths.push_back(std::filesystem::absolute(path));
-}
-
-std::filesystem::path make_removed_on_signal(const std::function<std::filesystem::path()>& make) {
-  const std::lock_guard lock(paths_mutex);
-  const std::filesystem::path path = make();
-  paths.push_back(std::filesystem::absolute(path));
-  return path;
-}
-
-void keep_on_signal(const std::filesystem::path& path) {
-  const std::lock_guard lock(paths_mutex);
-  std::erase(paths, std::filesystem::absolute(path));
 }
 
 void wait_if_interrupted() {

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numeric>
 #include <sstream>
-#include <string_view>
 
 #include <sys/resource.h>
 
@@ -118,15 +117,6 @@ std::string print_summary(const Detection& detection, const std::vector<std::fil
   text += counted(holes, "hole") + ", " + counted(loops.size() - holes, "outer rim") + "\n";
   if (!loops.empty()) text += print_loops(detection);
   return text + "\n";
-}
-
-std::string print_result_files(const std::filesystem::path& folder) {
-  std::string text;
-  for (const std::string_view name : kResultFiles) {
-    const std::filesystem::path file = folder / name;
-    if (std::filesystem::exists(file)) text += "written: " + file.string() + "\n";
-  }
-  return text;
 }
 
 std::string print_table(const std::vector<std::vector<std::string>>& rows) {

@@ -6,13 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lacuna {
-
-// What a run may leave in its output folder.
-inline constexpr std::string_view kResultFiles[] = {"holes.json", "loops.ply", "boundary.ply", "points.ply"};
 
 struct RunTimes {
   double write_seconds = 0;
@@ -22,9 +18,6 @@ struct RunTimes {
 // What was read and found, time per phase, and the loops, the one with the largest perimeter first.
 std::string print_summary(const Detection& detection, const std::vector<std::filesystem::path>& scans,
                           const RunTimes& times);
-
-// The files that a run has left in its output folder.
-std::string print_result_files(const std::filesystem::path& folder);
 
 // Rows of as many cells each, at least one row; columns as wide as their widest cell, the first to the left,
 // the others to the right.

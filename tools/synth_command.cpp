@@ -1,7 +1,5 @@
 #include "tools/synth_command.hpp"
 
-#include "io/output_file.hpp"
-#include "tools/signals.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/value_options.hpp"
@@ -48,6 +46,9 @@ void add_common(CLI::App& app, Options& options) {
   app.add_flag_callback(
       "--double", [&options] { options.coordinates = Coordinates::kDouble; },
       "write coordinates as double instead of float");
+  app.add_flag_callback(
+      "--overwrite", [&options] { options.overwrite = Overwrite::kAny; },
+      "replace files that lacuna synth did not write, too");
 }
 
 void add_surface(CLI::App& synth) {
@@ -78,8 +79,6 @@ void add_surface(CLI::App& synth) {
   app.add_option("--truth", o.truth, "file of the true loops, 0-based point ids")
       ->default_str("OUT.loops.txt");
   app.callback([options] {
-    remove_on_signal(partial_path(options->out));
-    remove_on_signal(partial_path(truth_file_of(*options)));
     const SurfaceSummary made = write_surface(*options);
     std::printf("%s: %llu points; %s: %llu true loops\n", options->out.c_str(),
                 static_cast<unsigned long long>(made.points), made.truth.c_str(),
@@ -103,7 +102,6 @@ void add_scan(CLI::App& synth) {
   app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres")
       ->capture_default_str();
   app.callback([options] {
-    remove_on_signal(partial_path(options->out));
     const ScanSummary made = write_scan(*options);
     std::printf("%s: %llu points of %llu rays\n", options->out.c_str(),
                 static_cast<unsigned long long>(made.points), static_cast<unsigned long long>(made.rays));

@@ -1,17 +1,15 @@
 #include "tools/workspace.hpp"
 
 #include "engine/core/error.hpp"
-#include "tools/signals.hpp"
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -19,7 +17,22 @@ namespace lacuna {
 
 namespace fs = std::filesystem;
 
-MadeFolder::MadeFolder(fs::path folder) : folder_(std::move(folder)) {
+namespace {
+
+// Where `a` is missing, a/../b is b.
+fs::path without_detours(const fs::path& folder) {
+  fs::path begin;
+  for (const fs::path& part : folder) {
+    std::error_code error;
+    if (part == ".." && !begin.empty() && !fs::exists(begin, error)) return fs::weakly_canonical(folder);
+    begin /= part;
+  }
+  return folder;
+}
+
+}  // namespace
+
+MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)) {
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
@@ -45,45 +58,25 @@ MadeFolder::~MadeFolder() {
   }
 }
 
-// Where a file system knows no locks, runs are on their own.
 FolderLock::FolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(descriptor_);
-  throw Error(folder.string() + ": another run writes its results there");
+  if (descriptor_ < 0) throw Error(folder.string() + ": cannot be opened: " + std::strerror(errno));
+  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
+    if (reason == EINTR) continue;
+    if (reason == EOPNOTSUPP || reason == ENOLCK || reason == ENOSYS) {
+      spdlog::warn("{}: its file system knows no locks; no other run may write its results there meanwhile",
+                   folder.string());
+      return;
+    }
+    ::close(descriptor_);
+    if (reason == EWOULDBLOCK) throw Error(folder.string() + ": another run writes its results there");
+    throw Error(folder.string() + ": cannot be locked: " + std::strerror(reason));
+  }
 }
 
 FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-Workspace::Workspace(const fs::path& parent, const std::string& prefix, bool keep) : keep_(keep) {
-  const auto make = [&] {
-    std::string name = (parent / (prefix + "XXXXXX")).string();
-    if (!mkdtemp(name.data())) {
-      throw Error(parent.string() + ": cannot make a workspace: " + std::strerror(errno));
-    }
-    return fs::path(name);
-  };
-  folder_ = keep_ ? make() : make_removed_on_signal(make);
-}
-
-Workspace::~Workspace() {
-  if (keep_) return;
-  std::error_code error;  // nothing to be done about it
-  fs::remove_all(folder_, error);
-  keep_on_signal(folder_);
-}
-
-std::vector<fs::path> find_workspaces(const fs::path& parent, const std::string& prefix) {
-  std::vector<fs::path> found;
-  std::error_code error;  // what cannot be read has none
-  for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
-    if (entry.is_directory(error) && entry.path().filename().string().starts_with(prefix))
-      found.push_back(entry.path());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+  ::close(descriptor_);
 }
 
 }  // namespace lacuna

@@ -8,6 +8,7 @@ import itertools
 import json
 import random
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -184,6 +185,7 @@ def evaluate(arguments, case, method, folder):
 
 def detect(arguments, case, method, options):
     folder = arguments.work / "out" / method / case.name
+    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", *options, *arguments.detect_options])
     return evaluate(arguments, case, method, folder)
 

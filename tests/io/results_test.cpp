@@ -1,6 +1,7 @@
 #include "io/results.hpp"
 
 #include "tests/io/io_support.hpp"
+#include "tests/support/file_size_limit.hpp"
 
 #include <cmath>
 
@@ -235,23 +236,79 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   CHECK(table.rows.at(0)[3] == 1);
 }
 
-TEST_CASE("results of an earlier run do not outlive a new one", "[io]") {
+TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  folder.write("points.ply", "old");
-  folder.write("loops.ply", "old");
-  write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
-  CHECK(folder.names() == Names{"a.ply", "boundary.ply", "holes.json", "loops.ply"});
+  const auto detection = FakeDetection().with_results(1);
+  Config with_points;
+  with_points.output.points = true;
+  const Names all{"a.ply", "boundary.ply", "holes.json", "loops.ply", "points.ply"};
+  for (const Config& config : {with_points, with_points, Config{}, Config{}, with_points}) {
+    write_results(detection, scan, config, folder.path());
+    Names expected = all;
+    if (!config.output.points) expected.pop_back();
+    CHECK(folder.names() == expected);
+  }
 }
 
-TEST_CASE("an input in the place of a result is refused, and stays", "[io]") {
-  const ScratchFolder folder;
-  const auto file = folder.write("points.ply", ply(kXyz, 1, "1 2 3\n"));
-  FileScan scan({file}, {});
-  CHECK(error_of([&] {
-          write_results(FakeDetection().with_results(1), scan, Config{}, folder.path());
-        }).find("points.ply: is an input") != std::string::npos);
-  CHECK(folder.names() == Names{"points.ply"});
+TEST_CASE("a file that detect did not write is refused, and replaced on request", "[io]") {
+  Config with_points;
+  with_points.output.points = true;
+  for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
+    const ScratchFolder folder;
+    FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+    const auto detection = FakeDetection().with_results(1);
+    write_results(detection, scan, with_points, folder.path());
+    const std::string mine = name.ends_with(".json") ? "{ \"loops\": [] }" : ply(kXyz, 1, "1 2 3\n");
+    folder.write(name, mine);
+    const Names before = folder.names();
+    for (const auto& refused :
+         {std::function<void()>(
+              [&] { check_output_folder(scan, with_points, folder.path(), Overwrite::kOwn); }),
+          std::function<void()>([&] { write_results(detection, scan, with_points, folder.path()); })}) {
+      CHECK(error_of(refused).find(name + ": exists, and this command did not write it") !=
+            std::string::npos);
+      CHECK(folder.names() == before);
+      CHECK(read_file(folder / name) == mine);
+    }
+    if (name == "points.ply") {
+      for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
+        write_results(detection, scan, Config{}, folder.path(), overwrite);
+        CHECK(read_file(folder / name) == mine);  // no result has its name
+      }
+    }
+    write_results(detection, scan, with_points, folder.path(), Overwrite::kAny);
+    CHECK(read_file(folder / name) != mine);
+    CHECK(folder.names() == before);
+  }
+}
+
+TEST_CASE("an input in the place of a result is never replaced", "[io]") {
+  Config with_points;
+  with_points.output.points = true;
+  for (const bool is_result : {false, true}) {
+    const ScratchFolder folder;
+    std::string content = ply(kXyz, 1, "1 2 3\n");
+    if (is_result) {
+      FileScan first({folder.write("a.ply", content)}, {});
+      write_results(FakeDetection().with_results(1), first, with_points, folder.path());
+      content = read_file(folder / "points.ply");
+    }
+    FileScan scan({folder.write("points.ply", content)}, {});
+    const auto detection = FakeDetection().with_results(1);
+    const Names before = folder.names();
+    for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
+      CHECK(error_of([&] {
+              write_results(detection, scan, with_points, folder.path(), overwrite);
+            }).find("points.ply: is an input") != std::string::npos);
+      // Without --points, only an earlier result would go.
+      const std::string error =
+          error_of([&] { write_results(detection, scan, {}, folder.path(), overwrite); });
+      CHECK((error.find("points.ply: is an input") != std::string::npos) == is_result);
+    }
+    CHECK(read_file(folder / "points.ply") == content);
+    if (is_result) CHECK(folder.names() == before);
+  }
 }
 
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
@@ -267,16 +324,43 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   }
 }
 
-TEST_CASE("a full disk while writing any result leaves none", "[io]") {
+TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1000,
+                                           [] {
+                                             std::string rows;
+                                             for (int i = 0; i < 1000; ++i) rows += "1 2 3\n";
+                                             return rows;
+                                           }()))},
+                {});
   Config config;
   config.output.points = true;
-  for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
-    std::filesystem::create_symlink("/dev/full", folder.path() / (name + ".partial"));
-    CHECK(error_of([&] {
-            write_results(FakeDetection().with_results(1), scan, config, folder.path());
-          }).find(name + ": cannot be written: No space left") != std::string::npos);
+  const auto few = FakeDetection().with_results(1000);
+  FakeDetection long_loop = few, many_loops = few, much_boundary = few;
+  long_loop.with_loop(std::vector<std::uint64_t>(10'000, 1), LoopKind::kHole);
+  for (int i = 0; i < 1000; ++i) many_loops.with_loop({1, 2, 3}, LoopKind::kHole);
+  much_boundary.numbers.counts.boundary_points = 10'000;
+  much_boundary.boundary.resize(10'000);
+  const std::vector<std::pair<std::string, const FakeDetection*>> largest = {{"loops.ply", &long_loop},
+                                                                             {"boundary.ply", &much_boundary},
+                                                                             {"points.ply", &few},
+                                                                             {"holes.json", &many_loops}};
+  for (const auto& [name, detection] : largest) {
+    const auto bytes = [&, &detection = *detection] {
+      write_results(detection, scan, config, folder.path());
+      std::uintmax_t most = 0;
+      for (const auto& file : result_files(config, folder.path())) {
+        most = std::max(most, std::filesystem::file_size(file));
+        if (file.filename() != name)
+          CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / name));
+      }
+      return most;
+    }();
+    for (const auto& file : result_files(config, folder.path())) std::filesystem::remove(file);
+    CHECK(error_of([&, &detection = *detection] {
+            const FileSizeLimit full(bytes - 1);
+            write_results(detection, scan, config, folder.path());
+          }).find(name + ": cannot be written: File too large") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
 }

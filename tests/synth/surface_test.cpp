@@ -1,3 +1,4 @@
+#include "tests/support/file_size_limit.hpp"
 #include "tests/synth/made.hpp"
 
 #include <algorithm>
@@ -210,13 +211,32 @@ TEST_CASE("surfaces that cannot be made are refused in one line and leave no fil
   refused([](SurfaceOptions& o) { o.out = o.out / "no-such-folder" / "made.ply"; });
 }
 
-TEST_CASE("a full disk is an error that names file and reason, and nothing appears") {
+TEST_CASE("a disk that takes no more is an error that names file and reason, and nothing appears") {
   const ScratchFolder folder;
   const SurfaceOptions options = small_surface(folder);
-  for (const auto& full : {options.out, options.truth}) {
-    std::filesystem::create_symlink("/dev/full", full.string() + ".partial");
+  const auto write = [&] {
+    const test::FileSizeLimit full(100'000);
+    write_surface(options);
+  };
+  CHECK_THROWS_WITH(write(), Catch::Contains(options.out.string() + ": cannot be written: File too large"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a surface replaces an earlier one, and no file of another kind") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder);
+  write_surface(options);
+  for (const auto& file : {options.out, options.truth}) {
+    write_surface(options);
+    const std::string mine = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
+    folder.write(file.filename(), mine);
     CHECK_THROWS_WITH(write_surface(options),
-                      Catch::Contains(full.filename().string()) && Catch::Contains("No space left"));
-    CHECK(folder.names().empty());
+                      Catch::Contains(file.string() + ": exists, and this command did not write it"));
+    CHECK(read_file(file) == mine);
+    options.overwrite = Overwrite::kAny;
+    write_surface(options);
+    CHECK(read_file(file) != mine);
+    options.overwrite = Overwrite::kOwn;
   }
+  CHECK(folder.names().size() == 2);
 }

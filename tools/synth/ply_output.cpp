@@ -26,8 +26,8 @@ std::byte* put_position(std::byte* at, Vec3 p, Coordinates coordinates) {
 
 }  // namespace
 
-PlyOutput::PlyOutput(std::filesystem::path file, Coordinates coordinates, Extras extras)
-    : file_(std::move(file)), coordinates_(coordinates), extras_(extras) {
+PlyOutput::PlyOutput(OutputFile& file, Coordinates coordinates, Extras extras)
+    : file_(file), coordinates_(coordinates), extras_(extras) {
   file_.write(header());
 }
 
@@ -35,8 +35,8 @@ PlyOutput::PlyOutput(std::filesystem::path file, Coordinates coordinates, Extras
 std::string PlyOutput::header() const {
   const std::string count = std::to_string(count_);
   const std::string type = coordinates_ == Coordinates::kDouble ? "double" : "float";
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment lacuna synth " +
-                     std::string(kCountWidth - count.size() + 1, '-') + "\nelement vertex " + count + "\n";
+  std::string text = std::string(kScanMark) + std::string(kCountWidth - count.size() + 1, '-') +
+                     "\nelement vertex " + count + "\n";
   for (const char* axis : {" x\n", " y\n", " z\n"}) text += "property " + type + axis;
   if (extras_ == Extras::kScanAndIntensity) text += "property uchar scan\nproperty float intensity\n";
   return text + "end_header\n";
@@ -56,9 +56,8 @@ void PlyOutput::add(Vec3 position, std::uint8_t scan, float intensity) {
   ++count_;
 }
 
-void PlyOutput::commit() {
+void PlyOutput::finish() {
   file_.overwrite_start(header());
-  file_.commit();
 }
 
 }  // namespace lacuna::synth

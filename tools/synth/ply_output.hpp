@@ -5,29 +5,32 @@
 #include "tools/synth/vec3.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace lacuna::synth {
 
 enum class Coordinates { kFloat, kDouble };
 enum class Extras { kNone, kScanAndIntensity };  // uchar scan, float intensity
 
+// How each file of a PlyOutput begins: an earlier one is recognised by it.
+inline constexpr std::string_view kScanMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna synth ";
+
 // Little-endian rows x y z [scan intensity].
 class PlyOutput {
  public:
-  PlyOutput(std::filesystem::path file, Coordinates coordinates, Extras extras);
+  PlyOutput(OutputFile& file, Coordinates coordinates, Extras extras);
 
   void add(Vec3 position);
   void add(Vec3 position, std::uint8_t scan, float intensity);
   std::uint64_t count() const { return count_; }
 
-  void commit();
+  void finish();  // fills the count in
 
  private:
   std::string header() const;
 
-  OutputFile file_;
+  OutputFile& file_;
   Coordinates coordinates_;
   Extras extras_;
   std::uint64_t count_ = 0;

@@ -143,19 +143,21 @@ Ray aim(const Rays& rays, const Random& wobble, std::uint64_t index) {
 
 ScanSummary write_scan(const ScanOptions& options) {
   check(options);
+  OutputSet set(options.overwrite);
+  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kScanAndIntensity);
   const Scanner scanner(options);
   const Rays rays = scanner.lay_rays();
   const Random wobble(options.seed, kAims);
   const Permutation shuffled(rays.count(), options.seed);
 
-  PlyOutput ply(options.out, options.coordinates, Extras::kScanAndIntensity);
   for (std::uint64_t turn = 0; turn < rays.count(); ++turn) {
     const std::uint64_t index = options.order == Order::kRandom ? shuffled(turn) : turn;
     const Ray ray = aim(rays, wobble, index);
     if (const auto echo = scanner.measure(ray, index))
       ply.add(echo->position, static_cast<std::uint8_t>(ray.station), echo->intensity);
   }
-  ply.commit();
+  ply.finish();
+  set.commit();
   return {.points = ply.count(), .rays = rays.count()};
 }
 

@@ -1,6 +1,7 @@
 // A virtual terrestrial laser scanner.
 #pragma once
 
+#include "io/output_set.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/ply_output.hpp"
 #include "tools/synth/scene.hpp"
@@ -23,6 +24,7 @@ struct ScanOptions {
   std::uint64_t seed = 1;
   std::array<double, 3> translate{0, 0, 0};  // metres
   Coordinates coordinates = Coordinates::kFloat;
+  Overwrite overwrite = Overwrite::kOwn;
 };
 
 struct ScanSummary {

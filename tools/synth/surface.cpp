@@ -76,6 +76,9 @@ class PointMaker {
   Random place_, height_;
 };
 
+// How each file of true loops begins: an earlier one is recognised by it.
+constexpr std::string_view kTruthMark = "# one boundary loop per line, 0-based point ids of ";
+
 std::string in_text(const std::vector<std::uint64_t>& loop) {
   std::string line;
   for (const std::uint64_t id : loop) line += std::to_string(id) + ' ';
@@ -96,6 +99,13 @@ std::filesystem::path truth_file_of(const SurfaceOptions& options) {
 
 SurfaceSummary write_surface(const SurfaceOptions& options) {
   check(options);
+  const std::filesystem::path truth_path = truth_file_of(options);
+  require(!are_one_file(truth_path, options.out),
+          truth_path.string() + ": the surface and its true loops need two files");
+  OutputSet set(options.overwrite);
+  OutputFile& truth_file = set.add(truth_path, kTruthMark);
+  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kNone);
+
   const SurfaceGrid grid = lay_grid(options);
   check_precision(grid, options);
   const HoleField holes(grid, options);
@@ -105,12 +115,6 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   std::vector<NodeLoop> loops = holes.loops();
   for (NodeLoop& rim : rims(grid)) loops.push_back(std::move(rim));
   TruthLoops truth(std::move(loops));
-
-  const std::filesystem::path truth_path = truth_file_of(options);
-  require(!are_one_file(truth_path, options.out),
-          truth_path.string() + ": the surface and its true loops need two files");
-  PlyOutput ply(options.out, options.coordinates, Extras::kNone);
-  OutputFile truth_file(truth_path);
 
   for (std::uint64_t turn = 0; turn < grid.nodes(); ++turn) {
     const std::uint64_t node = options.order == Order::kRandom ? shuffled(turn) : turn;
@@ -124,12 +128,10 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   }
 
   const auto in_ids = truth.in_ids();
-  truth_file.write("# one boundary loop per line, 0-based point ids of " + options.out.filename().string() +
-                   "\n");
+  truth_file.write(std::string(kTruthMark) + options.out.filename().string() + "\n");
   for (const auto& loop : in_ids) truth_file.write(in_text(loop));
-  truth_file.close();  // a full disk is noticed before either file is in place
-  ply.commit();
-  truth_file.commit();
+  ply.finish();
+  set.commit();
   return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};
 }
 

@@ -1,6 +1,7 @@
 // What `lacuna synth surface` can be asked for.
 #pragma once
 
+#include "io/output_set.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/ply_output.hpp"
 
@@ -28,6 +29,7 @@ struct SurfaceOptions {
   std::uint64_t seed = 1;
   std::array<double, 3> translate{0, 0, 0};  // units of the scan
   Coordinates coordinates = Coordinates::kFloat;
+  Overwrite overwrite = Overwrite::kOwn;
 };
 
 }  // namespace lacuna::synth
