@@ -39,6 +39,7 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   add("holes.json", [&](OutputFile& out) { write_report(detection, scan, config, out); });
   const Crew crew(static_cast<std::size_t>(config.run.threads));
   crew.for_each(writers.size(), [&](std::size_t i) { writers[i](); });
+  scan.check_unchanged();
   set.commit({"holes.json", "points.ply"});
 }
 

@@ -1,5 +1,6 @@
 #include "tools/signals.hpp"
 
+#include "engine/core/error.hpp"
 #include "tools/terminal.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <mutex>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -35,7 +37,7 @@ void wait_for_signal(sigset_t signals) {
   int signal = 0;
   sigwait(&signals, &signal);
   interrupted = true;
-  clear_progress();
+  clear_progress_now();
   const std::lock_guard lock(paths_mutex);  // kept: nothing is added any more
   for (const auto& path : paths) remove_persistently(path);
   _exit(128 + signal);
@@ -53,7 +55,11 @@ void handle_signals() {
     if (!is_ignored) sigaddset(&signals, signal);
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread(wait_for_signal, signals).detach();
+  try {
+    std::thread(wait_for_signal, signals).detach();
+  } catch (const std::system_error& error) {
+    throw Error(std::string("cannot start a thread: ") + error.what());
+  }
 }
 
 void remove_on_signal(const std::filesystem::path& path) {

@@ -8,7 +8,8 @@ namespace lacuna {
 
 // From now on SIGINT, SIGTERM and SIGHUP remove what is named below and end the program with exit code
 // 128 + signal. Call before any other thread starts: the signals are blocked in all threads and waited for
-// in one of its own, where, unlike in a signal handler, removing files is safe.
+// in one of its own, where, unlike in a signal handler, removing files is safe. Throws `Error` if that thread
+// cannot be started.
 void handle_signals();
 
 // A file, or a folder with all it holds; it need not exist.
