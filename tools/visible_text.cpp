@@ -15,13 +15,6 @@ void append_hexadecimal(std::string& text, unsigned char byte) {
   text += kDigits[byte & 15];
 }
 
-// Of one character of UTF-8. C1 is U+0080 to U+009F: C2 80 to C2 9F.
-bool is_control(std::string_view character) {
-  const auto last = static_cast<unsigned char>(character.back());
-  if (character.size() == 1) return last < 0x20 || last == 0x7f;
-  return character.size() == 2 && character.front() == '\xc2' && last < 0xa0;
-}
-
 // Collects whole lines, so that no character is cut.
 class VisibleBuffer final : public std::streambuf {
  public:

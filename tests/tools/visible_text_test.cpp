@@ -42,7 +42,7 @@ TEST_CASE("every character that UTF-8 can hold is found with its length, and no 
   for (char32_t c = 0; c < 0x120000; ++c) {
     std::string bytes;
     if (c < 0x80) {
-      bytes = {char(c)};
+      bytes.push_back(char(c));
     } else if (c < 0x800) {
       bytes = {char(0xc0 | c >> 6), char(0x80 | (c & 63))};
     } else if (c < 0x10000) {
