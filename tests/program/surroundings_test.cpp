@@ -133,8 +133,11 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       INFO("signal " << signal << ", " << style);
       const fs::path out = scratch / (style + std::to_string(signal));
       Blocked run({LACUNA_PROGRAM, "detect", scan, "--out", out.string(), "--progress", style});
-      REQUIRE_FALSE(run.wait(std::chrono::milliseconds(1500)));
-      REQUIRE(fs::exists(out));
+      const auto has_workspace = [&] { return fs::exists(out) && count_entries(out) > 0; };
+      for (int i = 0; i < 3000 && !has_workspace(); ++i)
+        REQUIRE_FALSE(run.wait(std::chrono::milliseconds(10)));
+      REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
+      REQUIRE(has_workspace());
       run.send(signal);
       CHECK(run.wait(std::chrono::seconds(10)) == 128 + signal);
       CHECK(count_entries(out) == 0);
