@@ -93,7 +93,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"a b c\n1 2 3\n", "line 1: no columns named x, y and z"},
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
       {"x y z gr\xc3\xb6\xc3\x9f\xc2\x9b\xff gr\xc3\xb6\xc3\x9f\xc2\x9b\xff\n",
-       "a second column 'gr\xc3\xb6\xc3\x9f"
+       "line 1: a second column 'gr\xc3\xb6\xc3\x9f"
        "?"
        "?'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
