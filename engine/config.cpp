@@ -1,5 +1,6 @@
 #include "engine/config.hpp"
 
+#include "engine/config_text.hpp"
 #include "engine/core/error.hpp"
 
 #include <algorithm>
@@ -276,6 +277,9 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
+  if (const auto fault = find_fault(text)) {
+    throw Error(file.string() + ":" + std::to_string(fault->line) + ": " + fault->reason);
+  }
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {

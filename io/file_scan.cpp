@@ -39,8 +39,10 @@ void copy_vectors(const RowBatch& rows, const RowLayout& layout, const Names& na
 FileScan::FileScan(std::vector<std::filesystem::path> files, ReadOptions options)
     : files_(std::move(files)), options_(std::move(options)), expected_points_(0) {
   for (const auto& file : files_) {
+    states_.push_back(file_state(file));
     const auto reader = open_scan(file, options_);
     layouts_.push_back(reader->layout());
+    has_normals_ = has_normals_ || has_all(layouts_.back(), kNormal);
     expected_rows_.push_back(reader->expected_rows());
     if (expected_points_ && expected_rows_.back()) {
       *expected_points_ += *expected_rows_.back();
@@ -48,6 +50,15 @@ FileScan::FileScan(std::vector<std::filesystem::path> files, ReadOptions options
       expected_points_.reset();
     }
   }
+}
+
+std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
+  lacuna::check_unchanged(files_[file], states_[file]);
+  return open_scan(files_[file], options_);
+}
+
+void FileScan::check_unchanged() const {
+  for (std::size_t i = 0; i < files_.size(); ++i) lacuna::check_unchanged(files_[i], states_[i]);
 }
 
 void FileScan::rewind() {
@@ -61,13 +72,13 @@ bool FileScan::next(PointBatch& batch) {
   batch.positions.clear();
   batch.normals.clear();
   for (; file_ < files_.size(); ++file_, reader_.reset()) {
-    if (!reader_) reader_ = open_scan(files_[file_], options_);
+    if (!reader_) reader_ = open(file_);
     if (!reader_->next(rows_, kBatchRows)) continue;
     const RowLayout& layout = reader_->layout();
     copy_vectors(rows_, layout, kPosition, batch.positions);
     if (has_all(layout, kNormal)) {
       copy_vectors(rows_, layout, kNormal, batch.normals);
-    } else if (has_normals()) {
+    } else if (has_normals_) {
       batch.normals.assign(rows_.count, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
     next_id_ += rows_.count;
@@ -81,8 +92,7 @@ std::optional<std::uint64_t> FileScan::expected_points() const {
 }
 
 bool FileScan::has_normals() const {
-  return std::any_of(layouts_.begin(), layouts_.end(),
-                     [](const RowLayout& layout) { return has_all(layout, kNormal); });
+  return has_normals_;
 }
 
 bool FileScan::single_precision() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/data/points.hpp"
+#include "io/file_state.hpp"
 #include "io/scan_reader.hpp"
 
 #include <filesystem>
@@ -11,7 +12,8 @@
 namespace lacuna {
 
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
-// points of one that has none get NaN.
+// points of one that has none get NaN. A file that changes after the first opening is an `Error` when it is
+// opened again.
 class FileScan : public PointSource {
  public:
   // Opens every file once, so that a missing or broken one is an `Error` before any work is done.
@@ -26,13 +28,19 @@ class FileScan : public PointSource {
   const std::vector<RowLayout>& layouts() const { return layouts_; }  // one per file
   // Rows that each file's header declares; text files declare none.
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
-  const ReadOptions& options() const { return options_; }
+  // From its first row on.
+  std::unique_ptr<ScanReader> open(std::size_t file) const;
+  // Throws `Error` if a file is no longer what it was when it was opened first: what was read last from it
+  // may not fit what was read before.
+  void check_unchanged() const;
   bool single_precision() const;  // x, y and z are 32-bit floats in every file
 
  private:
   std::vector<std::filesystem::path> files_;
   ReadOptions options_;
+  std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
+  bool has_normals_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
   // where reading stands

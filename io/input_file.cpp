@@ -1,6 +1,7 @@
 #include "io/input_file.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -183,8 +184,13 @@ void InputFile::fail_at_byte(std::uint64_t byte, const std::string& reason) cons
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string result = "'";
-  for (const char c : text.substr(0, kLongest)) result += c >= 0x20 && c < 0x7f ? c : '?';
-  return result + (text.size() > kLongest ? "...'" : "'");
+  while (!text.empty() && result.size() <= kLongest) {
+    const std::size_t length = utf8_length(text);
+    const bool is_printable = length > 0 && !is_control(text.substr(0, length));
+    result += is_printable ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result + (text.empty() ? "'" : "...'");
 }
 
 }  // namespace lacuna

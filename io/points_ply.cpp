@@ -7,7 +7,8 @@
 #include <array>
 #include <cstring>
 #include <optional>
-#include <set>
+#include <string_view>
+#include <unordered_map>
 
 namespace lacuna {
 namespace {
@@ -44,61 +45,77 @@ std::vector<ResultColumn> result_columns(bool with_normals) {
 std::vector<std::pair<std::string, Scalar>> join_properties(const std::vector<RowLayout>& layouts,
                                                             const std::vector<ResultColumn>& results) {
   std::vector<std::pair<std::string, Scalar>> joined;
+  std::unordered_map<std::string_view, std::size_t> place_of;  // in `joined`
   for (const RowLayout& layout : layouts) {
     for (const Property& property : layout.properties) {
       if (std::any_of(results.begin(), results.end(),
                       [&](const auto& r) { return r.name == property.name; })) {
         continue;
       }
-      const auto known = std::find_if(joined.begin(), joined.end(),
-                                      [&](const auto& entry) { return entry.first == property.name; });
-      if (known == joined.end()) {
+      const auto [known, is_new] = place_of.try_emplace(property.name, joined.size());
+      if (is_new) {
         joined.emplace_back(property.name, property.type);
-      } else if (known->second != property.type) {
-        known->second = Scalar::kFloat64;
+      } else if (Scalar& type = joined[known->second].second; type != property.type) {
+        type = Scalar::kFloat64;
       }
     }
   }
   return joined;
 }
 
-// The rows of all files once more, in order.
+// For each of the columns: the property of that name; null where a file has none.
+std::vector<const Property*> find_sources(const RowLayout& from, std::span<const Property> columns) {
+  std::unordered_map<std::string_view, const Property*> by_name;
+  for (const Property& property : from.properties) by_name.emplace(property.name, &property);
+  std::vector<const Property*> sources;
+  for (const Property& column : columns) {
+    const auto found = by_name.find(column.name);
+    sources.push_back(found == by_name.end() ? nullptr : found->second);
+  }
+  return sources;
+}
+
+// The rows of all files once more, in order, for the columns of points.ply that come from them.
 class RowStream {
  public:
-  explicit RowStream(const FileScan& scan) : scan_(scan) {}
+  RowStream(const FileScan& scan, std::span<const Property> columns) : scan_(scan), columns_(columns) {}
 
   // At most `max_rows` of one file; empty at the end.
   const RowBatch& next(std::size_t max_rows) {
     for (; file_ < scan_.files().size(); ++file_, reader_.reset()) {
-      if (!reader_) reader_ = open_scan(scan_.files()[file_], scan_.options());
+      if (!reader_) {
+        reader_ = scan_.open(file_);
+        sources_ = find_sources(reader_->layout(), columns_);
+      }
       if (reader_->next(rows_, max_rows)) return rows_;
     }
     rows_.count = 0;
     return rows_;
   }
 
-  const RowLayout& layout() const { return reader_->layout(); }  // of the rows last returned
+  // The rows last returned, into rows of `stride` bytes.
+  void copy_columns(std::size_t stride, std::byte* out) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Column column{.data = out + columns_[i].offset, .stride = stride, .type = columns_[i].type};
+      if (const Property* source = sources_[i]) {
+        copy_column({.data = rows_.bytes.data() + source->offset,
+                     .stride = reader_->layout().stride,
+                     .type = source->type},
+                    column, rows_.count);
+      } else {
+        fill_missing(column, rows_.count);
+      }
+    }
+  }
 
  private:
   const FileScan& scan_;
+  std::span<const Property> columns_;
+  std::vector<const Property*> sources_;  // in the reader's layout, one for each column
   std::size_t file_ = 0;
   std::unique_ptr<ScanReader> reader_;
   RowBatch rows_;
 };
-
-void copy_input(const RowBatch& rows, const RowLayout& from, const RowLayout& to, std::size_t properties,
-                std::byte* out) {
-  for (std::size_t i = 0; i < properties; ++i) {
-    const Property& target = to.properties[i];
-    const Column column{.data = out + target.offset, .stride = to.stride, .type = target.type};
-    if (const Property* source = from.find(target.name)) {
-      copy_column({.data = rows.bytes.data() + source->offset, .stride = from.stride, .type = source->type},
-                  column, rows.count);
-    } else {
-      fill_missing(column, rows.count);
-    }
-  }
-}
 
 void copy_results(std::span<const PointResult> results, const std::vector<ResultColumn>& columns,
                   const RowLayout& to, std::byte* out) {
@@ -146,14 +163,14 @@ void write_points(const Detection& detection, const FileScan& scan, const Output
   for (const auto& [name, type] : columns.all) vertex.properties.push_back({name, type, {}});
   PlyWriter writer(out, {vertex});
 
-  RowStream input(scan);
+  RowStream input(scan, std::span(layout.properties).first(input_columns));
   std::vector<std::byte> block;
   detection.for_each_result_block([&](PointId, std::span<const PointResult> left) {
     while (!left.empty()) {
       const RowBatch& rows = input.next(std::min(left.size(), kBlockRows));
       if (rows.count == 0) fail_changed(out);
       block.resize(rows.count * layout.stride);
-      copy_input(rows, input.layout(), layout, input_columns, block.data());
+      input.copy_columns(layout.stride, block.data());
       copy_results(left.first(rows.count), results, layout, block.data());
       writer.put_bytes(block);
       left = left.subspan(rows.count);

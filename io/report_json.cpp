@@ -38,10 +38,11 @@ Json inputs(const FileScan& scan) {
     file["file"] = scan.files()[i].string();
     const auto& rows = scan.expected_rows()[i];
     file["points"] = rows ? Json(*rows) : Json(nullptr);
-    file["properties"] = Json::object();
+    Json::object_t properties;  // names differ, so none is searched for
     for (const Property& property : scan.layouts()[i].properties) {
-      file["properties"][property.name] = ply_name(property.type);
+      properties.emplace_back(property.name, ply_name(property.type));
     }
+    file["properties"] = std::move(properties);
     files.push_back(std::move(file));
   }
   return files;

@@ -77,6 +77,7 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   if (!config.output.points) set.drop(folder / kPoints.name, kPoints.mark);
   const Crew crew(static_cast<std::size_t>(config.run.threads));
   crew.for_each(results.size(), [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
+  scan.check_unchanged();
   set.commit();
 }
 

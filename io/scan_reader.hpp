@@ -28,7 +28,7 @@ struct RowLayout {
   std::vector<Property> properties;  // in file order; lists are skipped
   std::size_t stride = 0;            // bytes per row, no padding
 
-  const Property* find(std::string_view name) const;
+  const Property* find(std::string_view name) const;  // one after the other
 };
 
 struct RowBatch {

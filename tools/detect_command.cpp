@@ -9,6 +9,7 @@
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
+#include "tools/visible_text.hpp"
 #include "tools/value_options.hpp"
 #include "tools/workspace.hpp"
 
@@ -74,12 +75,12 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   progress->end();
 
   const Clock::time_point end = Clock::now();
-  std::string told = print_summary(*detection, arguments.scans,
+  std::string summary = print_summary(*detection, arguments.scans,
                                    {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                     .total_seconds = std::chrono::duration<double>(end - start).count()});
-  for (const fs::path& file : result_files(config, out)) told += "written: " + file.string() + "\n";
-  if (arguments.keep_workspace) told += "workspace kept: " + workspace.path().string() + "\n";
-  return told;
+  for (const fs::path& file : result_files(config, out)) summary += "written: " + visible(file.string()) + "\n";
+  if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
+  return summary;
 }
 
 void run_detect(const CLI::App& command, const DetectArguments& arguments) {

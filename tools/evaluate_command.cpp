@@ -2,6 +2,7 @@
 
 #include "tools/accuracy/evaluation.hpp"
 #include "tools/summary.hpp"
+#include "tools/visible_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +77,8 @@ std::string print_points(const PointScores& scores) {
 
 void print_scores(const EvaluateArguments& arguments, const Truth& truth, const Evaluation& evaluation) {
   const LoopScores& scores = evaluation.loops.scores;
-  std::cout << arguments.result.string() << " against " << arguments.truth.string() << "\n  true loops  "
-            << print_count(scores.true_loops) << ", of " << arguments.min_vertices
+  std::cout << visible(arguments.result.string()) << " against " << visible(arguments.truth.string())
+            << "\n  true loops  " << print_count(scores.true_loops) << ", of " << arguments.min_vertices
             << " vertices or more; shorter ones: " << print_count(scores.short_loops) << "\n  found       "
             << print_count(scores.found) << "\n  missed      " << print_count(scores.missed)
             << "\n  loops       " << print_count(scores.loops) << "\n  false       "

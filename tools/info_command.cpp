@@ -7,6 +7,7 @@
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
+#include "tools/visible_text.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -89,7 +90,7 @@ std::string assumption() {
 
 void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
   for (const FileInfo& file : files) {
-    std::cout << file.file.string() << "\n  format      " << file.format << "\n  points      "
+    std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
               << print_count(file.points) << "\n  properties ";
     for (const Property& property : file.layout.properties) {
       std::cout << " " << property.name << " (" << ply_name(property.type) << ")";

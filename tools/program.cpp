@@ -8,8 +8,11 @@
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
+#include "tools/visible_text.hpp"
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -20,6 +23,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace lacuna {
 namespace {
@@ -75,13 +80,30 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// Where one is closed, the next file to be opened would take its number, and messages would go into that
+// file. Writing to them fails, as it does to a closed one.
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) >= 0) continue;
+    if (open("/dev/null", O_RDONLY) != descriptor) {
+      throw Error("/dev/null: cannot be opened: " + std::string(std::strerror(errno)));
+    }
+  }
+}
+
+void prepare_process() {
+  open_standard_descriptors();
+  // A closed pipe and a file over the size limit are errors to report, after the workspace is removed.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  start_log();
+  show_output_visibly(stdout);
+  handle_signals();
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error to report, after the workspace is removed
-  handle_signals();
-  start_log();
-
   CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
   app.set_version_flag("--version", "lacuna " LACUNA_VERSION);
   app.require_subcommand(1);
@@ -92,6 +114,7 @@ int run(int argc, char** argv) {
   add_synth_command(app);
 
   try {
+    prepare_process();
     return run_command(app, join_columns({argv + 1, argv + argc}));
   } catch (const CLI::Success& shown) {  // --help, --version
     app.exit(shown, std::cout, std::cerr);

@@ -1,10 +1,13 @@
 #include "tools/signals.hpp"
 
+#include "engine/core/error.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/terminal.hpp"
 
 #include <atomic>
 #include <csignal>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include <pthread.h>
@@ -19,7 +22,7 @@ void wait_for_signal(sigset_t signals) {
   int signal = 0;
   sigwait(&signals, &signal);
   interrupted = true;
-  clear_progress();
+  clear_progress_now();
   remove_temporary_folders();
   _exit(128 + signal);
 }
@@ -36,7 +39,11 @@ void handle_signals() {
     if (!is_ignored) sigaddset(&signals, signal);
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread(wait_for_signal, signals).detach();
+  try {
+    std::thread(wait_for_signal, signals).detach();
+  } catch (const std::system_error& error) {
+    throw Error(std::string("cannot start a thread: ") + error.what());
+  }
 }
 
 void wait_if_interrupted() {

@@ -1,6 +1,7 @@
 #include "tools/summary.hpp"
 
 #include "tools/terminal.hpp"
+#include "tools/visible_text.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -34,7 +35,7 @@ std::string print_position(const Eigen::Vector3d& position) {
 
 std::string print_input(const Counts& counts, const std::vector<std::filesystem::path>& scans) {
   std::string text = print_count(counts.points) + " points";
-  text += scans.size() == 1 ? " in " + scans.front().string()
+  text += scans.size() == 1 ? " in " + visible(scans.front().string())
                             : " in " + std::to_string(scans.size()) + " files, as one scan";
   if (counts.dropped > 0) text += "; " + print_count(counts.dropped) + " not finite, dropped";
   if (counts.duplicates > 0) text += "; " + print_count(counts.duplicates) + " at the place of another";

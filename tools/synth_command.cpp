@@ -3,9 +3,10 @@
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/value_options.hpp"
+#include "tools/visible_text.hpp"
 
 #include <array>
-#include <cstdio>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -80,9 +81,8 @@ void add_surface(CLI::App& synth) {
       ->default_str("OUT.loops.txt");
   app.callback([options] {
     const SurfaceSummary made = write_surface(*options);
-    std::printf("%s: %llu points; %s: %llu true loops\n", options->out.c_str(),
-                static_cast<unsigned long long>(made.points), made.truth.c_str(),
-                static_cast<unsigned long long>(made.loops));
+    std::cout << visible(options->out.string()) << ": " << made.points << " points; "
+              << visible(made.truth.string()) << ": " << made.loops << " true loops\n";
   });
 }
 
@@ -103,8 +103,8 @@ void add_scan(CLI::App& synth) {
       ->capture_default_str();
   app.callback([options] {
     const ScanSummary made = write_scan(*options);
-    std::printf("%s: %llu points of %llu rays\n", options->out.c_str(),
-                static_cast<unsigned long long>(made.points), static_cast<unsigned long long>(made.rays));
+    std::cout << visible(options->out.string()) << ": " << made.points << " points of " << made.rays
+              << " rays\n";
   });
 }
 

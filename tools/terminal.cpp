@@ -1,5 +1,7 @@
 #include "tools/terminal.hpp"
 
+#include "tools/visible_text.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -9,6 +11,7 @@
 #include <mutex>
 #include <utility>
 
+#include <poll.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
@@ -28,7 +31,7 @@ class Console {
  public:
   void print_line(std::string_view line) {
     const std::lock_guard lock(mutex_);
-    write(erased() + std::string(line) + '\n' + bar_);
+    write(erased() + visible(line) + '\n' + bar_);
   }
   void show_bar(std::string bar) {
     const std::lock_guard lock(mutex_);
@@ -36,9 +39,20 @@ class Console {
     bar_ = std::move(bar);
     write(before + bar_);
   }
+  void clear_now() {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock && can_write_now()) write(std::exchange(bar_, "").empty() ? "" : kErase);
+  }
 
  private:
-  std::string erased() const { return bar_.empty() ? "" : "\r\033[K"; }
+  static constexpr const char* kErase = "\r\033[K";
+
+  std::string erased() const { return bar_.empty() ? "" : kErase; }
+  // Not into a full pipe, nor to a terminal that has been stopped.
+  static bool can_write_now() {
+    pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+    return poll(&err, 1, 0) == 1;
+  }
   static void write(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -197,6 +211,10 @@ void print_error(std::string_view reason) {
 
 void clear_progress() {
   console().show_bar("");
+}
+
+void clear_progress_now() {
+  console().clear_now();
 }
 
 std::string progress_bar(std::string_view phase, std::uint64_t done, std::uint64_t total, double seconds,

@@ -29,6 +29,7 @@ void quiet_log();  // warnings and errors only
 
 void print_error(std::string_view reason);  // "lacuna: error: ..."
 void clear_progress();
+void clear_progress_now();  // does not wait: leaves it where stderr takes nothing at the moment
 
 // The phase so far, for a terminal of `width` columns; shorter than that, whatever the width.
 std::string progress_bar(std::string_view phase, std::uint64_t done, std::uint64_t total, double seconds,

@@ -1,11 +1,17 @@
 #include "engine/core/parallel.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
+#include <latch>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -17,6 +23,21 @@ namespace {
 
 std::size_t resolve(std::size_t threads) {
   return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+// oneTBB ends the program where a thread of its own cannot start the next one. As many are tried here, at the
+// same time, where it can still be an error.
+void require_threads(std::size_t count) {
+  std::latch tried(1);
+  std::vector<std::jthread> started;  // joined when `tried` is over
+  try {
+    while (started.size() + 1 < count) started.emplace_back([&tried] { tried.wait(); });
+  } catch (const std::system_error& error) {
+    tried.count_down();
+    throw Error("cannot start thread " + std::to_string(started.size() + 2) + " of " + std::to_string(count) +
+                ": " + error.what() + "; a lower --threads may help");
+  }
+  tried.count_down();
 }
 
 // Hands out indices in ascending order while the sum of what the running ones need stays within the budget.
@@ -72,7 +93,9 @@ struct Crew::Arena {
   mutable tbb::task_arena arena;
 };
 
-Crew::Crew(std::size_t threads) : arena_(std::make_unique<Arena>(resolve(threads))) {}
+Crew::Crew(std::size_t threads) : arena_(std::make_unique<Arena>(resolve(threads))) {
+  require_threads(resolve(threads));
+}
 Crew::~Crew() = default;
 
 std::size_t Crew::threads() const {

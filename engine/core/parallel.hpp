@@ -13,7 +13,7 @@ namespace lacuna {
 // Threads to work with. A body may use the same crew again.
 class Crew {
  public:
-  explicit Crew(std::size_t threads);  // 0: one per core
+  explicit Crew(std::size_t threads);  // 0: one per core. Throws `Error` if so many cannot be started.
   ~Crew();
 
   std::size_t threads() const;

@@ -56,6 +56,37 @@ Config read(const std::string& content) {
   return config;
 }
 
+TEST_CASE("text that the TOML library cannot take is an error with its line") {
+  const std::string not_ascii = "a character outside of quotes that is not ASCII";
+  CHECK_THAT(error_of_file("\xce\xa2"), Contains(":1: " + not_ascii));
+  CHECK_THAT(error_of_file("[neighbourhood]\nk = 1\xce\xa2\n"), Contains(":2: " + not_ascii));
+  CHECK_THAT(error_of_file("# ok\r\n\n\xc3\xa9 = 1"), Contains(":3: " + not_ascii));
+  CHECK_THAT(error_of_file("[input]\ncolumns = \"x\" \xce\xa2"), Contains(":2: " + not_ascii));
+  CHECK_THAT(error_of_file("[input]\ncolumns = '\\' \xce\xa2 # '"), Contains(":2: " + not_ascii));
+  CHECK_THAT(error_of_file("[input]\ncolumns = \"\"\"\\\n\xce\xa2\"\"\""),
+             Contains(":2: a string of several lines"));
+  CHECK_THAT(error_of_file("[run]\nthreads = \v1"), Contains(":2: " + not_ascii));
+  for (const std::string text : {"\xff", "# \xc3", "[input]\ncolumns = \"\xed\xa0\x80\"", "# \xc0\x9b"}) {
+    CHECK_THAT(error_of_file(text), Contains("is not UTF-8"));
+  }
+  for (const std::string text : {"[=", "[", "[ \t", "[[", "[ .a]", "[\t= 1]", "[[ ,]]", " [#"}) {
+    INFO(text);
+    CHECK_THAT(error_of_file("\n" + text), Contains(":2: a section without a name"));
+  }
+}
+
+TEST_CASE("comments and strings of a config file hold letters of any language") {
+  const ScratchFolder scratch;
+  Config config;
+  read_config(scratch.write("c.toml",
+                            "\xef\xbb\xbf# Gr\xc3\xb6\xc3\x9f"
+                            "e '\"\r\n[ run ] # \xce\xa2\nworkspace = \"/\xce\xa2 \\\" # \" # \xce\xa2\n"
+                            "['input']\n\"columns\" = '\xce\xa2 \\' # \xce\xa2"),
+              config);
+  CHECK(config.run.workspace == "/\xce\xa2 \" # ");
+  CHECK(config.input.columns == "\xce\xa2 \\");
+}
+
 TEST_CASE("configs/default.toml is the printed default, byte for byte") {
   REQUIRE(test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml") == print_config({}));
 }

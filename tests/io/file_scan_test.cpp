@@ -2,7 +2,10 @@
 
 #include "tests/io/io_support.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -100,6 +103,47 @@ TEST_CASE("a missing or broken file is an error before any point is read", "[io]
   CHECK(error_of([&] { FileScan({good, folder / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
   const auto cut = folder.write("cut.ply", kNormals.substr(0, kNormals.size() - 8));
   CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
+}
+
+// Keeps size and time.
+void replace_by_copy(const std::filesystem::path& file) {
+  const auto copy = std::filesystem::path(file).concat(".copy");
+  std::filesystem::copy_file(file, copy);
+  std::filesystem::last_write_time(copy, std::filesystem::last_write_time(file));
+  std::filesystem::rename(copy, file);
+}
+
+TEST_CASE("a file that is not the one that was opened first is an error that says what differs", "[io]") {
+  const ScratchFolder folder;
+  const auto write = [&] { return folder.write("b.ply", kNormals); };
+  const auto later = [](const auto& file, int milliseconds) {
+    const auto time = std::filesystem::last_write_time(file);
+    std::filesystem::last_write_time(file, time + std::chrono::milliseconds(milliseconds));
+  };
+  const std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> changes = {
+      {"another file", replace_by_copy},
+      {"bytes", [&](const auto&) { folder.write("b.ply", kNormals + "\n"); }},
+      {"written to", [&](const auto& file) { later(file, 1); }},
+      {"written to", [&](const auto& file) { later(file, -1); }},
+      {"cannot be found", [](const auto& file) { std::filesystem::remove(file); }}};
+  for (const auto& [named, change] : changes) {
+    const std::filesystem::path file = write();
+    FileScan scan({folder.write("a.ply", kNormals), file}, {});
+    CHECK(error_of([&] { scan.check_unchanged(); }).empty());
+    CHECK(read_all(scan).positions.size() == 2);
+    change(file);
+    for (const std::string& error :
+         {error_of([&] { scan.check_unchanged(); }), error_of([&] { scan.open(1); }), error_of([&] {
+            scan.rewind();
+            for (PointBatch batch; scan.next(batch);) {
+            }
+          })}) {
+      INFO(error);
+      CHECK(error.find(file.string() + ": has changed during the run (") == 0);
+      CHECK(error.find(named) != std::string::npos);
+    }
+    CHECK(scan.open(0)->expected_rows() == 1u);
+  }
 }
 
 }  // namespace lacuna::test

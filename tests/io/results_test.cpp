@@ -324,6 +324,20 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   }
 }
 
+TEST_CASE("an input that was replaced leaves the results of the earlier run as they are", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.xyz", "1 2 3\n");
+  FileScan scan({file}, {});
+  write_results(FakeDetection().with_results(1), scan, Config{}, folder / "out");
+  const std::string earlier = read_file(folder / "out" / "holes.json");
+  std::filesystem::rename(folder.write("b.xyz", "4 5 6\n"), file);
+  const std::string error = error_of([&] {
+    write_results(FakeDetection().with_results(1).with_loop({0}, LoopKind::kHole), scan, {}, folder / "out");
+  });
+  CHECK(error.find("a.xyz: has changed during the run") != std::string::npos);
+  CHECK(read_file(folder / "out" / "holes.json") == earlier);
+}
+
 TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1000,

@@ -92,6 +92,10 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"1 2\n", "line 1: 2 values"},
       {"a b c\n1 2 3\n", "line 1: no columns named x, y and z"},
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
+      {"x y z gr\xc3\xb6\xc3\x9f\xc2\x9b\xff gr\xc3\xb6\xc3\x9f\xc2\x9b\xff\n",
+       "line 1: a second column 'gr\xc3\xb6\xc3\x9f"
+       "?"
+       "?'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
       {"VERSION 0.7\n1 2 3\n", "line 1: 2 values"},
       {"1 2 3\r4 5 6\r", "line 1: a carriage return within the line"},

@@ -48,7 +48,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
                                                         {"stars", "links"},
                                                         {"stars", "seats"},
                                                         {"stars", "results"},
-                                                        {"stars", "vertices"},
+                                                        {"stars", "loop-points"},
                                                         {"stars", "waiting-sight"},
                                                         {"paper", "strengths"}}) {
     INFO(file << ", --method " << method);

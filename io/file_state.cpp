@@ -1,0 +1,50 @@
+#include "io/file_state.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include <sys/stat.h>
+
+namespace lacuna {
+namespace {
+
+// None where the file cannot be looked up; errno says why.
+std::optional<FileState> look_up(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  return FileState{.device = status.st_dev,
+                   .inode = status.st_ino,
+                   .size = static_cast<std::uint64_t>(status.st_size),
+                   .mtime = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
+}
+
+// Empty: nothing differs.
+std::string difference(const FileState& before, const std::optional<FileState>& now) {
+  if (!now) return std::string("it cannot be found any more: ") + std::strerror(errno);
+  if (now->device != before.device || now->inode != before.inode) return "another file has taken its place";
+  if (now->size != before.size) {
+    return "it had " + std::to_string(before.size) + " bytes and has " + std::to_string(now->size) + " now";
+  }
+  return now->mtime != before.mtime ? "it was written to" : "";
+}
+
+}  // namespace
+
+FileState file_state(const std::filesystem::path& file) {
+  const auto state = look_up(file);
+  if (!state) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
+  return *state;
+}
+
+void check_unchanged(const std::filesystem::path& file, const FileState& before) {
+  const std::string different = difference(before, look_up(file));
+  if (different.empty()) return;
+  throw Error(file.string() + ": has changed during the run (" + different +
+              "); an input must stay as it is until the run ends");
+}
+
+}  // namespace lacuna

@@ -1,0 +1,312 @@
+// What the system, the terminal and other programs may do to a run.
+#include "tests/support/run_program.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <thread>
+
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+std::string sheet(int n) {
+  std::string text;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) text += std::to_string(i) + ' ' + std::to_string(j + 0.3 * (i % 2)) + " 0\n";
+  }
+  return text;
+}
+
+std::size_t count_entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
+}
+
+void check_failure(const ProgramResult& result, const std::string& named) {
+  INFO(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
+  CHECK(test::count_lines(result.err) == 1);
+}
+
+// The program, run by a shell after `before`.
+ProgramResult run_in_shell(const std::string& before, const std::vector<std::string>& arguments,
+                           const std::string& redirections = "") {
+  std::vector<std::string> words = {"bash", "-c", before + "exec \"$0\" \"$@\" " + redirections,
+                                    LACUNA_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return test::run_command(words);
+}
+
+TEST_CASE("messages never go into a file, whichever standard descriptors are closed") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(150));
+  const auto detect = [&](const std::string& out, const std::string& redirections) {
+    return run_in_shell("",
+                        {"detect", scan, "--points", "--out", (scratch / out).string(), "--progress", "plain",
+                         "--tile-points", "500"},
+                        redirections);
+  };
+  REQUIRE(detect("open", "").exit_code == 0);
+  const std::string points = test::read_file(scratch / "open" / "points.ply");
+  for (const std::string closed : {"2>&-", "<&- 2>&-", "<&- >&- 2>&-", "<&-"}) {
+    INFO(closed);
+    const ProgramResult result = detect("out" + closed, closed);
+    CHECK(result.exit_code == (Contains(">&- ").match(closed) ? 1 : 0));  // without stdout, no summary
+    CHECK(test::read_file(scratch / ("out" + closed) / "points.ply") == points);
+    CHECK(count_entries(scratch / ("out" + closed)) == 4);
+  }
+}
+
+TEST_CASE("a file over the size limit is an error, and the workspace is removed") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(150));
+  const fs::path out = scratch / "out";
+  check_failure(run_in_shell("ulimit -f 64; ", {"detect", scan, "--out", out.string(), "--quiet"}),
+                "File too large");
+  CHECK_FALSE(fs::exists(out));
+}
+
+// A child whose stderr is a pipe that is full and that nobody reads.
+class Blocked {
+ public:
+  explicit Blocked(std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    if (pipe2(pipe_, O_CLOEXEC | O_NONBLOCK) != 0) throw std::runtime_error("cannot make a pipe");
+    while (write(pipe_[1], "x", 1) == 1) {
+    }
+    fcntl(pipe_[1], F_SETFL, 0);  // the child waits
+    child_ = fork();
+    if (child_ != 0) return;
+    dup2(pipe_[1], STDERR_FILENO);
+    execv(argv[0], argv.data());
+    _exit(126);
+  }
+  ~Blocked() {
+    if (!exit_code_) kill(child_, SIGKILL);
+    if (!exit_code_) waitpid(child_, nullptr, 0);
+    for (const int end : pipe_) close(end);
+  }
+  void send(int signal) const { kill(child_, signal); }
+  // None where it still runs then.
+  std::optional<int> wait(std::chrono::milliseconds most) {
+    for (const auto end = std::chrono::steady_clock::now() + most; std::chrono::steady_clock::now() < end;) {
+      int status = 0;
+      if (waitpid(child_, &status, WNOHANG) == child_) {
+        return exit_code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  int pipe_[2] = {-1, -1};
+  pid_t child_ = -1;
+  std::optional<int> exit_code_;
+};
+
+TEST_CASE("a signal ends the run while nobody takes its messages") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(30));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const std::string style : {"plain", "bar"}) {
+      INFO("signal " << signal << ", " << style);
+      const fs::path out = scratch / (style + std::to_string(signal));
+      Blocked run({LACUNA_PROGRAM, "detect", scan, "--out", out.string(), "--progress", style});
+      const auto has_workspace = [&] { return fs::exists(out) && count_entries(out) > 0; };
+      for (int i = 0; i < 3000 && !has_workspace(); ++i)
+        REQUIRE_FALSE(run.wait(std::chrono::milliseconds(10)));
+      REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
+      REQUIRE(has_workspace());
+      run.send(signal);
+      CHECK(run.wait(std::chrono::seconds(10)) == 128 + signal);
+      CHECK(count_entries(out) == 0);
+    }
+  }
+}
+
+TEST_CASE("threads that cannot be started are an error of one line") {
+  const ScratchFolder scratch;
+  ::chmod((scratch / "").c_str(), 0755);
+  fs::create_directory(scratch / "open");
+  ::chmod((scratch / "open").c_str(), 0777);
+  const std::string scan = scratch.write("open/scan.xyz", sheet(30));
+  ::chmod(scan.c_str(), 0644);
+  std::string user = "0";  // any but root, who has no such limit
+  std::vector<std::string> words = {"bash", "-c", "exec \"$0\" \"$@\"", LACUNA_PROGRAM};
+  if (geteuid() == 0) {
+    user = std::to_string(50'000 + getpid() % 10'000);  // with no process of its own
+    words.insert(words.begin(), {"setpriv", "--reuid=" + user, "--regid=" + user, "--clear-groups"});
+  }
+  const auto run = [&](const std::string& limit, const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = words;
+    all[all.size() - 2] = (limit.empty() ? "" : "ulimit -u " + limit + "; ") + all[all.size() - 2];
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return test::run_command(all);
+  };
+  if (geteuid() != 0 || run("", {"--version"}).exit_code != 0) {
+    WARN("cannot run the program as another user: skipped");
+    return;
+  }
+  for (const std::string limit : {"1", "2", "3", "4", "5", "6", "7"}) {
+    INFO("ulimit -u " << limit);
+    const fs::path out = scratch / "open" / limit;
+    check_failure(run(limit, {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}), "thread");
+    CHECK_FALSE(fs::exists(out));
+  }
+}
+
+TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") {
+  const ScratchFolder scratch;
+  const std::string text = sheet(150);
+  const fs::path out = scratch / "out";
+  const std::vector<std::function<void(const std::string&)>> changes = {
+      [&](const std::string& file) {  // as many rows, as many bytes
+        std::string other = text;
+        for (std::size_t at = other.find(" 0\n"); at != std::string::npos; at = other.find(" 0\n", at + 1))
+          other[at + 1] = '9';
+        fs::rename(scratch.write("other", other), file);
+      },
+      [](const std::string& file) {
+        fs::last_write_time(file, fs::last_write_time(file) + std::chrono::hours(1));
+      },
+      [](const std::string& file) { fs::remove(file); }};
+  for (const auto& change : changes) {
+    const std::string scan = scratch.write("scan.xyz", text);
+    const auto change_when_read = [&] {
+      const bool is_read = fs::exists(out) && count_entries(out) > 0;  // the workspace is there
+      if (is_read) change(scan);
+      return is_read;
+    };
+    // SIGCONT changes nothing.
+    check_failure(test::run_program_until({"detect", scan, "--out", out.string(), "--quiet"}, SIGCONT,
+                                          change_when_read),
+                  "scan.xyz: has changed during the run (");
+    CHECK_FALSE(fs::exists(out));
+  }
+}
+
+// Line ends aside.
+bool has_control_characters(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if ((byte < 0x20 && byte != '\n') || byte == 0x7f) return true;
+    const bool is_lead_of_c1 =
+        byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (is_lead_of_c1 || (byte >= 0x80 && byte < 0xa0 && (i == 0 || !(text[i - 1] & 0x80)))) return true;
+  }
+  return false;
+}
+
+TEST_CASE("control characters of files and their names never reach the terminal, letters do") {
+  const ScratchFolder scratch;
+  const std::string evil =
+      "\033]0;pwned\a\177\xc2\x9b"
+      "2J\x9b"
+      "3J_Gr\xc3\xb6\xc3\x9f"
+      "e";
+  const auto is_clean = [](const ProgramResult& result) {
+    INFO(result.out << result.err);
+    CHECK_FALSE(has_control_characters(result.out));
+    CHECK_FALSE(has_control_characters(result.err));
+    CHECK_THAT(result.out + result.err, Contains("Gr\xc3\xb6\xc3\x9f"
+                                                 "e"));
+  };
+  fs::create_directory(scratch / evil);
+  const std::string scan =
+      scratch.write(evil + "/scan\nof.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                    "property float z\nproperty float " +
+                        evil + "\nend_header\n1 2 3 4\n");
+  const ProgramResult info = run_program({"info", scan});
+  CHECK(info.exit_code == 0);
+  is_clean(info);
+  CHECK_THAT(info.out, StartsWith((scratch / "\\u001b]0;pwned\\u0007\\u007f\\u009b2J\\x9b"
+                                             "3J_")
+                                      .string()) &&
+                           Contains("scan\\u000aof.ply\n"));
+  is_clean(run_program({"detect", scan, "--out", (scratch / evil / "out").string(), "--keep-workspace"}));
+  is_clean(run_program({"info", scan + "none"}));
+  is_clean(run_program({"info", scan, "--" + evil}));
+  is_clean(run_program({"detect", "--print-config", "--config",
+                        scratch.write("key.toml",
+                                      "[criteria]\n\"\\u001b\\u009b\\u0007 Gr\xc3\xb6\xc3\x9f"
+                                      "e\" = 1\n")}));
+  is_clean(run_program({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
+
+  // What other programs read keeps the name.
+  const std::string header = test::read_file(scratch / evil / "out" / "holes.json");
+  const std::string name =
+      "\033]0;pwned\a\177\xc2\x9b"
+      "2J\xef\xbf\xbd"
+      "3J_Gr\xc3\xb6\xc3\x9f"
+      "e";
+  const ProgramResult json = run_program({"info", scan, "--json"});
+  is_clean(json);
+  CHECK(nlohmann::json::parse(json.out).at("files").at(0).at("properties").at(3).at("name") == name);
+  CHECK(nlohmann::json::parse(header).at("inputs").at(0).at("properties").contains(name));
+}
+
+TEST_CASE("a printed config holds what it was given, control characters too") {
+  const ScratchFolder scratch;
+  const std::string folder =
+      "/tmp/\033\177\xc2\x9b Gr\xc3\xb6\xc3\x9f"
+      "e \"\\";
+  const ProgramResult printed = run_program({"detect", "--print-config", "--workspace", folder});
+  CHECK_FALSE(has_control_characters(printed.out));
+  CHECK_THAT(printed.out, Contains("\"/tmp/\\u001B\\u007F\\u009b Gr\xc3\xb6\xc3\x9f"
+                                   "e \\\"\\\\\""));
+  const std::string file = scratch.write("printed.toml", printed.out);
+  CHECK(run_program({"detect", "--print-config", "--config", file}).out == printed.out);
+}
+
+double cpu_seconds_of_children() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) + static_cast<double>(usage.ru_utime.tv_usec) * 1e-6;
+}
+
+TEST_CASE("forty thousand columns take a moment") {
+  const ScratchFolder scratch;
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  std::string names = "x y z", row = "1 2 3";
+  for (int i = 0; i < 40'000; ++i) {
+    ply += "property char p" + std::to_string(i) + "\n";
+    names += " c" + std::to_string(i);
+    row += " 4";
+  }
+  ply += "end_header\n" + row + "\n" + row + "\n" + row + "\n";
+  const std::string text = scratch.write("wide.xyz", names + "\n" + row + "\n" + row + "\n");
+  for (const std::string& scan : {scratch.write("wide.ply", ply), text}) {
+    const double before = cpu_seconds_of_children();
+    CHECK(run_program({"info", scan}).exit_code == 0);
+    CHECK(
+        run_program({"detect", scan, "--points", "--quiet", "--out", (scratch / "out").string()}).exit_code ==
+        0);
+    CHECK(cpu_seconds_of_children() - before < 2);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna

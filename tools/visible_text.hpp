@@ -1,0 +1,19 @@
+// Names and messages come from files of others. A control character among them could move the cursor, change
+// the title or send keys: none reaches the terminal.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+
+// Control characters (C0 with line ends, DEL, C1) as \u001b, which JSON and TOML read back as the same
+// character; bytes that are not UTF-8 as \xff. All else stays as it is.
+std::string visible(std::string_view text);
+
+// Everything that std::cout gets goes to `file` from now on, each line visible. A name that may hold a line
+// end is made visible before it is printed.
+void show_output_visibly(std::FILE* file);
+
+}  // namespace lacuna
