@@ -15,14 +15,23 @@ double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
+// Of the coordinates of points one after the other. In rows of four points, which fill whole registers.
 LACUNA_VECTORISED
-void round_down(const double* coordinates, std::size_t count, double scale, int shift, std::int32_t* cells) {
+void round_down(const double* coordinates, std::size_t count, double scale, const double* origin, int shift,
+                std::int32_t* cells) {
   constexpr double kLast = CellGrid::kLast;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double index = std::max(-kLast, std::min(kLast, coordinates[i] * scale));  // NaN: kLast
-    const auto truncated = static_cast<std::int32_t>(index);
-    cells[i] = (truncated - (truncated > index)) >> shift;
+  constexpr std::size_t kRow = 12;
+  double origins[kRow];
+  for (std::size_t i = 0; i < kRow; ++i) origins[i] = origin[i % 3];
+  const auto cell = [=](double coordinate, double first) {
+    const double index = std::floor(coordinate * scale) - first;
+    return static_cast<std::int32_t>(std::max(-kLast, std::min(kLast, index))) >> shift;  // NaN: kLast
+  };
+  std::size_t i = 0;
+  for (; i + kRow <= count; i += kRow) {
+    for (std::size_t j = 0; j < kRow; ++j) cells[i + j] = cell(coordinates[i + j], origins[j]);
   }
+  for (std::size_t j = 0; i + j < count; ++j) cells[i + j] = cell(coordinates[i + j], origins[j]);
 }
 
 }  // namespace
@@ -41,17 +50,19 @@ void CellGrid::cells_of(std::span<const Eigen::Vector3d> positions, std::span<Ce
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double) && sizeof(CellCoord) == 12);
   assert(positions.size() == cells.size());
   if (positions.empty()) return;
-  round_down(positions.front().data(), 3 * positions.size(), power_of_two(-finest), shift,
+  round_down(positions.front().data(), 3 * positions.size(), power_of_two(-finest), origin.data(), shift,
              cells.front().data());
 }
 
 Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) const {
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const std::int32_t last = kLast >> shift;
+  const double unit = power_of_two(finest), size = power_of_two(shift);
   Eigen::AlignedBox3d box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.min()[axis] = low[axis] == -last ? -kEverywhere : low[axis] * edge();
-    box.max()[axis] = high[axis] == last ? kEverywhere : (high[axis] + 1.0) * edge();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    box.min()[at] = low[axis] == -last ? -kEverywhere : (low[axis] * size + origin[axis]) * unit;
+    box.max()[at] = high[axis] == last ? kEverywhere : ((high[axis] + 1.0) * size + origin[axis]) * unit;
   }
   return box;
 }

@@ -20,16 +20,18 @@ inline bool same_cell(const CellCoord& a, const CellCoord& b) {
   return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
 }
 
-// Cells are cubes of edge 2^(finest + shift) aligned to the origin: `shift` doublings of the size that a
-// survey began with. Points beyond the range of indices belong to the last cell on that side, which
-// therefore has no end; that range is counted in finest cells, so a point keeps its cell's ancestor
-// however often cells are merged.
+// Cells are cubes of edge 2^(finest + shift): `shift` doublings of the size that a survey began with. They are
+// counted from an origin near the points, so a scan may stand anywhere on Earth with millimetre spacing. The
+// origin is a whole number of finest cells along each axis, and cells are found by rounding down before it is
+// subtracted: both steps are exact. Points more than `kLast` finest cells away belong to the last cell on that
+// side, which therefore has no end. A point keeps its cell's ancestor however often cells are merged.
 struct CellGrid {
   static constexpr std::int32_t kLast = 1 << 30;
   static constexpr int kMaxShift = 30;
 
   int finest = 0;  // within +-900, so that its powers of two are normal numbers
   int shift = 0;
+  std::array<double, 3> origin{};  // in finest cells
 
   double edge() const;
   CellCoord cell_of(const Eigen::Vector3d& position) const;

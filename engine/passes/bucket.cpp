@@ -144,7 +144,7 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
   // Rarely more than once: where most points are far denser than the first ones.
   constexpr int kMostTimes = 4;
   const std::uint64_t expected = scan.expected_points().value_or(0);
-  std::optional<int> finest;
+  std::optional<CellGrid> finest;
   for (int time = 1;; ++time) {
     Survey survey(job.memory.cells, expected, finest);
     count_points(survey, scan, expected, job);

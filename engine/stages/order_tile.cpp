@@ -19,8 +19,8 @@ std::uint32_t spread(std::uint32_t bits) {
 }
 
 // Of a coordinate within its cell, to 1/256 of the edge; 255 far from the origin, where that is not a number.
-std::uint32_t fraction(double x, double scale) {
-  const double cells = x * scale;
+std::uint32_t fraction(double x, double scale, double origin) {
+  const double cells = x * scale - origin;
   const double within = (cells - std::floor(cells)) * 256;
   return within < 255 ? static_cast<std::uint32_t>(static_cast<std::int32_t>(within)) : 255;
 }
@@ -28,11 +28,12 @@ std::uint32_t fraction(double x, double scale) {
 // Of each point: its place along a Z curve through its cell, in the high half, and its index. Equal
 // coordinates have equal places.
 LACUNA_VECTORISED
-void make_keys(const StoredPoint* points, std::size_t count, double scale, std::uint64_t* keys) {
+void make_keys(const StoredPoint* points, std::size_t count, double scale, double origin_x, double origin_y,
+               double origin_z, std::uint64_t* keys) {
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t place = spread(fraction(points[i].x, scale)) |
-                                spread(fraction(points[i].y, scale)) << 1 |
-                                spread(fraction(points[i].z, scale)) << 2;
+    const std::uint32_t place = spread(fraction(points[i].x, scale, origin_x)) |
+                                spread(fraction(points[i].y, scale, origin_y)) << 1 |
+                                spread(fraction(points[i].z, scale, origin_z)) << 2;
     keys[i] = std::uint64_t{place} << 32 | i;
   }
 }
@@ -70,7 +71,9 @@ OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std:
   for (const std::uint32_t cell : cells) ++begin[cell + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<std::uint64_t> keys(points.size()), by_cell(points.size());
-  make_keys(points.data(), points.size(), 1 / grid.edge(), keys.data());
+  const double coarser = std::ldexp(1.0, -grid.shift);
+  make_keys(points.data(), points.size(), 1 / grid.edge(), grid.origin[0] * coarser, grid.origin[1] * coarser,
+            grid.origin[2] * coarser, keys.data());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < points.size(); ++i) by_cell[next[cells[i]]++] = keys[i];
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -32,23 +33,39 @@ bool finite(const Eigen::Vector3d& p) {
   return p.allFinite();
 }
 
-// Twice the widest distance between quartiles: the extent of the points without their outliers.
-double robust_extent(const PointBatch& batch) {
-  double extent = 0;
+// Where the points are, their outliers aside.
+struct Whereabouts {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis
+  double extent = 0;                                 // twice the widest distance between quartiles
+  double farthest = 0;                               // largest coordinate
+};
+
+Whereabouts whereabouts_of(const PointBatch& batch) {
+  Whereabouts place;
+  std::vector<double> values;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
+    values.clear();
     for (const Eigen::Vector3d& p : batch.positions) {
-      if (finite(p)) values.push_back(p[axis]);
+      if (!finite(p)) continue;
+      values.push_back(p[axis]);
+      place.farthest = std::max(place.farthest, std::fabs(p[axis]));
     }
-    if (values.empty()) return 0;
+    if (values.empty()) return place;
     const auto quantile = [&](std::size_t quarter) {
       const auto at = values.begin() + static_cast<std::ptrdiff_t>(quarter * (values.size() - 1) / 4);
       std::nth_element(values.begin(), at, values.end());
       return *at;
     };
-    extent = std::max(extent, 2 * (quantile(3) - quantile(1)));
+    place.middle[axis] = quantile(2);
+    place.extent = std::max(place.extent, 2 * (quantile(3) - quantile(1)));
   }
-  return extent;
+  return place;
+}
+
+// The cell that holds the point is at (0, 0, 0).
+std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
+  const double scale = std::ldexp(1.0, -finest);
+  return {std::floor(point.x() * scale), std::floor(point.y() * scale), std::floor(point.z() * scale)};
 }
 
 constexpr std::size_t kMostRuns = 256;
@@ -166,13 +183,13 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest)
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<CellGrid> finest)
     : memory_(memory),
       is_told_(expected_points > 0),
       expected_points_(is_told_ ? expected_points : kUnknownPoints) {
   counts_ = std::make_unique<Counts>();
   if (!finest) return;
-  scan_.grid.finest = *finest;
+  scan_.grid = *finest;
   sized_ = true;
 }
 
@@ -183,17 +200,16 @@ Survey::~Survey() = default;
 // order, its cells tell how many there will be: sizes with several times too many are passed over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
-  double extent = robust_extent(batch);
-  if (extent == 0) {  // most points at one place: any size will do that is not lost beside the coordinates
-    double largest = 0;
-    for (const Eigen::Vector3d& p : batch.positions) {
-      if (finite(p)) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-    }
-    if (largest == 0) largest = 1;
-    extent = largest;
-  }
+  const Whereabouts place = whereabouts_of(batch);
+  const double farthest = place.middle.cwiseAbs().maxCoeff();
+  double extent = place.extent;
+  if (extent == 0) extent = place.farthest > 0 ? place.farthest : 1;  // most points at one place
   const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
-  scan_.grid.finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), kMinExponent, kMaxExponent);
+  // Cells below the last digit of the coordinates would divide nothing.
+  const int digit = farthest > 0 ? std::ilogb(farthest) - std::numeric_limits<double>::digits : kMinExponent;
+  scan_.grid.finest =
+      std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
+  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
 
   // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
   const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
@@ -204,6 +220,7 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   const double most = 2 * points / kPointsPerCell;
   for (double cells = std::ldexp(seen.cells_in_company(), 2 * doublings); cells > most; cells /= 4)
     ++scan_.grid.finest;
+  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
   sized_ = true;
 }
 
@@ -259,7 +276,7 @@ bool Survey::is_too_fine() const {
   return counts_->cells > most || counts_->leaf_count() * kSurelyFilled > most;
 }
 
-std::optional<int> Survey::finer() const {
+std::optional<CellGrid> Survey::finer() const {
   if (is_short_ || counts_->cells == 0) return std::nullopt;
   constexpr std::uint64_t kFarTooMany = 128 * kPointsPerCell;
   std::vector<std::uint64_t> full;
@@ -279,7 +296,11 @@ std::optional<int> Survey::finer() const {
   const std::uint64_t times = full[median] / kPointsPerCell;
   const int doublings = static_cast<int>(std::bit_width(times)) / 2;  // of a surface
   const int finest = std::max(scan_.grid.finest + scan_.grid.shift - doublings, kMinExponent);
-  return finest < scan_.grid.finest ? std::optional(finest) : std::nullopt;
+  if (finest >= scan_.grid.finest) return std::nullopt;
+  CellGrid finer{.finest = finest};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    finer.origin[axis] = std::ldexp(scan_.grid.origin[axis], scan_.grid.finest - finest);
+  return finer;
 }
 
 SurveyedScan Survey::finish() {

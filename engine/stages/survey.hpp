@@ -49,20 +49,19 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 // in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known. `finest`: the exponent of the cell size, where an earlier survey
-  // told.
-  Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest = {});
+  // `expected_points`: 0 where not known. `finest`: the grid to begin with, where an earlier survey found it.
+  Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<CellGrid> finest = {});
   ~Survey();
 
   void add(const PointBatch& batch);
   // The same in two steps, of which the first may run in other threads: `add(count_cells(batch, finest()))`,
   // once the first batch with a finite point has been added.
   bool is_sized() const { return sized_; }
-  CellGrid finest() const { return {.finest = scan_.grid.finest}; }
+  CellGrid finest() const { return {.finest = scan_.grid.finest, .origin = scan_.grid.origin}; }
   void add(const CellCounts& counts);
-  // The exponent from which to survey once more, if half of the points lie in cells of far too many: the
+  // The grid from which to survey once more, if half of the points lie in cells of far too many: the
   // first batch told nothing of them. None where it would not help.
-  std::optional<int> finer() const;
+  std::optional<CellGrid> finer() const;
   // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 

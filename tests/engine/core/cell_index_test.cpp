@@ -18,8 +18,8 @@ namespace {
 
 using test::ScratchFolder;
 
-std::int32_t cell_along_axis(double x, const CellGrid& grid) {
-  const double index = std::floor(std::ldexp(x, -grid.finest));
+std::int32_t cell_along_axis(double x, double origin, const CellGrid& grid) {
+  const double index = std::floor(std::ldexp(x, -grid.finest)) - origin;
   const double last = CellGrid::kLast;
   return static_cast<std::int32_t>(std::clamp(index, -last, last)) >> grid.shift;
 }
@@ -29,7 +29,8 @@ TEST_CASE("the cells of many positions are those of each, rounded down, whatever
   const std::vector<double> hard = {
       0.0, -0.0, 1e-320, -1e-320, 1, -1, std::nextafter(1, 0), std::nextafter(-1, -2),
       1e9, -1e9, 1e300,  -1e300};
-  for (const CellGrid grid : {CellGrid{}, CellGrid{-7, 0}, CellGrid{3, 2}, CellGrid{-500, 30}}) {
+  for (const CellGrid grid : {CellGrid{}, CellGrid{-7, 0}, CellGrid{3, 2}, CellGrid{-500, 30},
+                              CellGrid{-10, 1, {5.4e9, -1e12, 3}}}) {
     std::vector<Eigen::Vector3d> positions;
     for (const double x : hard) positions.emplace_back(x, -x, std::ldexp(x, grid.finest));
     for (int i = 0; i < 1000; ++i) {
@@ -40,7 +41,7 @@ TEST_CASE("the cells of many positions are those of each, rounded down, whatever
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
       for (int axis = 0; axis < 3; ++axis)
-        wrong += cells[i][axis] != cell_along_axis(positions[i][axis], grid);
+        wrong += cells[i][axis] != cell_along_axis(positions[i][axis], grid.origin[std::size_t(axis)], grid);
       wrong += cells[i] != grid.cell_of(positions[i]);
     }
     INFO("finest " << grid.finest << ", shift " << grid.shift);

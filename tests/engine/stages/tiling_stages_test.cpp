@@ -112,6 +112,24 @@ TEST_CASE("outliers far from all else do not make the cells of a surface larger"
   }
 }
 
+TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a millimetre") {
+  const Cloud scan = plane(200).scaled(1e-3);
+  const std::size_t cells = survey(scan).cells.size();
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(5.4e6, 5.4e6, 300), Eigen::Vector3d(500'000, 5.4e6, 300),
+        Eigen::Vector3d(-2.7e6, -4.3e6, 3.85e6), Eigen::Vector3d(1e9, 0, -1e9)}) {
+    const Cloud there = scan.translated(place);
+    const SurveyedScan surveyed = survey(there);
+    check_counts(there, surveyed);
+    INFO(place.transpose());
+    CHECK(surveyed.cells.size() > cells / 2);
+    CHECK(surveyed.cells.size() < cells * 2);
+    std::uint64_t most = 0;
+    for (const CountedCell& cell : surveyed.cells) most = std::max(most, cell.points);
+    CHECK(most < 200);
+  }
+}
+
 TEST_CASE("far outliers are counted like any point") {
   Cloud cloud = scattered(500, 1);
   cloud.positions.insert(cloud.positions.begin(), {1e30, -1e30, 0});
