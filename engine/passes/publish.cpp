@@ -184,20 +184,19 @@ std::unique_ptr<Detection> publish(EvaluatedScan scan, const TileStore& store, c
       const Tile& tile = tiling.tiles[t];
       const std::vector<Mark> tile_marks =
           boundary_of_tile(scan, tile, static_cast<TileIndex>(t), boundary, marks);
-      const std::vector<Duplicate> duplicates = store.duplicates(static_cast<TileIndex>(t));
       const std::lock_guard lock(mutex);
       for (const Mark& mark : tile_marks) {
         summary.counts.coherent += mark.coherent;
         sorted.add(stored(mark));
       }
-      for (const Duplicate& d : duplicates) {
+      store.for_each_duplicate(static_cast<TileIndex>(t), [&](const Duplicate& d) {
         const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
                                          [](const Mark& m, LocalIndex p) { return m.owned < p; });
-        if (of == tile_marks.end() || of->owned != d.of) continue;
+        if (of == tile_marks.end() || of->owned != d.of) return;
         StoredBoundary duplicate = stored(*of);
         duplicate.point.id = d.id;
         sorted.add(duplicate);
-      }
+      });
       phase.advance(tile.points);
     });
     summary.counts.boundary_points = sorted.size();

@@ -255,17 +255,27 @@ class TileRecorder {
     return result;
   }
 
-  // By block of ids, duplicates with the results of the point that stands for them.
+  // By block of ids, duplicates with the results of the point that stands for them. Of these there may be more
+  // than fit in memory.
   void record_results() {
+    constexpr std::size_t kTogether = 1 << 14;
     std::vector<StoredResult> results;
     for (LocalIndex p = 0; p < points_.owned; ++p) results.push_back(result(points_.ids[p], p));
-    for (const Duplicate& d : store_.duplicates(tile_)) results.push_back(result(d.id, d.of));
+    store_.for_each_duplicate(tile_, [&](const Duplicate& d) {
+      if (results.size() >= kTogether) send(results);
+      results.push_back(result(d.id, d.of));
+    });
+    send(results);
+  }
+
+  void send(std::vector<StoredResult>& results) {
     std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     for (std::size_t begin = 0, end; begin < results.size(); begin = end) {
       const std::uint64_t block = value(results[begin].id) / kResultBlock;
       for (end = begin; end < results.size() && value(results[end].id) / kResultBlock == block;) ++end;
       scan_.results.append(block, std::span(results).subspan(begin, end - begin));
     }
+    results.clear();
   }
 
   // An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree, so of the edges

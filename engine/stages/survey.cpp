@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -149,7 +148,8 @@ struct Survey::Counts {
         leaf->setValueOn(offset, 0);
         ++cells;
       }
-      *count += runs[i].points;
+      *count = static_cast<std::int32_t>(
+          std::min<std::int64_t>(std::int64_t{*count} + runs[i].points, kMostCounted));
     }
   }
 };
@@ -183,15 +183,11 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<CellGrid> finest)
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
     : memory_(memory),
       is_told_(expected_points > 0),
-      expected_points_(is_told_ ? expected_points : kUnknownPoints) {
-  counts_ = std::make_unique<Counts>();
-  if (!finest) return;
-  scan_.grid = *finest;
-  sized_ = true;
-}
+      expected_points_(is_told_ ? expected_points : kUnknownPoints),
+      counts_(std::make_unique<Counts>()) {}
 
 Survey::~Survey() = default;
 
@@ -213,10 +209,18 @@ void Survey::choose_cell_size(const PointBatch& batch) {
 
   // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
   const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
-  const int doublings = std::ilogb(thinner) / 2;
+  int doublings = std::ilogb(thinner) / 2;
+  const std::vector<CellRun> runs = count_cells(batch, scan_.grid).runs;
   Counts seen;
-  for_each_part(count_cells(batch, scan_.grid).runs,
-                [&](std::span<const CellRun> runs) { seen.add(runs, doublings); });
+  const auto count = [&] {
+    seen = Counts();
+    for (std::span<const CellRun> rest = runs; !rest.empty(); rest = rest.subspan(std::min(rest.size(), kMostRuns))) {
+      if (seen.leaves.bytes() > memory_) return false;
+      seen.add(rest.first(std::min(rest.size(), kMostRuns)), doublings);
+    }
+    return true;
+  };
+  while (!count() && doublings < CellGrid::kMaxShift) ++doublings;
   const double most = 2 * points / kPointsPerCell;
   for (double cells = std::ldexp(seen.cells_in_company(), 2 * doublings); cells > most; cells /= 4)
     ++scan_.grid.finest;
@@ -250,7 +254,7 @@ void Survey::add(const CellCounts& counts) {
   scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
     counts_->add(runs, scan_.grid.shift);
-    for (; needs_too_much() && can_merge(); is_short_ = true) take(counts_->merged());
+    while (needs_too_much() && can_merge()) take(counts_->merged());
     while (is_too_fine() && can_merge()) {
       // Leaves, since in random order cells have few points at first, and hardly merge.
       if (merge_unless_apart([](const Counts& counts) { return counts.leaf_count(); })) continue;
@@ -274,33 +278,6 @@ bool Survey::is_too_fine() const {
   constexpr std::uint64_t kSurelyFilled = 24;
   const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
   return counts_->cells > most || counts_->leaf_count() * kSurelyFilled > most;
-}
-
-std::optional<CellGrid> Survey::finer() const {
-  if (is_short_ || counts_->cells == 0) return std::nullopt;
-  constexpr std::uint64_t kFarTooMany = 128 * kPointsPerCell;
-  std::vector<std::uint64_t> full;
-  std::uint64_t in_full = 0;
-  counts_->for_each_cell([&](const CellCoord&, std::int32_t points) {
-    const auto count = static_cast<std::uint64_t>(points);
-    if (count < kFarTooMany) return;
-    full.push_back(count);
-    in_full += count;
-  });
-  const std::uint64_t half = (scan_.points - scan_.dropped + 1) / 2;
-  if (in_full < half) return std::nullopt;
-  // The cell of the median point, from the fullest on.
-  std::sort(full.begin(), full.end(), std::greater<>());
-  std::size_t median = 0;
-  for (std::uint64_t points = full[0]; points < half; points += full[median]) ++median;
-  const std::uint64_t times = full[median] / kPointsPerCell;
-  const int doublings = static_cast<int>(std::bit_width(times)) / 2;  // of a surface
-  const int finest = std::max(scan_.grid.finest + scan_.grid.shift - doublings, kMinExponent);
-  if (finest >= scan_.grid.finest) return std::nullopt;
-  CellGrid finer{.finest = finest};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    finer.origin[axis] = std::ldexp(scan_.grid.origin[axis], scan_.grid.finest - finest);
-  return finer;
 }
 
 SurveyedScan Survey::finish() {

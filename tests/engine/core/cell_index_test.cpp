@@ -51,11 +51,11 @@ TEST_CASE("the cells of many positions are those of each, rounded down, whatever
 
 TEST_CASE("every counted cell is found by a position in it, and no other") {
   Random random(2);
-  Tiling tiling;
+  std::vector<CountedCell> counted;
   std::map<CellCoord, std::uint32_t> numbers;
   const auto count = [&](const CellCoord& cell) {
     if (numbers.emplace(cell, static_cast<std::uint32_t>(numbers.size())).second)
-      tiling.cells.push_back({cell, 1});
+      counted.push_back({cell, 1});
   };
   constexpr std::int32_t kLast = CellGrid::kLast;
   for (const std::int32_t x : {-kLast, -kLast + 1, -1, 0, 7, 8, kLast - 1, kLast}) {
@@ -72,13 +72,13 @@ TEST_CASE("every counted cell is found by a position in it, and no other") {
     const auto found = numbers.find(cell);
     expected.push_back(found == numbers.end() ? CellIndex::kNoCell : found->second);
   };
-  for (const CountedCell& cell : tiling.cells) {
+  for (const CountedCell& cell : counted) {
     ask(cell.coord);
     ask({cell.coord[0], cell.coord[1], cell.coord[2] + 1});  // mostly the same leaf, without points
     ask({cell.coord[1], cell.coord[2], cell.coord[0]});      // mostly another leaf
   }
   std::vector<std::uint32_t> cells(positions.size());
-  CellIndex(tiling).find(positions, cells);
+  CellIndex(CellGrid{}, std::span(counted).first(1000), std::span(counted).subspan(1000)).find(positions, cells);
   CHECK(cells == expected);
   CHECK(std::count(cells.begin(), cells.end(), CellIndex::kNoCell) > 3000);
 }
@@ -86,7 +86,7 @@ TEST_CASE("every counted cell is found by a position in it, and no other") {
 TEST_CASE("an index of nothing finds nothing") {
   const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {NAN, 0, 0}, {-INFINITY, 0, 0}};
   std::vector<std::uint32_t> cells(3);
-  CellIndex(Tiling{}).find(positions, cells);
+  CellIndex(CellGrid{}, {}).find(positions, cells);
   CHECK(cells == std::vector<std::uint32_t>(3, CellIndex::kNoCell));
 }
 
@@ -117,13 +117,9 @@ TEST_CASE("a column is filled in many runs at once, whatever the memory and the 
   }
 }
 
-// Two tiles of one cell each: 3000 and 5000 points.
-Tiling two_tiles() {
-  Tiling tiling;
-  tiling.cells = {{{0, 0, 0}, 3000}, {{1, 0, 0}, 5000}};
-  tiling.tiles = {{.first_cell = 0, .last_cell = 1, .first_row = Row{0}, .raw = 3000},
-                  {.first_cell = 1, .last_cell = 2, .first_row = Row{3008}, .raw = 5000}};
-  return tiling;
+// Of 3000 and 5000 points.
+std::vector<Tile> two_tiles() {
+  return {{.first_row = Row{0}, .raw = 3000}, {.first_row = Row{3008}, .raw = 5000}};
 }
 
 StoredPoint numbered(std::uint64_t id) {
@@ -132,7 +128,7 @@ StoredPoint numbered(std::uint64_t id) {
 
 TEST_CASE("points that come from several threads are in their tile once each, beside their normals") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), Precision::kSingle, true, 1 << 16);
+  TileStore store(folder / "", two_tiles(), 2, Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
   std::vector<std::thread> threads;
   for (std::uint64_t first = 0; first < 8000; first += 1000) {
@@ -168,7 +164,7 @@ TEST_CASE("points that come from several threads are in their tile once each, be
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), Precision::kDouble, false, 1 << 16);
+  TileStore store(folder / "", two_tiles(), 2, Precision::kDouble, false, 1 << 16);
   TileStore::Filler filler(store, 4000);
   const std::vector<StoredPoint> points(3000, numbered(1));
   filler.append(0, points, {});
