@@ -246,7 +246,8 @@ BENCHMARK_CAPTURE(cell_of, random, SampleOrder::kRandom);
 
 void order_tile(benchmark::State& state, SampleOrder order) {
   const UnorderedTile unordered(order);
-  const std::vector<std::uint32_t> cells = unordered.cells(CellIndex(unordered.plan.grid, unordered.plan.cells));
+  const std::vector<std::uint32_t> cells =
+      unordered.cells(CellIndex(unordered.plan.grid, unordered.plan.cells));
   for (auto _ : state) {
     benchmark::DoNotOptimize(
         lacuna::order_tile(unordered.stored, cells, unordered.plan.cells.size(), unordered.plan.grid, 32));

@@ -123,7 +123,7 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   Estimate estimate{.summary = summarise(survey, plan.most_tiles(), tile_points, job)};
   estimate.summary.phases = job.phases;
   estimate.cell_size = plan.grid.edge();
-  estimate.cells = plan.cells.size() + plan.heavy.size();
+  estimate.cells = plan.cells.size() + plan.aside.size();
   const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
   // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
   const std::uint64_t orientation =

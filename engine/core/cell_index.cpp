@@ -14,10 +14,10 @@ struct CellIndex::Grid {
 };
 
 CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
-                     std::span<const CountedCell> heavy)
+                     std::span<const CountedCell> aside)
     : grid_(std::make_unique<Grid>(Grid{grid})) {
   std::int32_t number = 0;
-  for (const std::span<const CountedCell> part : {cells, heavy}) {
+  for (const std::span<const CountedCell> part : {cells, aside}) {
     for (const CountedCell& cell : part) {
       const auto& entry = grid_->leaves.touch(cell.coord);
       entry.values[grid_->leaves.offset(cell.coord)] = number++;

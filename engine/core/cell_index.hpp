@@ -14,8 +14,9 @@ class CellIndex {
  public:
   static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
 
-  // Cells are numbered in this order: `cells`, then `heavy`.
-  CellIndex(const CellGrid& grid, std::span<const CountedCell> cells, std::span<const CountedCell> heavy = {});
+  // Cells are numbered in this order: `cells`, then `aside`.
+  CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
+            std::span<const CountedCell> aside = {});
   ~CellIndex();
 
   // The cell of each position; `kNoCell` where none was counted. From any thread.

@@ -70,7 +70,8 @@ class TileStore {
   void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
     duplicates_.append(tile, duplicates);
   }
-  // The tile behind the last: what was never raw is `put` there. By one thread, while no other uses the store.
+  // The tile behind the last: what was never raw is `put` there. By one thread, while no other uses the
+  // store.
   TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
   void add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
                 std::vector<Cell> cells);

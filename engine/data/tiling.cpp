@@ -35,8 +35,7 @@ std::uint32_t Tiling::halve(std::uint32_t first, std::uint32_t last) const {
   const Row half{(value(cells[first].first_row) + end) / 2};
   const auto after = std::upper_bound(cells.begin() + first, cells.begin() + last, half,
                                       [](Row row, const Cell& cell) { return row < cell.first_row; });
-  const auto middle =
-      std::clamp(static_cast<std::uint32_t>(after - cells.begin()) - 1, first + 1, last - 1);
+  const auto middle = std::clamp(static_cast<std::uint32_t>(after - cells.begin()) - 1, first + 1, last - 1);
   const TileIndex tile = tile_of_cell(middle);
   if (tiles[tile].first_cell > first) return tiles[tile].first_cell;
   if (tiles[tile].last_cell < last) return tiles[tile].last_cell;

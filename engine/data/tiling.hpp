@@ -46,8 +46,8 @@ struct Tile {
 
 using TileIndex = std::uint32_t;
 
-// The index of a scan: boxes, counts and places, never points. Cells and tiles stand in the order of points in
-// the store (near in the order: near in space).
+// The index of a scan: boxes, counts and places, never points. Cells and tiles stand in the order of points
+// in the store (near in the order: near in space).
 struct Tiling {
   static constexpr std::uint32_t kLeafCells = 4;
 

@@ -66,7 +66,7 @@ class LastTile {
 }  // namespace
 
 bool SetAside::Before::operator()(const Record& a, const Record& b) const {
-  if (a.heavy != b.heavy) return a.heavy < b.heavy;
+  if (a.group != b.group) return a.group < b.group;
   if (a.place != b.place) return comes_before(a.place, b.place);
   return std::tie(a.point.x, a.point.y, a.point.z, a.point.id) <
          std::tie(b.point.x, b.point.y, b.point.z, b.point.id);
@@ -74,31 +74,33 @@ bool SetAside::Before::operator()(const Record& a, const Record& b) const {
 
 SetAside::SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std::filesystem::path file,
                    std::uint64_t memory)
-    : plan_(plan), counts_(plan.heavy.size()), sort_(std::move(file), memory) {
-  for (const CountedCell& cell : plan.heavy)
-    curves_.emplace_back(plan.grid.box(cell.coord, cell.coord).intersection(bounds));
+    : plan_(plan), counts_(plan.groups()), sort_(std::move(file), memory) {
+  for (std::size_t cell = 0; cell < plan.heavy; ++cell)
+    curves_.emplace_back(plan.grid.box(plan.aside[cell].coord, plan.aside[cell].coord).intersection(bounds));
+  if (plan.has_far()) curves_.emplace_back(bounds);
 }
 
-void SetAside::add(std::uint32_t heavy, const StoredPoint& point, const StoredNormal& normal) {
-  ++counts_[heavy];
-  sort_.add({point, normal, curves_[heavy].place(point.position()), heavy});
+void SetAside::add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal) {
+  ++counts_[group];
+  sort_.add({point, normal, curves_[group].place(point.position()), group});
 }
 
 void SetAside::store(TileStore& store, std::uint64_t cell_points) {
-  for (std::size_t heavy = 0; heavy < counts_.size(); ++heavy) {
-    if (std::min(counts_[heavy], kMostCounted) != plan_.heavy[heavy].points)
+  for (std::size_t group = 0; group < counts_.size(); ++group) {
+    const std::uint64_t counted = plan_.group_points(group);
+    if (counts_[group] != counted && std::min(counts_[group], counted) < kMostCounted)
       fail_changed("not the points that were counted");
   }
   LastTile tile(store, plan_.tile_points, cell_points);
-  std::uint64_t heavy = 0;
+  std::uint64_t group = 0;
   sort_.for_each([&](const Record& record) {
-    const bool is_next = record.heavy != heavy;
+    const bool is_next = record.group != group;
     if (!is_next && tile.holds_copy_of(record.point)) {
       tile.add_copy(record.point.id);
       return;
     }
     if (is_next || tile.is_full()) tile.close();
-    heavy = record.heavy;
+    group = record.group;
     tile.add(record.point, record.normal, record.place);
   });
   tile.close();

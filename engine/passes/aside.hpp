@@ -13,17 +13,17 @@
 
 namespace lacuna {
 
-// They are sorted on disk, cell by cell and along a Z curve through each, which takes any density and any
-// extent in one go. Copies of a point follow each other, so they merge as they stream. Runs of the curve become
-// tiles and cells. Memory: that of the sort, and one tile.
+// They are sorted on disk, group by group and along a Z curve through each group, which takes any density and
+// any extent in one go. Copies of a point follow each other, so they merge as they stream. Runs of the curve
+// become tiles and cells. Memory: that of the sort, and one tile.
 class SetAside {
  public:
   // `bounds`: of all points. The plan must outlive this.
   SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std::filesystem::path file,
            std::uint64_t memory);
 
-  // A point of the cell `plan.heavy[heavy]`. By one thread at a time.
-  void add(std::uint32_t heavy, const StoredPoint& point, const StoredNormal& normal);
+  // A point of a cell of that group of the plan. By one thread at a time.
+  void add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal);
 
   // All are there: appends their tiles to the store. Throws `Error` where a cell got other points than were
   // counted.
@@ -34,14 +34,14 @@ class SetAside {
     StoredPoint point;
     StoredNormal normal;
     ZPlace place;
-    std::uint64_t heavy;
+    std::uint64_t group;
   };
   struct Before {
     bool operator()(const Record& a, const Record& b) const;
   };
 
   const TilePlan& plan_;
-  std::vector<ZCurve> curves_;         // of each heavy cell
+  std::vector<ZCurve> curves_;         // of each group
   std::vector<std::uint64_t> counts_;  // points that came
   ExternalSort<Record, Before> sort_;
 };

@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-// Bytes for the neighbourhoods of a tile's points within eps: no less than they take, by the boxes of cells some
-// twice as many. Not counted further than `most`. eps 0: none.
+// Bytes for the neighbourhoods of a tile's points within eps: no less than they take, by the boxes of cells
+// some twice as many. Not counted further than `most`. eps 0: none.
 std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most);
 
 // What `ball_bytes` of one tile may be.

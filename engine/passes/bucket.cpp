@@ -16,23 +16,24 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-// Where the points of every cell go: a tile, or, from `heavy` on, what is set aside.
+// Where the points of every cell go: a tile, or, from `aside` on, a group of those that are set aside.
 struct Destinations {
   explicit Destinations(const TilePlan& plan)
-      : index(plan.grid, plan.cells, plan.heavy),
-        of_cell(plan.cells.size() + plan.heavy.size()),
-        heavy(static_cast<std::uint32_t>(plan.tiles.size())),
-        end(heavy + static_cast<std::uint32_t>(plan.heavy.size())) {
-    for (std::uint32_t t = 0; t < heavy; ++t) {
+      : index(plan.grid, plan.cells, plan.aside),
+        of_cell(plan.cells.size() + plan.aside.size()),
+        aside(static_cast<std::uint32_t>(plan.tiles.size())),
+        end(aside + static_cast<std::uint32_t>(plan.groups())) {
+    for (std::uint32_t t = 0; t < aside; ++t) {
       const Tile& tile = plan.tiles[t];
       std::fill(of_cell.begin() + tile.first_cell, of_cell.begin() + tile.last_cell, t);
     }
-    std::iota(of_cell.begin() + static_cast<std::ptrdiff_t>(plan.cells.size()), of_cell.end(), heavy);
+    for (std::size_t cell = 0; cell < plan.aside.size(); ++cell)
+      of_cell[plan.cells.size() + cell] = aside + static_cast<std::uint32_t>(plan.group_of(cell));
   }
 
   CellIndex index;
   std::vector<std::uint32_t> of_cell;
-  std::uint32_t heavy, end;
+  std::uint32_t aside, end;
 };
 
 // The finite points of one batch, sorted by destination.
@@ -89,10 +90,11 @@ void append(const Scattered& batch, std::uint32_t tiles, TileStore::Filler& fill
 }
 
 void set_aside(const Scattered& batch, const Destinations& to, SetAside& aside) {
-  std::uint32_t at = to.heavy == 0 ? 0 : batch.ends[to.heavy - 1];
-  for (std::uint32_t heavy = to.heavy; heavy < to.end; ++heavy) {
-    for (; at < batch.ends[heavy]; ++at)
-      aside.add(heavy - to.heavy, batch.points[at], batch.normals.empty() ? StoredNormal{} : batch.normals[at]);
+  std::uint32_t at = to.aside == 0 ? 0 : batch.ends[to.aside - 1];
+  for (std::uint32_t group = to.aside; group < to.end; ++group) {
+    for (; at < batch.ends[group]; ++at)
+      aside.add(group - to.aside, batch.points[at],
+                batch.normals.empty() ? StoredNormal{} : batch.normals[at]);
   }
 }
 
@@ -127,7 +129,7 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
   job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
                     [&](std::size_t slot) {
                       batches[slot].scatter(to);
-                      append(batches[slot], to.heavy, filler);
+                      append(batches[slot], to.aside, filler);
                     },
                     [&](std::size_t slot) {
                       set_aside(batches[slot], to, aside);
@@ -146,7 +148,7 @@ void save_index(const TilePlan& plan, const std::filesystem::path& file) {
     for (std::uint32_t cell = plan.tiles[t].first_cell; cell < plan.tiles[t].last_cell; ++cell)
       add(plan.cells[cell], static_cast<std::int32_t>(t));
   }
-  for (const CountedCell& cell : plan.heavy) add(cell, -1);
+  for (const CountedCell& cell : plan.aside) add(cell, -1);
   save_index(plan.grid, cells, file);
 }
 
@@ -185,7 +187,7 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
                       Precision precision, Job& job) {
   std::uint64_t points = 0;
   for (const CountedCell& cell : plan.cells) points += cell.points;
-  for (const CountedCell& cell : plan.heavy) points += cell.points;
+  for (const CountedCell& cell : plan.aside) points += cell.points;
   Phase phase(job, "bucket", 2 * points);
   const std::uint64_t cell_points = job.cell_points(points);
   TileStore store(job.workspace, plan.tiles, plan.most_tiles(), precision, scan.has_normals(),

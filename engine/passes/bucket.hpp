@@ -12,7 +12,8 @@ namespace lacuna {
 // Streams the scan once and counts its points per cell.
 SurveyedScan survey_scan(PointSource& scan, Job& job);
 
-// Streams it again and stores every distinct finite point in its tile, in cell order. `bounds`: of all points.
+// Streams it again and stores every distinct finite point in its tile, in cell order. `bounds`: of all
+// points.
 TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
                       Precision precision, Job& job);
 

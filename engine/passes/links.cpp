@@ -85,8 +85,7 @@ class BorderPlan {
   // No less than the squared distance from any point of the cell to its k-th neighbour.
   double reach_of(std::uint32_t cell, const CellNode& node) const {
     const Eigen::AlignedBox3d box = tiling_.cells[cell].box;
-    if (tiling_.cells[cell].points <= k_ && node.points > k_)
-      return max_squared_distance(box, node.box);
+    if (tiling_.cells[cell].points <= k_ && node.points > k_) return max_squared_distance(box, node.box);
     return squared_reach(tiling_, cell, k_);
   }
 

@@ -22,6 +22,13 @@ struct Far {
   friend bool operator<(const Far& a, const Far& b) { return a.squared_distance < b.squared_distance; }
 };
 
+// Whether the parts of a node would hardly give a nearer bound than all of it. Without this, the cell of an
+// outlier would go through all cells of a surface that lies far below it, or in the midst of its own box.
+bool is_small(const Eigen::AlignedBox3d& node, double farthest) {
+  constexpr double kTimes = 8;
+  return kTimes * kTimes * max_squared_distance(node, node) <= farthest;
+}
+
 }  // namespace
 
 double squared_reach(const Tiling& tiling, std::uint32_t cell, std::size_t k) {
@@ -52,7 +59,10 @@ double squared_reach(const Tiling& tiling, std::uint32_t cell, std::size_t k) {
       continue;
     }
     const CellNode& node = tiling.nodes[near.index];
-    if (node.left != 0) {
+    const double farthest = max_squared_distance(box, node.box);
+    if (is_small(node.box, farthest)) {
+      keep({farthest, node.points});
+    } else if (node.left != 0) {
       for (const std::uint32_t child : {node.left, node.right}) {
         queue.push({min_squared_distance(box, tiling.nodes[child].box), child, false});
       }

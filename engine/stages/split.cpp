@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 #include <numeric>
+#include <span>
+#include <unordered_map>
 
 namespace lacuna {
 namespace {
@@ -36,7 +38,8 @@ class Splitter {
   };
 
   Part bound(std::uint32_t first, std::uint32_t last) const {
-    Part part{.low = plan_.cells[first].coord, .high = plan_.cells[first].coord, .first = first, .last = last};
+    Part part{
+        .low = plan_.cells[first].coord, .high = plan_.cells[first].coord, .first = first, .last = last};
     for (std::uint32_t i = first; i < last; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         part.low[axis] = std::min(part.low[axis], plan_.cells[i].coord[axis]);
@@ -99,21 +102,60 @@ class Splitter {
   std::vector<std::uint64_t> slabs_;  // points of each
 };
 
+// Counts points per region of 64^3 cells; a surface that passes through one has tens of thousands there.
+class Regions {
+ public:
+  explicit Regions(std::span<const CountedCell> cells) {
+    std::uint64_t points = 0;
+    for (const CountedCell& cell : cells) {
+      points_[key(cell.coord)] += cell.points;
+      points += cell.points;
+    }
+    few_ = std::min<std::uint64_t>(256, points / 1024);
+  }
+
+  bool are_few_near(const CellCoord& cell) const { return points_.at(key(cell)) < few_; }
+
+ private:
+  // Regions with the same key count as one: then neither is far.
+  static std::uint64_t key(const CellCoord& cell) {
+    const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[std::size_t(axis)] >> 6); };
+    return part(0) * 0x9e3779b97f4a7c15 + part(1) * 0xc2b2ae3d27d4eb4f + part(2) * 0x165667b19e3779f9;
+  }
+
+  std::unordered_map<std::uint64_t, std::uint64_t> points_;
+  std::uint64_t few_ = 0;
+};
+
 }  // namespace
+
+std::uint64_t TilePlan::group_points(std::size_t group) const {
+  if (group < heavy) return aside[group].points;
+  std::uint64_t points = 0;
+  for (std::size_t cell = heavy; cell < aside.size(); ++cell) points += aside[cell].points;
+  return points;
+}
 
 std::uint64_t TilePlan::most_tiles() const {
   std::uint64_t most = tiles.size();
-  for (const CountedCell& cell : heavy) most += (cell.points + tile_points - 1) / tile_points;
+  for (std::size_t group = 0; group < groups(); ++group)
+    most += (group_points(group) + tile_points - 1) / tile_points;
   return most;
 }
 
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points) {
   TilePlan plan{.grid = grid, .cells = std::move(cells), .tile_points = tile_points};
-  const auto heavy = std::partition(plan.cells.begin(), plan.cells.end(), [&](const CountedCell& cell) {
-    return cell.points <= tile_points && !grid.is_endless(cell.coord);
-  });
-  plan.heavy.assign(heavy, plan.cells.end());
-  plan.cells.erase(heavy, plan.cells.end());
+  const Regions regions(plan.cells);
+  const auto is_far = [&](const CountedCell& cell) {
+    return grid.is_endless(cell.coord) || regions.are_few_near(cell.coord);
+  };
+  const auto begin = plan.cells.begin(), end = plan.cells.end();
+  const auto far = std::partition(begin, end, [&](const CountedCell& cell) { return !is_far(cell); });
+  const auto heavy =
+      std::partition(begin, far, [&](const CountedCell& cell) { return cell.points <= tile_points; });
+  plan.heavy = static_cast<std::size_t>(far - heavy);
+  plan.aside.assign(heavy, end);
+  plan.cells.erase(heavy, end);
   if (!plan.cells.empty()) Splitter(plan).split(0, static_cast<std::uint32_t>(plan.cells.size()), false);
   std::uint64_t row = 0;
   for (Tile& tile : plan.tiles) {

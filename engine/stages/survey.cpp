@@ -214,7 +214,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   Counts seen;
   const auto count = [&] {
     seen = Counts();
-    for (std::span<const CellRun> rest = runs; !rest.empty(); rest = rest.subspan(std::min(rest.size(), kMostRuns))) {
+    for (std::span<const CellRun> rest = runs; !rest.empty();
+         rest = rest.subspan(std::min(rest.size(), kMostRuns))) {
       if (seen.leaves.bytes() > memory_) return false;
       seen.add(rest.first(std::min(rest.size(), kMostRuns)), doublings);
     }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/core/point_column.hpp"
-#include "engine/data/points.hpp"
 #include "engine/data/cell_grid.hpp"
+#include "engine/data/points.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -34,11 +34,13 @@ void cut(std::span<const ZPlace> places, std::size_t first, std::size_t last, st
   std::size_t middle = first + most;  // at one place
   if (bit != 0) {
     const auto begin = places.begin();
-    const auto in_first_half = [axis = axis, bit = bit](const ZPlace& place) { return (place[axis] & bit) == 0; };
-    middle = static_cast<std::size_t>(
-        std::partition_point(begin + static_cast<std::ptrdiff_t>(first),
-                             begin + static_cast<std::ptrdiff_t>(last), in_first_half) -
-        begin);
+    const auto in_first_half = [axis = axis, bit = bit](const ZPlace& place) {
+      return (place[axis] & bit) == 0;
+    };
+    middle = static_cast<std::size_t>(std::partition_point(begin + static_cast<std::ptrdiff_t>(first),
+                                                           begin + static_cast<std::ptrdiff_t>(last),
+                                                           in_first_half) -
+                                      begin);
   }
   cut(places, first, middle, most, ends);
   cut(places, middle, last, most, ends);

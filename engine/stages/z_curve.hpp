@@ -33,8 +33,9 @@ class ZCurve {
 // Whether `a` comes before `b` on the curve.
 bool comes_before(const ZPlace& a, const ZPlace& b);
 
-// Cuts places in ascending order into runs of at most `most`, where the curve leaves one half of a box for the
-// other: boxes of the runs are small. Returns the end of each run. Cost: linear, times the depth of the cuts.
+// Cuts places in ascending order into runs of at most `most`, where the curve leaves one half of a box for
+// the other: boxes of the runs are small. Returns the end of each run. Cost: linear, times the depth of the
+// cuts.
 std::vector<std::uint32_t> cut_runs(std::span<const ZPlace> places, std::size_t most);
 
 }  // namespace lacuna

@@ -78,7 +78,8 @@ TEST_CASE("every counted cell is found by a position in it, and no other") {
     ask({cell.coord[1], cell.coord[2], cell.coord[0]});      // mostly another leaf
   }
   std::vector<std::uint32_t> cells(positions.size());
-  CellIndex(CellGrid{}, std::span(counted).first(1000), std::span(counted).subspan(1000)).find(positions, cells);
+  CellIndex(CellGrid{}, std::span(counted).first(1000), std::span(counted).subspan(1000))
+      .find(positions, cells);
   CHECK(cells == expected);
   CHECK(std::count(cells.begin(), cells.end(), CellIndex::kNoCell) > 3000);
 }

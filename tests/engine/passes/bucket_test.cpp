@@ -59,7 +59,8 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
     std::size_t wrong_owners = 0;
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::vector<StoredPoint> points = scan.store.points(t);
-      CHECK(points.size() <= static_cast<std::size_t>(std::max<std::int64_t>(scan.config.run.tile_points, 1)));
+      CHECK(points.size() <=
+            static_cast<std::size_t>(std::max<std::int64_t>(scan.config.run.tile_points, 1)));
       scan.store.for_each_duplicate(t, [&](const Duplicate& d) {
         const StoredPoint& owner = points.at(d.of);
         wrong_owners += owner.position() != cloud.positions[value(d.id)] || !(owner.id < d.id);

@@ -52,7 +52,8 @@ TEST_CASE("points that differ in one coordinate are two points") {
     CHECK(order_tile(points, cells, 1, CellGrid{}, kCellPoints).duplicates.empty());
   }
   const std::vector<StoredPoint> same = {stored(0, 0, 0, 0), stored(0, 0, 0, 1)};
-  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}, kCellPoints).duplicates.size() == 1);
+  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}, kCellPoints).duplicates.size() ==
+        1);
 }
 
 TEST_CASE("nothing is ordered into nothing") {
@@ -101,7 +102,8 @@ TEST_CASE("a crowded cell becomes cells of few points near each other, at any de
     const double r = std::pow(10, random.uniform(-9, 0)), turn = random.uniform(0, 7);
     points.push_back(stored(r * std::cos(turn), r * std::sin(turn), 0, i));
   }
-  const OrderedTile tile = order_tile(points, std::vector<std::uint32_t>(points.size(), 0), 1, CellGrid{}, 32);
+  const OrderedTile tile =
+      order_tile(points, std::vector<std::uint32_t>(points.size(), 0), 1, CellGrid{}, 32);
   REQUIRE(tile.order.size() == points.size());
   std::size_t at = 0, wide = 0;
   for (const Cell& cell : tile.cells) {
