@@ -63,19 +63,20 @@ PointBatch sample_surface(std::uint32_t points, SampleOrder order) {
 
 TilePoints sample_tile(const PointBatch& batch) {
   constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+  constexpr std::uint64_t kCellPoints = 32;
   Survey survey(kMemory, batch.size());
   survey.add(batch);
   SurveyedScan surveyed = survey.finish();
-  const Tiling tiling = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size());
+  const TilePlan plan = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size());
   std::vector<std::uint32_t> cells(batch.size());
-  CellIndex(tiling).find(batch.positions, cells);
+  CellIndex(plan.grid, plan.cells).find(batch.positions, cells);
 
   std::vector<StoredPoint> stored;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const Eigen::Vector3d& p = batch.positions[i];
     stored.push_back({p.x(), p.y(), p.z(), PointId{i}});
   }
-  const OrderedTile ordered = order_tile(stored, cells, tiling.cells.size(), tiling.grid);
+  const OrderedTile ordered = order_tile(stored, cells, plan.cells.size(), plan.grid, kCellPoints);
 
   TilePoints tile;
   for (const std::uint32_t i : ordered.order) {

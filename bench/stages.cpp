@@ -221,7 +221,7 @@ struct UnorderedTile {
     Survey survey(kMemory, kPoints);
     survey.add(points);
     SurveyedScan scan = survey.finish();
-    tiling = split_tiles(std::move(scan.cells), scan.grid, kPoints);
+    plan = split_tiles(std::move(scan.cells), scan.grid, kPoints);
     for (const Eigen::Vector3d& p : points.positions) {
       stored.push_back({p.x(), p.y(), p.z(), PointId{stored.size()}});
     }
@@ -234,13 +234,13 @@ struct UnorderedTile {
   }
 
   const PointBatch& points;
-  Tiling tiling;
+  TilePlan plan;
   std::vector<StoredPoint> stored;
 };
 
 void cell_of(benchmark::State& state, SampleOrder order) {
   const UnorderedTile unordered(order);
-  const CellIndex index(unordered.tiling);
+  const CellIndex index(unordered.plan.grid, unordered.plan.cells);
   for (auto _ : state) benchmark::DoNotOptimize(unordered.cells(index));
   time_per(state, "per_point", kPoints);
 }
@@ -249,10 +249,11 @@ BENCHMARK_CAPTURE(cell_of, random, SampleOrder::kRandom);
 
 void order_tile(benchmark::State& state, SampleOrder order) {
   const UnorderedTile unordered(order);
-  const std::vector<std::uint32_t> cells = unordered.cells(CellIndex(unordered.tiling));
+  const std::vector<std::uint32_t> cells =
+      unordered.cells(CellIndex(unordered.plan.grid, unordered.plan.cells));
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        lacuna::order_tile(unordered.stored, cells, unordered.tiling.cells.size(), unordered.tiling.grid));
+        lacuna::order_tile(unordered.stored, cells, unordered.plan.cells.size(), unordered.plan.grid, 32));
   }
   time_per(state, "per_point", kPoints);
 }

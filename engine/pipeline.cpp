@@ -4,6 +4,7 @@
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/loops/measure_loops.hpp"
+#include "engine/passes/balls.hpp"
 #include "engine/passes/bucket.hpp"
 #include "engine/passes/links.hpp"
 #include "engine/results/collect.hpp"
@@ -27,13 +28,13 @@ double eps_length(const NeighbourhoodConfig& config, double extent) {
   return config.eps > 0 ? config.eps : config.eps_fraction * extent;
 }
 
-Summary summarise(const SurveyedScan& survey, const Tiling& tiling, std::uint64_t tile_points,
+Summary summarise(const SurveyedScan& survey, std::uint64_t tiles, std::uint64_t tile_points,
                   const Job& job) {
   Summary summary;
   summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
-  summary.tiles = tiling.tiles.size();
+  summary.tiles = tiles;
   summary.tile_points = tile_points;
   summary.threads = job.crew.threads();
   summary.memory_limit = job.memory.limit;
@@ -72,12 +73,13 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   const double extent = diagonal(survey.bounds);
   const double eps = eps_length(config.neighbourhood, extent);
   const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  Tiling tiling = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  Summary summary = summarise(survey, tiling, tile_points, job);
-  const TileStore store = bucket_scan(scan, std::move(tiling), survey.precision(), job);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  const TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
+  Summary summary = summarise(survey, store.tiling().tiles.size(), tile_points, job);
 
   // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer keeps
   // what it needs of an evaluated tile.
+  refuse_balls(store.tiling(), eps, job);
   AppendLists<Link> halo = link_tiles(store, job);
   Candidates candidates(store, job);
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
@@ -110,11 +112,11 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   SurveyedScan survey = survey_scan(scan, job);
   const std::uint64_t points = survey.points - survey.dropped;
   const std::uint64_t tile_points = job.tile_points(points);
-  const Tiling tiling = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  Estimate estimate{.summary = summarise(survey, tiling, tile_points, job)};
+  const TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  Estimate estimate{.summary = summarise(survey, plan.most_tiles(), tile_points, job)};
   estimate.summary.phases = job.phases;
-  estimate.cell_size = tiling.grid.edge();
-  estimate.cells = tiling.cells.size();
+  estimate.cell_size = plan.grid.edge();
+  estimate.cells = plan.cells.size() + plan.aside.size();
   const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
   // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
   const std::uint64_t orientation =

@@ -13,11 +13,15 @@ struct CellIndex::Grid {
   LeafTable<std::int32_t> leaves{-1};
 };
 
-CellIndex::CellIndex(const Tiling& tiling) : grid_(std::make_unique<Grid>(Grid{tiling.grid})) {
-  for (std::size_t i = 0; i < tiling.cells.size(); ++i) {
-    const CellCoord& cell = tiling.cells[i].coord;
-    const auto& entry = grid_->leaves.touch(cell);
-    entry.values[grid_->leaves.offset(cell)] = static_cast<std::int32_t>(i);
+CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
+                     std::span<const CountedCell> aside)
+    : grid_(std::make_unique<Grid>(Grid{grid})) {
+  std::int32_t number = 0;
+  for (const std::span<const CountedCell> part : {cells, aside}) {
+    for (const CountedCell& cell : part) {
+      const auto& entry = grid_->leaves.touch(cell.coord);
+      entry.values[grid_->leaves.offset(cell.coord)] = number++;
+    }
   }
 }
 

@@ -1,7 +1,7 @@
 // From a place to the cell that holds it.
 #pragma once
 
-#include "engine/data/tiling.hpp"
+#include "engine/data/cell_grid.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -14,7 +14,9 @@ class CellIndex {
  public:
   static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
 
-  explicit CellIndex(const Tiling& tiling);
+  // Cells are numbered in this order: `cells`, then `aside`.
+  CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
+            std::span<const CountedCell> aside = {});
   ~CellIndex();
 
   // The cell of each position; `kNoCell` where none was counted. From any thread.

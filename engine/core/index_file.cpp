@@ -3,7 +3,6 @@
 #include "engine/core/error.hpp"
 
 #include <string>
-#include <vector>
 
 #include <dlfcn.h>
 
@@ -24,13 +23,8 @@ WriteIndex* load_writer() {
 
 }  // namespace
 
-void save_index(const Tiling& tiling, const std::filesystem::path& file) {
-  std::vector<IndexedCell> cells;
-  cells.reserve(tiling.cells.size());
-  for (std::uint32_t i = 0; i < tiling.cells.size(); ++i)
-    cells.push_back({tiling.cells[i].coord, static_cast<std::int32_t>(tiling.cells[i].points),
-                     static_cast<std::int32_t>(tiling.tile_of_cell(i))});
-  const std::string problem = load_writer()(tiling.grid.edge(), cells, file);
+void save_index(const CellGrid& grid, std::span<const IndexedCell> cells, const std::filesystem::path& file) {
+  const std::string problem = load_writer()(grid.edge(), cells, file);
   if (!problem.empty()) throw Error(file.string() + ": cannot write: " + problem);
 }
 

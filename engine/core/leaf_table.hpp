@@ -6,7 +6,7 @@
 // nothing is added.
 #pragma once
 
-#include "engine/data/tiling.hpp"
+#include "engine/data/cell_grid.hpp"
 
 #include <cstddef>
 #include <cstdint>

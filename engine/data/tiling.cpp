@@ -1,59 +1,45 @@
 #include "engine/data/tiling.hpp"
 
-#include "engine/core/dispatch.hpp"
-
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 namespace lacuna {
 
-namespace {
-
-// Exact to multiply by, so every pass finds the same cell. Exponents of grids are those of normal numbers.
-double power_of_two(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+void Tiling::build_tree() {
+  nodes.clear();
+  if (!cells.empty()) build_node(0, static_cast<std::uint32_t>(cells.size()));
 }
 
-LACUNA_VECTORISED
-void round_down(const double* coordinates, std::size_t count, double scale, int shift, std::int32_t* cells) {
-  constexpr double kLast = CellGrid::kLast;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double index = std::max(-kLast, std::min(kLast, coordinates[i] * scale));  // NaN: kLast
-    const auto truncated = static_cast<std::int32_t>(index);
-    cells[i] = (truncated - (truncated > index)) >> shift;
+std::uint32_t Tiling::build_node(std::uint32_t first, std::uint32_t last) {
+  const auto index = static_cast<std::uint32_t>(nodes.size());
+  nodes.push_back({.first = first, .last = last});
+  CellNode node{.first = first, .last = last};
+  if (last - first <= kLeafCells) {
+    for (std::uint32_t cell = first; cell < last; ++cell) {
+      node.box.extend(cells[cell].box);
+      node.points += cells[cell].points;
+    }
+  } else {
+    const std::uint32_t middle = halve(first, last);
+    node.left = build_node(first, middle);
+    node.right = build_node(middle, last);
+    node.box = nodes[node.left].box.merged(nodes[node.right].box);
+    node.points = nodes[node.left].points + nodes[node.right].points;
   }
+  nodes[index] = node;
+  return index;
 }
 
-}  // namespace
-
-double CellGrid::edge() const {
-  return power_of_two(finest + shift);
-}
-
-CellCoord CellGrid::cell_of(const Eigen::Vector3d& position) const {
-  CellCoord cell;
-  cells_of({&position, 1}, {&cell, 1});
-  return cell;
-}
-
-void CellGrid::cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const {
-  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double) && sizeof(CellCoord) == 12);
-  assert(positions.size() == cells.size());
-  if (positions.empty()) return;
-  round_down(positions.front().data(), 3 * positions.size(), power_of_two(-finest), shift,
-             cells.front().data());
-}
-
-Eigen::AlignedBox3d CellGrid::box(const CellCoord& low, const CellCoord& high) const {
-  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
-  const std::int32_t last = kLast >> shift;
-  Eigen::AlignedBox3d box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.min()[axis] = low[axis] == -last ? -kEverywhere : low[axis] * edge();
-    box.max()[axis] = high[axis] == last ? kEverywhere : (high[axis] + 1.0) * edge();
-  }
-  return box;
+// The first cell of the second half.
+std::uint32_t Tiling::halve(std::uint32_t first, std::uint32_t last) const {
+  const std::uint64_t end = value(cells[last - 1].first_row) + cells[last - 1].points;
+  const Row half{(value(cells[first].first_row) + end) / 2};
+  const auto after = std::upper_bound(cells.begin() + first, cells.begin() + last, half,
+                                      [](Row row, const Cell& cell) { return row < cell.first_row; });
+  const auto middle = std::clamp(static_cast<std::uint32_t>(after - cells.begin()) - 1, first + 1, last - 1);
+  const TileIndex tile = tile_of_cell(middle);
+  if (tiles[tile].first_cell > first) return tiles[tile].first_cell;
+  if (tiles[tile].last_cell < last) return tiles[tile].last_cell;
+  return middle;
 }
 
 TileIndex Tiling::tile_of_cell(std::uint32_t cell) const {
@@ -90,34 +76,18 @@ std::uint64_t Tiling::points() const {
   return points;
 }
 
-void Tiling::recount() {
-  for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parent
-    CellNode& node = nodes[i];
-    node.points = 0;
-    if (node.left != 0) {
-      node.points = nodes[node.left].points + nodes[node.right].points;
-    } else {
-      for (std::uint32_t cell = node.first; cell < node.last; ++cell) node.points += cells[cell].points;
-    }
-  }
-}
-
 bool Tiling::check() const {
-  if (!cell_rows.empty() && cell_rows.size() != cells.size()) return false;
   std::uint32_t cell = 0;
   std::uint64_t row = 0;  // the first that is free
   for (const Tile& tile : tiles) {
     if (tile.first_cell != cell || tile.last_cell <= cell || tile.last_cell > cells.size()) return false;
     if (value(tile.first_row) < row || value(tile.first_row) % kRowAlignment != 0) return false;
     if (tile.points > tile.raw) return false;
-    if (!cell_rows.empty()) {
-      std::uint64_t next = value(tile.first_row);
-      for (std::uint32_t c = cell; c < tile.last_cell; next += cells[c++].points) {
-        if (value(cell_rows[c]) != next) return false;
-      }
-      if (next != value(tile.first_row) + tile.points) return false;
+    std::uint64_t next = value(tile.first_row);
+    for (; cell < tile.last_cell; next += cells[cell++].points) {
+      if (value(cells[cell].first_row) != next || cells[cell].points == 0) return false;
     }
-    cell = tile.last_cell;
+    if (next != value(tile.first_row) + tile.points) return false;
     row = value(tile.first_row) + tile.raw;
   }
   if (cell != cells.size()) return false;

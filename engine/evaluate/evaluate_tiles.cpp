@@ -1,6 +1,7 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
 #include "engine/core/dispatch.hpp"
+#include "engine/passes/balls.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "engine/stages/reach.hpp"
@@ -19,7 +20,7 @@ std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, do
   std::vector<std::uint32_t> cells;
   if (eps == 0) return cells;
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, tile.first_cell, tile.last_cell,
+    for_each_cell_near(tiling, tiling.cells[cell].box, eps * eps, tile.first_cell, tile.last_cell,
                        [&](std::uint32_t near) {
                          cells.push_back(near);
                          return true;
@@ -30,22 +31,6 @@ std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, do
     }
   }
   return cells;
-}
-
-// No less than the number of points within eps of a tile's points, summed over these: by their cells, some
-// three times as many.
-std::uint64_t ball_points(const Tiling& tiling, const Tile& tile, double eps) {
-  std::uint64_t sum = 0;
-  if (eps == 0) return sum;
-  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-    std::uint64_t near_points = 0;
-    for_each_cell_near(tiling, tiling.cell_box(cell), eps * eps, 0, 0, [&](std::uint32_t near) {
-      near_points += tiling.cells[near].points;
-      return true;
-    });
-    sum += tiling.cells[cell].points * near_points;
-  }
-  return sum;
 }
 
 // Foreign points that a tile sees, each once, in ascending row.
@@ -187,7 +172,7 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<Link> halo, double eps
     const Tile& tile = tiling.tiles[t];
     std::uint64_t foreign = halo.count(t);
     for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
-    needs[t] = job.tile_bytes(tile.points) + foreign * 120 + 8 * ball_points(tiling, tile, eps);
+    needs[t] = job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
   std::mutex mutex;
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {

@@ -3,6 +3,7 @@
 #include "engine/core/cell_index.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/index_file.hpp"
+#include "engine/passes/aside.hpp"
 #include "engine/stages/order_tile.hpp"
 
 #include <algorithm>
@@ -15,59 +16,69 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-// The tile of every cell.
-std::vector<TileIndex> tiles_of_cells(const Tiling& tiling) {
-  std::vector<TileIndex> tiles(tiling.cells.size());
-  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-    const Tile& tile = tiling.tiles[t];
-    std::fill(tiles.begin() + tile.first_cell, tiles.begin() + tile.last_cell, t);
+// Where the points of every cell go: a tile, or, from `aside` on, a group of those that are set aside.
+struct Destinations {
+  explicit Destinations(const TilePlan& plan)
+      : index(plan.grid, plan.cells, plan.aside),
+        of_cell(plan.cells.size() + plan.aside.size()),
+        aside(static_cast<std::uint32_t>(plan.tiles.size())),
+        end(aside + static_cast<std::uint32_t>(plan.groups())) {
+    for (std::uint32_t t = 0; t < aside; ++t) {
+      const Tile& tile = plan.tiles[t];
+      std::fill(of_cell.begin() + tile.first_cell, of_cell.begin() + tile.last_cell, t);
+    }
+    for (std::size_t cell = 0; cell < plan.aside.size(); ++cell)
+      of_cell[plan.cells.size() + cell] = aside + static_cast<std::uint32_t>(plan.group_of(cell));
   }
-  return tiles;
-}
 
-// The finite points of one batch, sorted by tile.
+  CellIndex index;
+  std::vector<std::uint32_t> of_cell;
+  std::uint32_t aside, end;
+};
+
+// The finite points of one batch, sorted by destination.
 struct Scattered {
   PointBatch batch;
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;
-  std::vector<std::uint32_t> ends;  // of each tile's points
+  std::vector<std::uint32_t> ends;  // of each destination's points
 
-  void scatter(const CellIndex& index, std::span<const TileIndex> tile_of, std::size_t tile_count);
+  void scatter(const Destinations& to);
 
  private:
-  std::vector<std::uint32_t> tiles;  // of each point of the batch; its cell at first
+  std::vector<std::uint32_t> destinations;  // of each point of the batch; its cell at first
 };
 
-// A counting sort. What is not finite goes behind the last tile, and then away.
-void Scattered::scatter(const CellIndex& index, std::span<const TileIndex> tile_of, std::size_t tile_count) {
-  tiles.resize(batch.size());
-  index.find(batch.positions, tiles);
-  ends.assign(tile_count + 2, 0);
+// A counting sort. What is not finite goes behind the last destination, and then away.
+void Scattered::scatter(const Destinations& to) {
+  destinations.resize(batch.size());
+  to.index.find(batch.positions, destinations);
+  ends.assign(to.end + 2, 0);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    const std::uint32_t cell = tiles[i];
+    const std::uint32_t cell = destinations[i];
     const bool finite = batch.positions[i].allFinite();
     if (finite && cell == CellIndex::kNoCell) fail_changed("a point lies where none was counted");
-    tiles[i] = finite ? tile_of[cell] : static_cast<TileIndex>(tile_count);
-    ++ends[tiles[i] + 1];
+    destinations[i] = finite ? to.of_cell[cell] : to.end;
+    ++ends[destinations[i] + 1];
   }
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  const std::uint32_t finite = ends[tile_count];
+  const std::uint32_t finite = ends[to.end];
   points.resize(batch.size());
   normals.resize(batch.normals.size());
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    const std::uint32_t at = ends[tiles[i]]++;
+    const std::uint32_t at = ends[destinations[i]]++;
     const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
     points[at] = {p.x(), p.y(), p.z(), PointId{value(batch.first) + i}};
     if (!normals.empty()) normals[at] = {batch.normals[i].x(), batch.normals[i].y(), batch.normals[i].z()};
   }
   points.resize(finite);
   normals.resize(batch.normals.empty() ? 0 : finite);
-  ends.resize(tile_count);
+  ends.resize(to.end);
 }
 
-void append(const Scattered& batch, TileStore::Filler& filler) {
+void append(const Scattered& batch, std::uint32_t tiles, TileStore::Filler& filler) {
   std::uint32_t begin = 0;
-  for (TileIndex tile = 0; tile < batch.ends.size(); ++tile) {
+  for (TileIndex tile = 0; tile < tiles; ++tile) {
     const std::uint32_t count = batch.ends[tile] - begin;
     if (count > 0) {
       filler.append(tile, std::span(batch.points).subspan(begin, count),
@@ -75,6 +86,15 @@ void append(const Scattered& batch, TileStore::Filler& filler) {
                                           : std::span(batch.normals).subspan(begin, count));
     }
     begin += count;
+  }
+}
+
+void set_aside(const Scattered& batch, const Destinations& to, SetAside& aside) {
+  std::uint32_t at = to.aside == 0 ? 0 : batch.ends[to.aside - 1];
+  for (std::uint32_t group = to.aside; group < to.end; ++group) {
+    for (; at < batch.ends[group]; ++at)
+      aside.add(group - to.aside, batch.points[at],
+                batch.normals.empty() ? StoredNormal{} : batch.normals[at]);
   }
 }
 
@@ -100,20 +120,36 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
   return cells;
 }
 
-// Streams the scan into the store, every finite point into its tile.
-void fill(TileStore& store, PointSource& scan, const CellIndex& index, Job& job, Phase& phase) {
-  const std::vector<TileIndex> tile_of = tiles_of_cells(store.tiling());
-  const std::size_t tile_count = store.tiling().tiles.size();
+// Streams the scan: every finite point into its tile, or aside.
+void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinations& to, Job& job,
+          Phase& phase) {
   TileStore::Filler filler(store, job.memory.tiles / 2);
   std::vector<Scattered> batches(kBatches);
   scan.rewind();
   job.crew.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
                     [&](std::size_t slot) {
-                      batches[slot].scatter(index, tile_of, tile_count);
-                      append(batches[slot], filler);
+                      batches[slot].scatter(to);
+                      append(batches[slot], to.aside, filler);
                     },
-                    [&](std::size_t slot) { phase.advance(batches[slot].points.size()); }, kBatches);
+                    [&](std::size_t slot) {
+                      set_aside(batches[slot], to, aside);
+                      phase.advance(batches[slot].points.size());
+                    },
+                    kBatches);
   filler.finish();
+}
+
+void save_index(const TilePlan& plan, const std::filesystem::path& file) {
+  std::vector<IndexedCell> cells;
+  const auto add = [&](const CountedCell& cell, std::int32_t tile) {
+    cells.push_back({cell.coord, static_cast<std::int32_t>(cell.points), tile});
+  };
+  for (std::size_t t = 0; t < plan.tiles.size(); ++t) {
+    for (std::uint32_t cell = plan.tiles[t].first_cell; cell < plan.tiles[t].last_cell; ++cell)
+      add(plan.cells[cell], static_cast<std::int32_t>(t));
+  }
+  for (const CountedCell& cell : plan.aside) add(cell, -1);
+  save_index(plan.grid, cells, file);
 }
 
 void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job& job) {
@@ -141,41 +177,42 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 }  // namespace
 
 SurveyedScan survey_scan(PointSource& scan, Job& job) {
-  // Rarely more than once: where most points are far denser than the first ones.
-  constexpr int kMostTimes = 4;
   const std::uint64_t expected = scan.expected_points().value_or(0);
-  std::optional<int> finest;
-  for (int time = 1;; ++time) {
-    Survey survey(job.memory.cells, expected, finest);
-    count_points(survey, scan, expected, job);
-    finest = survey.finer();
-    if (!finest || time == kMostTimes) return survey.finish();
-  }
+  Survey survey(job.memory.cells, expected);
+  count_points(survey, scan, expected, job);
+  return survey.finish();
 }
 
-TileStore bucket_scan(PointSource& scan, Tiling tiling, Precision precision, Job& job) {
+TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
+                      Precision precision, Job& job) {
   std::uint64_t points = 0;
-  for (const Tile& tile : tiling.tiles) points += tile.raw;
+  for (const CountedCell& cell : plan.cells) points += cell.points;
+  for (const CountedCell& cell : plan.aside) points += cell.points;
   Phase phase(job, "bucket", 2 * points);
-  const CellIndex index(tiling);
-  TileStore store(job.workspace, std::move(tiling), precision, scan.has_normals(), job.memory.spills / 8);
-  fill(store, scan, index, job, phase);
+  const std::uint64_t cell_points = job.cell_points(points);
+  TileStore store(job.workspace, plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
+                  job.memory.spills / 8);
+  SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
+  const Destinations to(plan);
+  fill(store, aside, scan, to, job, phase);
+  aside.store(store, cell_points);
 
   std::vector<std::uint64_t> needs;
-  for (const Tile& tile : store.tiling().tiles) needs.push_back(tile.raw * 120);
+  for (const Tile& tile : plan.tiles) needs.push_back(tile.raw * 120);
   job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
     const auto number = static_cast<TileIndex>(t);
-    const Tile& tile = store.tiling().tiles[t];
+    const Tile& tile = plan.tiles[t];
     const std::vector<StoredPoint> raw = store.raw_points(number);
     const std::vector<StoredNormal> normals = store.raw_normals(number);
-    const OrderedTile ordered =
-        order_tile(raw, cells_of(raw, index, tile), tile.last_cell - tile.first_cell, store.tiling().grid);
+    OrderedTile ordered = order_tile(raw, cells_of(raw, to.index, tile), tile.last_cell - tile.first_cell,
+                                     plan.grid, cell_points);
     store.put(number, pick(raw, ordered.order), store.has_normals() ? pick(normals, ordered.order) : normals,
-              ordered.cell_points, ordered.duplicates);
+              std::move(ordered.cells));
+    store.add_duplicates(number, ordered.duplicates);
     phase.advance(raw.size());
   });
   store.seal();
-  if (job.config.run.keep_index) save_index(store.tiling(), job.file("index.vdb"));
+  if (job.config.run.keep_index) save_index(plan, job.file("index.vdb"));
   return store;
 }
 

@@ -63,6 +63,13 @@ std::uint64_t Job::tile_points(std::uint64_t points) const {
   return std::min(std::clamp(share, std::uint64_t{4096}, kMost), affordable);
 }
 
+std::uint64_t Job::cell_points(std::uint64_t points) const {
+  constexpr std::uint64_t kFew = 32;
+  constexpr std::uint64_t kBytesPerCell = 128;  // with its share of the tree
+  // Cuts leave cells about half full.
+  return std::max(kFew, 2 * points * kBytesPerCell / memory.cells);
+}
+
 Phase::Phase(Job& job, std::string_view name, std::uint64_t total) : job_(job), start_(now()) {
   job_.phases.push_back({std::string(name), 0});
   job_.progress.begin(name, total);

@@ -41,6 +41,8 @@ struct Job {
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
   // Points per tile: what was asked for, or enough tiles for all threads; never more than memory allows.
   std::uint64_t tile_points(std::uint64_t points) const;
+  // Points in a cell of the index, so that all cells fit in memory.
+  std::uint64_t cell_points(std::uint64_t points) const;
   // Bytes that a tile with so many points takes while it is evaluated.
   std::uint64_t tile_bytes(std::uint64_t points) const;
 };

@@ -69,7 +69,7 @@ class BorderPlan {
   // More than k points within a box have their neighbours within its diagonal.
   bool is_interior(const CellNode& node) const {
     if (node.points <= k_) return false;
-    const Eigen::AlignedBox3d box = tiling_.box(node);
+    const Eigen::AlignedBox3d box = node.box;
     return !leaves_tile(box, max_squared_distance(box, box));
   }
 
@@ -84,9 +84,8 @@ class BorderPlan {
 
   // No less than the squared distance from any point of the cell to its k-th neighbour.
   double reach_of(std::uint32_t cell, const CellNode& node) const {
-    const Eigen::AlignedBox3d box = tiling_.cell_box(cell);
-    if (tiling_.cells[cell].points <= k_ && node.points > k_)
-      return max_squared_distance(box, tiling_.box(node));
+    const Eigen::AlignedBox3d box = tiling_.cells[cell].box;
+    if (tiling_.cells[cell].points <= k_ && node.points > k_) return max_squared_distance(box, node.box);
     return squared_reach(tiling_, cell, k_);
   }
 
@@ -100,7 +99,7 @@ class BorderPlan {
     const std::uint32_t last = std::min(node.last, tile_.last_cell);
     for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell) {
       const double reach = reach_of(cell, node);
-      if (leaves_tile(tiling_.cell_box(cell), reach)) border.push_back({cell, reach});
+      if (leaves_tile(tiling_.cells[cell].box, reach)) border.push_back({cell, reach});
     }
     plan(border);
   }
@@ -112,7 +111,7 @@ class BorderPlan {
     double reach = 0;
     std::uint64_t own = 0;
     for (const BorderCell& b : border) {
-      box.extend(tiling_.cell_box(b.cell));
+      box.extend(tiling_.cells[b.cell].box);
       reach = std::max(reach, b.squared_reach);
       own += tiling_.cells[b.cell].points;
     }
@@ -177,7 +176,7 @@ class Linker {
     }
     BlockSearch search(positions, ids);
     for (const std::uint32_t cell : group.border) {
-      const Row first = tiling_.cell_rows[cell];
+      const Row first = tiling_.cells[cell].first_row;
       const auto begin =
           static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
       const auto end = static_cast<LocalIndex>(begin + tiling_.cells[cell].points);
@@ -190,7 +189,7 @@ class Linker {
   void link_far_cell(std::uint32_t cell) {
     const std::vector<StoredPoint> points = store_.cell(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      link_far_point(points[i], Row{value(tiling_.cell_rows[cell]) + i});
+      link_far_point(points[i], Row{value(tiling_.cells[cell].first_row) + i});
     }
   }
 
@@ -232,11 +231,11 @@ class Linker {
       const CellNode& node = tiling_.nodes[place.index];
       if (node.left != 0) {
         for (const std::uint32_t child : {node.left, node.right}) {
-          places.push({min_squared_distance(here, tiling_.box(tiling_.nodes[child])), child, false});
+          places.push({min_squared_distance(here, tiling_.nodes[child].box), child, false});
         }
       } else {
         for (std::uint32_t c = node.first; c < node.last; ++c) {
-          places.push({min_squared_distance(here, tiling_.cell_box(c)), c, true});
+          places.push({min_squared_distance(here, tiling_.cells[c].box), c, true});
         }
       }
     }
@@ -249,7 +248,7 @@ class Linker {
   void look_into(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
     const std::vector<StoredPoint>& points = cached(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Row other{value(tiling_.cell_rows[cell]) + i};
+      const Row other{value(tiling_.cells[cell].first_row) + i};
       const double distance = squared_distance(points[i].position(), p.position());
       if (other == row || (nearest.size() == k_ && distance > nearest.top().squared_distance)) continue;
       nearest.push({distance, points[i], other});

@@ -194,22 +194,21 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
       const Tile& tile = tiling.tiles[t];
       const std::vector<Mark> tile_marks =
           marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t), marks);
-      const std::vector<Duplicate> duplicates = store.duplicates(static_cast<TileIndex>(t));
       const std::lock_guard lock(mutex);
       for (const Mark& mark : tile_marks) {
         summary.counts.coherent += (mark.flags & kCoherent) != 0;
         summary.counts.boundary_points += (mark.flags & kBoundary) != 0;
         sorted.add(stored(mark));
       }
-      for (const Duplicate& d : duplicates) {
+      store.for_each_duplicate(static_cast<TileIndex>(t), [&](const Duplicate& d) {
         const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
                                          [](const Mark& m, LocalIndex p) { return m.owned < p; });
-        if (of == tile_marks.end() || of->owned != d.of) continue;
+        if (of == tile_marks.end() || of->owned != d.of) return;
         StoredBoundary duplicate = stored(*of);
         duplicate.point.id = d.id;
         summary.counts.boundary_points += duplicate.is_boundary();
         sorted.add(duplicate);
-      }
+      });
       phase.advance(tile.points);
     });
     marked = sorted.size();

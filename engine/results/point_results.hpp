@@ -8,6 +8,7 @@
 #include "engine/passes/job.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace lacuna {
 
@@ -39,6 +40,8 @@ class PointResults final : public TileConsumer {
   }
 
  private:
+  void append(std::vector<StoredResult>& results);  // and clears them
+
   const TileStore& store_;
   AppendLists<StoredResult> lists_;
 };

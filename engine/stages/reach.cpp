@@ -22,10 +22,17 @@ struct Far {
   friend bool operator<(const Far& a, const Far& b) { return a.squared_distance < b.squared_distance; }
 };
 
+// Whether the parts of a node would hardly give a nearer bound than all of it. Without this, the cell of an
+// outlier would go through all cells of a surface that lies far below it, or in the midst of its own box.
+bool is_small(const Eigen::AlignedBox3d& node, double farthest) {
+  constexpr double kTimes = 8;
+  return kTimes * kTimes * max_squared_distance(node, node) <= farthest;
+}
+
 }  // namespace
 
 double squared_reach(const Tiling& tiling, std::uint32_t cell, std::size_t k) {
-  const Eigen::AlignedBox3d box = tiling.cell_box(cell);
+  const Eigen::AlignedBox3d box = tiling.cells[cell].box;
   if (tiling.cells[cell].points > k) return max_squared_distance(box, box);
   if (tiling.nodes[0].points <= k) return std::numeric_limits<double>::infinity();
 
@@ -48,17 +55,20 @@ double squared_reach(const Tiling& tiling, std::uint32_t cell, std::size_t k) {
     queue.pop();
     if (points > k && near.squared_distance >= enough.top().squared_distance) break;
     if (near.is_cell) {
-      keep({max_squared_distance(box, tiling.cell_box(near.index)), tiling.cells[near.index].points});
+      keep({max_squared_distance(box, tiling.cells[near.index].box), tiling.cells[near.index].points});
       continue;
     }
     const CellNode& node = tiling.nodes[near.index];
-    if (node.left != 0) {
+    const double farthest = max_squared_distance(box, node.box);
+    if (is_small(node.box, farthest)) {
+      keep({farthest, node.points});
+    } else if (node.left != 0) {
       for (const std::uint32_t child : {node.left, node.right}) {
-        queue.push({min_squared_distance(box, tiling.box(tiling.nodes[child])), child, false});
+        queue.push({min_squared_distance(box, tiling.nodes[child].box), child, false});
       }
     } else {
       for (std::uint32_t c = node.first; c < node.last; ++c) {
-        queue.push({min_squared_distance(box, tiling.cell_box(c)), c, true});
+        queue.push({min_squared_distance(box, tiling.cells[c].box), c, true});
       }
     }
   }
@@ -82,11 +92,11 @@ struct NearCells {
   bool descend(std::uint32_t index) const {
     const CellNode& node = tiling.nodes[index];
     if (node.first >= skip_first && node.last <= skip_last) return true;
-    if (!within(tiling.box(node))) return true;
+    if (!within(node.box)) return true;
     if (node.left != 0) return descend(node.left) && descend(node.right);
     for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
       const bool skipped = cell >= skip_first && cell < skip_last;
-      if (!skipped && within(tiling.cell_box(cell)) && !visit(cell)) return false;
+      if (!skipped && within(tiling.cells[cell].box) && !visit(cell)) return false;
     }
     return true;
   }

@@ -7,7 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -32,23 +32,39 @@ bool finite(const Eigen::Vector3d& p) {
   return p.allFinite();
 }
 
-// Twice the widest distance between quartiles: the extent of the points without their outliers.
-double robust_extent(const PointBatch& batch) {
-  double extent = 0;
+// Where the points are, their outliers aside.
+struct Whereabouts {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis
+  double extent = 0;                                 // twice the widest distance between quartiles
+  double farthest = 0;                               // largest coordinate
+};
+
+Whereabouts whereabouts_of(const PointBatch& batch) {
+  Whereabouts place;
+  std::vector<double> values;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
+    values.clear();
     for (const Eigen::Vector3d& p : batch.positions) {
-      if (finite(p)) values.push_back(p[axis]);
+      if (!finite(p)) continue;
+      values.push_back(p[axis]);
+      place.farthest = std::max(place.farthest, std::fabs(p[axis]));
     }
-    if (values.empty()) return 0;
+    if (values.empty()) return place;
     const auto quantile = [&](std::size_t quarter) {
       const auto at = values.begin() + static_cast<std::ptrdiff_t>(quarter * (values.size() - 1) / 4);
       std::nth_element(values.begin(), at, values.end());
       return *at;
     };
-    extent = std::max(extent, 2 * (quantile(3) - quantile(1)));
+    place.middle[axis] = quantile(2);
+    place.extent = std::max(place.extent, 2 * (quantile(3) - quantile(1)));
   }
-  return extent;
+  return place;
+}
+
+// The cell that holds the point is at (0, 0, 0).
+std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
+  const double scale = std::ldexp(1.0, -finest);
+  return {std::floor(point.x() * scale), std::floor(point.y() * scale), std::floor(point.z() * scale)};
 }
 
 constexpr std::size_t kMostRuns = 256;
@@ -132,7 +148,8 @@ struct Survey::Counts {
         leaf->setValueOn(offset, 0);
         ++cells;
       }
-      *count += runs[i].points;
+      *count = static_cast<std::int32_t>(
+          std::min<std::int64_t>(std::int64_t{*count} + runs[i].points, kMostCounted));
     }
   }
 };
@@ -166,15 +183,11 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest)
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
     : memory_(memory),
       is_told_(expected_points > 0),
-      expected_points_(is_told_ ? expected_points : kUnknownPoints) {
-  counts_ = std::make_unique<Counts>();
-  if (!finest) return;
-  scan_.grid.finest = *finest;
-  sized_ = true;
-}
+      expected_points_(is_told_ ? expected_points : kUnknownPoints),
+      counts_(std::make_unique<Counts>()) {}
 
 Survey::~Survey() = default;
 
@@ -183,27 +196,36 @@ Survey::~Survey() = default;
 // order, its cells tell how many there will be: sizes with several times too many are passed over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
-  double extent = robust_extent(batch);
-  if (extent == 0) {  // most points at one place: any size will do that is not lost beside the coordinates
-    double largest = 0;
-    for (const Eigen::Vector3d& p : batch.positions) {
-      if (finite(p)) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-    }
-    if (largest == 0) largest = 1;
-    extent = largest;
-  }
+  const Whereabouts place = whereabouts_of(batch);
+  const double farthest = place.middle.cwiseAbs().maxCoeff();
+  double extent = place.extent;
+  if (extent == 0) extent = place.farthest > 0 ? place.farthest : 1;  // most points at one place
   const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
-  scan_.grid.finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), kMinExponent, kMaxExponent);
+  // Cells below the last digit of the coordinates would divide nothing.
+  const int digit = farthest > 0 ? std::ilogb(farthest) - std::numeric_limits<double>::digits : kMinExponent;
+  scan_.grid.finest =
+      std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
+  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
 
   // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
   const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
-  const int doublings = std::ilogb(thinner) / 2;
+  int doublings = std::ilogb(thinner) / 2;
+  const std::vector<CellRun> runs = count_cells(batch, scan_.grid).runs;
   Counts seen;
-  for_each_part(count_cells(batch, scan_.grid).runs,
-                [&](std::span<const CellRun> runs) { seen.add(runs, doublings); });
+  const auto count = [&] {
+    seen = Counts();
+    for (std::span<const CellRun> rest = runs; !rest.empty();
+         rest = rest.subspan(std::min(rest.size(), kMostRuns))) {
+      if (seen.leaves.bytes() > memory_) return false;
+      seen.add(rest.first(std::min(rest.size(), kMostRuns)), doublings);
+    }
+    return true;
+  };
+  while (!count() && doublings < CellGrid::kMaxShift) ++doublings;
   const double most = 2 * points / kPointsPerCell;
   for (double cells = std::ldexp(seen.cells_in_company(), 2 * doublings); cells > most; cells /= 4)
     ++scan_.grid.finest;
+  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
   sized_ = true;
 }
 
@@ -233,7 +255,7 @@ void Survey::add(const CellCounts& counts) {
   scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
     counts_->add(runs, scan_.grid.shift);
-    for (; needs_too_much() && can_merge(); is_short_ = true) take(counts_->merged());
+    while (needs_too_much() && can_merge()) take(counts_->merged());
     while (is_too_fine() && can_merge()) {
       // Leaves, since in random order cells have few points at first, and hardly merge.
       if (merge_unless_apart([](const Counts& counts) { return counts.leaf_count(); })) continue;
@@ -257,29 +279,6 @@ bool Survey::is_too_fine() const {
   constexpr std::uint64_t kSurelyFilled = 24;
   const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
   return counts_->cells > most || counts_->leaf_count() * kSurelyFilled > most;
-}
-
-std::optional<int> Survey::finer() const {
-  if (is_short_ || counts_->cells == 0) return std::nullopt;
-  constexpr std::uint64_t kFarTooMany = 128 * kPointsPerCell;
-  std::vector<std::uint64_t> full;
-  std::uint64_t in_full = 0;
-  counts_->for_each_cell([&](const CellCoord&, std::int32_t points) {
-    const auto count = static_cast<std::uint64_t>(points);
-    if (count < kFarTooMany) return;
-    full.push_back(count);
-    in_full += count;
-  });
-  const std::uint64_t half = (scan_.points - scan_.dropped + 1) / 2;
-  if (in_full < half) return std::nullopt;
-  // The cell of the median point, from the fullest on.
-  std::sort(full.begin(), full.end(), std::greater<>());
-  std::size_t median = 0;
-  for (std::uint64_t points = full[0]; points < half; points += full[median]) ++median;
-  const std::uint64_t times = full[median] / kPointsPerCell;
-  const int doublings = static_cast<int>(std::bit_width(times)) / 2;  // of a surface
-  const int finest = std::max(scan_.grid.finest + scan_.grid.shift - doublings, kMinExponent);
-  return finest < scan_.grid.finest ? std::optional(finest) : std::nullopt;
 }
 
 SurveyedScan Survey::finish() {

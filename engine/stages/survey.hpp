@@ -1,23 +1,25 @@
 // survey: counts points per cell while they stream by.
 #pragma once
 
+#include "engine/data/cell_grid.hpp"
 #include "engine/data/points.hpp"
-#include "engine/data/tiling.hpp"
 #include "engine/store/point_column.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 namespace lacuna {
 
+// Where counting stops: such a cell is divided anyway.
+inline constexpr std::uint64_t kMostCounted = (std::uint64_t{1} << 31) - 1;
+
 struct SurveyedScan {
   CellGrid grid;
-  std::vector<CountedCell> cells;  // in no particular order; all counts > 0
+  std::vector<CountedCell> cells;  // in no particular order; all counts > 0, none above `kMostCounted`
   Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
   std::uint64_t points = 0;        // rows of the input
   std::uint64_t dropped = 0;       // with a non-finite coordinate
@@ -49,20 +51,16 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 // in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known. `finest`: the exponent of the cell size, where an earlier survey
-  // told.
-  Survey(std::uint64_t memory, std::uint64_t expected_points, std::optional<int> finest = {});
+  // `expected_points`: 0 where not known.
+  Survey(std::uint64_t memory, std::uint64_t expected_points);
   ~Survey();
 
   void add(const PointBatch& batch);
   // The same in two steps, of which the first may run in other threads: `add(count_cells(batch, finest()))`,
   // once the first batch with a finite point has been added.
   bool is_sized() const { return sized_; }
-  CellGrid finest() const { return {.finest = scan_.grid.finest}; }
+  CellGrid finest() const { return {.finest = scan_.grid.finest, .origin = scan_.grid.origin}; }
   void add(const CellCounts& counts);
-  // The exponent from which to survey once more, if half of the points lie in cells of far too many: the
-  // first batch told nothing of them. None where it would not help.
-  std::optional<int> finer() const;
   // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 
@@ -84,7 +82,6 @@ class Survey {
   SurveyedScan scan_;
   std::atomic<bool> sized_ = false;
   std::unique_ptr<Counts> counts_;
-  bool is_short_ = false;    // cells were merged since they needed too much memory
   std::uint64_t apart_ = 0;  // so many leaves would hardly have merged
 };
 

@@ -19,14 +19,14 @@ std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
 
 }  // namespace
 
-TileStore::TileStore(const std::filesystem::path& folder, Tiling tiling, Precision precision,
-                     bool with_normals, std::uint64_t duplicate_budget)
-    : tiling_(std::move(tiling)),
+TileStore::TileStore(const std::filesystem::path& folder, std::vector<Tile> tiles, std::uint64_t most_tiles,
+                     Precision precision, bool with_normals, std::uint64_t duplicate_budget)
+    : cells_(tiles.size()),
       has_normals_(with_normals),
       points_(folder / "points", precision),
       normals_(folder / "normals"),
-      duplicates_(folder / "duplicates", tiling_.tiles.size(), duplicate_budget) {
-  tiling_.cell_rows.resize(tiling_.cells.size());
+      duplicates_(folder / "duplicates", most_tiles, duplicate_budget) {
+  tiling_.tiles = std::move(tiles);
 }
 
 std::vector<StoredPoint> TileStore::points(TileIndex index) const {
@@ -43,14 +43,8 @@ std::vector<Eigen::Vector3d> TileStore::normals(TileIndex index) const {
   return normals;
 }
 
-std::vector<Duplicate> TileStore::duplicates(TileIndex tile) const {
-  std::vector<Duplicate> duplicates = duplicates_.read(tile);
-  std::sort(duplicates.begin(), duplicates.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return duplicates;
-}
-
 std::vector<StoredPoint> TileStore::cell(std::uint32_t cell) const {
-  return points_.read(value(tiling_.cell_rows[cell]), tiling_.cells[cell].points);
+  return points_.read(value(tiling_.cells[cell].first_row), tiling_.cells[cell].points);
 }
 
 void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
@@ -59,9 +53,9 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   rows.clear();
   for (std::size_t i = 0; i < cells.size();) {
     // Cells whose points follow each other in the store are one read.
-    const std::uint64_t first = value(tiling_.cell_rows[cells[i]]);
+    const std::uint64_t first = value(tiling_.cells[cells[i]].first_row);
     std::uint64_t end = first;
-    for (; i < cells.size() && value(tiling_.cell_rows[cells[i]]) == end; ++i)
+    for (; i < cells.size() && value(tiling_.cells[cells[i]].first_row) == end; ++i)
       end += tiling_.cells[cells[i]].points;
     const std::size_t at = points.size();
     points.resize(at + (end - first));
@@ -82,26 +76,42 @@ std::vector<StoredNormal> TileStore::raw_normals(TileIndex index) const {
 }
 
 void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
-                    std::span<const StoredNormal> normals, std::span<const std::uint64_t> cell_points,
-                    std::span<const Duplicate> duplicates) {
+                    std::span<const StoredNormal> normals, std::vector<Cell> cells) {
   Tile& tile = tiling_.tiles[index];
-  assert(cell_points.size() == tile.last_cell - tile.first_cell);
   if (points.size() > tile.raw)  // its rows would run into the next tile's
     fail_changed(kOtherPoints);
   tile.points = points.size();
   std::uint64_t row = value(tile.first_row);
-  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-    tiling_.cells[cell].points = cell_points[cell - tile.first_cell];
-    tiling_.cell_rows[cell] = Row{row};
-    row += tiling_.cells[cell].points;
+  for (Cell& cell : cells) {
+    cell.first_row = Row{row};
+    row += cell.points;
   }
+  cells_[index] = std::move(cells);
   points_.write(value(tile.first_row), points);
   if (has_normals_) normals_.write(value(tile.first_row), normals);
-  duplicates_.append(index, duplicates);
+}
+
+void TileStore::add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
+                         std::vector<Cell> cells) {
+  const TileIndex index = next_tile();
+  assert(index < duplicates_.lists());
+  tiling_.tiles.push_back({.first_row = Row{aligned_row(tiling_.row_count())}, .raw = points.size()});
+  cells_.emplace_back();
+  put(index, points, normals, std::move(cells));
 }
 
 void TileStore::seal() {
-  tiling_.recount();
+  std::size_t count = 0;
+  for (const std::vector<Cell>& cells : cells_) count += cells.size();
+  tiling_.cells.reserve(count);
+  for (std::size_t t = 0; t < cells_.size(); ++t) {
+    Tile& tile = tiling_.tiles[t];
+    tile.first_cell = static_cast<std::uint32_t>(tiling_.cells.size());
+    tiling_.cells.insert(tiling_.cells.end(), cells_[t].begin(), cells_[t].end());
+    tile.last_cell = static_cast<std::uint32_t>(tiling_.cells.size());
+    std::vector<Cell>().swap(cells_[t]);
+  }
+  tiling_.build_tree();
   assert(tiling_.check());
 }
 

@@ -35,8 +35,9 @@ struct Duplicate {
 // several threads.
 class TileStore {
  public:
-  TileStore(const std::filesystem::path& folder, Tiling tiling, Precision precision, bool with_normals,
-            std::uint64_t duplicate_budget);
+  // `tiles`: where raw points go at first; `most_tiles`: with those that are added later.
+  TileStore(const std::filesystem::path& folder, std::vector<Tile> tiles, std::uint64_t most_tiles,
+            Precision precision, bool with_normals, std::uint64_t duplicate_budget);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }
@@ -46,7 +47,11 @@ class TileStore {
   template <class Visit>
   void for_each_point(TileIndex tile, Visit&& visit) const;
   std::vector<Eigen::Vector3d> normals(TileIndex tile) const;  // as given; empty where none are
-  std::vector<Duplicate> duplicates(TileIndex tile) const;     // in ascending id
+  // visit(duplicate) for each, in any order: there may be more than fit in memory.
+  template <class Visit>
+  void for_each_duplicate(TileIndex tile, Visit&& visit) const {
+    duplicates_.for_each(tile, visit);
+  }
   std::vector<StoredPoint> cell(std::uint32_t cell) const;
 
   // Points of these cells, ascending and without repeats, with their rows.
@@ -57,14 +62,25 @@ class TileStore {
   class Filler;
   std::vector<StoredPoint> raw_points(TileIndex tile) const;
   std::vector<StoredNormal> raw_normals(TileIndex tile) const;
-  // Then, in their place: distinct points of a tile in cell order, and how many each of its cells holds.
+  // Then, in their place: distinct points of a tile in the order of its cells, whose rows are set here. From
+  // several threads, for different tiles.
   void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
-           std::span<const std::uint64_t> cell_points, std::span<const Duplicate> duplicates);
+           std::vector<Cell> cells);
+  // Copies of a tile's points, once or in several goes. From any thread.
+  void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
+    duplicates_.append(tile, duplicates);
+  }
+  // The tile behind the last: what was never raw is `put` there. By one thread, while no other uses the
+  // store.
+  TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
+  void add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
+                std::vector<Cell> cells);
   // All tiles are put: counts are final.
   void seal();
 
  private:
   Tiling tiling_;
+  std::vector<std::vector<Cell>> cells_;  // of each tile, until it is sealed
   bool has_normals_;
   PointColumn points_;
   Column<StoredNormal> normals_;

@@ -390,6 +390,18 @@ TEST_CASE("a scan moved by a million has the same results, to the last bit where
   }
 }
 
+TEST_CASE("a scan with a spacing of a millimetre has the same loops at the origin and anywhere on Earth") {
+  const Cloud scan = plane(90).punched({40, 50}, 9).jittered(0.25, 3).scaled(1e-3).rounded(0x1p-20);
+  const Detected here = run_engine(scan, tiled({}, 1000));
+  REQUIRE(here.loop_ids().size() > 0);
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(500'000, 5'400'000, 300), Eigen::Vector3d(5'400'000, 5'400'000, 300),
+        Eigen::Vector3d(-2'700'000, -4'300'000, 3'850'000)}) {
+    INFO(place.transpose());
+    CHECK(run_engine(scan.translated(place), tiled({}, 1000)).loop_ids() == here.loop_ids());
+  }
+}
+
 TEST_CASE("a power of two as the scale changes no loop") {
   const Cloud cloud = holed_cloud(4);
   const Detected here = run_engine(cloud, tiled({}, 300));

@@ -1,6 +1,10 @@
-// Memory is bounded by the setting, as the operating system measures it. Slow.
+// Memory is bounded by the setting, as the operating system measures it.
 #include "engine/config.hpp"
+#include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
@@ -32,6 +36,62 @@ TEST_CASE("sixteen million points stay within 512 MiB, with the same results as 
 
 TEST_CASE("four million points stay within 256 MiB, with the same results as without a limit", "[.slow]") {
   check_memory("4000000", "256MiB");
+}
+
+// As doubles.
+std::string write_scan(const test::ScratchFolder& scratch, const Cloud& cloud) {
+  std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(cloud.size()) +
+                    "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  ply.append(reinterpret_cast<const char*>(cloud.positions.data()),
+             cloud.size() * sizeof(cloud.positions.front()));
+  return scratch.write("scan.ply", ply);
+}
+
+void check_limit(const Cloud& cloud) {
+  const test::ScratchFolder scratch;
+  const std::string scan = write_scan(scratch, cloud);
+  for (const char* method : {"stars", "paper"}) {
+    const test::ProgramResult result =
+        test::run_program({"detect", scan, "--out", (scratch / method).string(), "--quiet", "--points",
+                           "--method", method, "--threads", "2", "--memory-limit", "64MiB"});
+    INFO(method << ": " << result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.peak_memory < 64 << 20);
+  }
+}
+
+TEST_CASE("a volume of random points stays within the memory limit") {
+  check_limit(scattered(300'000, 1));
+}
+
+TEST_CASE("a million equal points stay within the memory limit") {
+  check_limit(scattered(60'000, 1).joined(coincident(1'000'000)));
+}
+
+TEST_CASE("nine tenths of the points within a millionth of the extent stay within the memory limit") {
+  check_limit(scattered(180'000, 1).scaled(1e-6).joined(scattered(20'000, 2)));
+}
+
+TEST_CASE("far outliers take a few times as long as a clean scan at most, and stay within the memory limit") {
+  Random random(1);
+  Cloud cloud = plane(400).shuffled(1);
+  const auto far = [&] { return 1e6 * std::tan(random.uniform(-1.57, 1.57)); };
+  for (std::size_t i = 0; i < cloud.size(); i += 20) cloud.positions[i] = {far(), far(), far()};
+  check_limit(cloud);
+}
+
+TEST_CASE("an eps ball that cannot fit in memory is refused in one line, before any is searched") {
+  const test::ScratchFolder scratch;
+  const std::string scan = write_scan(scratch, plane(300));
+  const auto detect = [&](const char* eps) {
+    return test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--eps", eps,
+                              "--memory-limit", "64MiB"});
+  };
+  const test::ProgramResult refused = detect("500");
+  CHECK(refused.exit_code == 1);
+  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  CHECK_THAT(refused.err, Catch::Contains("eps of 500") && Catch::Contains("allowed: a smaller eps"));
+  CHECK(detect("3").exit_code == 0);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
   const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, tile_points), survey.precision(),
-                     job);
+  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, tile_points), survey.bounds,
+                     survey.precision(), job);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
     std::size_t misplaced = 0, moved = 0;
     for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
       for (const StoredPoint& p : scan.store.cell(c)) {
-        misplaced += tiling.grid.cell_of(p.position()) != tiling.cells[c].coord;
+        misplaced += !tiling.cells[c].box.contains(p.position());
         moved += p.position() != cloud.positions[value(p.id)];
         ids.push_back(p.id);
       }
@@ -59,13 +59,13 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
     std::size_t wrong_owners = 0;
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::vector<StoredPoint> points = scan.store.points(t);
-      const std::vector<Duplicate> duplicates = scan.store.duplicates(t);
-      CHECK(points.size() + duplicates.size() == tiling.tiles[t].raw);
-      for (const Duplicate& d : duplicates) {
+      CHECK(points.size() <=
+            static_cast<std::size_t>(std::max<std::int64_t>(scan.config.run.tile_points, 1)));
+      scan.store.for_each_duplicate(t, [&](const Duplicate& d) {
         const StoredPoint& owner = points.at(d.of);
         wrong_owners += owner.position() != cloud.positions[value(d.id)] || !(owner.id < d.id);
         ids.push_back(d.id);
-      }
+      });
     }
     CHECK(wrong_owners == 0);
     std::sort(ids.begin(), ids.end());
@@ -125,17 +125,53 @@ class ChangingScan final : public PointSource {
   int readings_ = 0;
 };
 
-TEST_CASE("a scan whose first points are far sparser than all others is surveyed once more") {
-  const Cloud surface = plane(200);
-  const std::size_t alone = TiledScan(surface, {}).store.tiling().cells.size();
-  const Cloud sparse = scattered(1'000, 1).scaled(1e6);
-  const Cloud both = sparse.joined(surface);
-  MemoryScan scan(both, 1'000);
-  const TiledScan tiled(scan, {});
-  CHECK(tiled.store.tiling().cells.size() >= 900 + alone / 20);
-  CHECK(tiled.job.phases.size() > 2);  // survey, survey once more or twice, bucket
-  for (const Cloud& even : {surface, coincident(50'000), sparse.joined(coincident(50'000))})
-    CHECK(TiledScan(even, {}).store.tiling().points() > 0);
+// All tiles hold no more points than allowed, all cells few points, and none is wide beside its distance to
+// the densest place.
+void check_division(const Cloud& cloud, std::int64_t tile_points) {
+  const TiledScan scan(cloud, tiled({}, tile_points));
+  const Tiling& tiling = scan.store.tiling();
+  CHECK(tiling.points() == distinct_ids(cloud).size());
+  for (const Tile& tile : tiling.tiles) CHECK(tile.points <= static_cast<std::uint64_t>(tile_points));
+  std::uint64_t most = 0;
+  for (const Cell& cell : tiling.cells) most = std::max(most, cell.points);
+  CHECK(most <= 128);
+}
+
+TEST_CASE("cells with more points than a tile may hold divide, however dense the points are") {
+  const Cloud surface = plane(100);
+  Cloud cluster = surface;
+  Random random(1);
+  for (int i = 0; i < 50'000; ++i)
+    cluster.positions.push_back(
+        {50 + random.uniform(0, 1e-6), 50 + random.uniform(0, 1e-6), random.uniform(0, 1e-6)});
+  check_division(cluster, 2'000);
+  check_division(cluster.shuffled(1), 2'000);
+  Cloud decades;
+  for (int i = 0; i < 50'000; ++i) {
+    const double r = std::pow(10, random.uniform(-6, 0)), turn = random.uniform(0, 7);
+    decades.positions.push_back({r * std::cos(turn), r * std::sin(turn), 0});
+  }
+  check_division(decades, 2'000);
+  check_division(scattered(1'000, 1).scaled(1e6).joined(surface), 2'000);
+  Cloud outliers = surface;
+  for (int i = 0; i < 3'000; ++i)
+    outliers.positions.push_back({std::pow(10, random.uniform(8, 15)), random.uniform(-1e15, 1e15), 0});
+  check_division(outliers, 500);
+}
+
+TEST_CASE("copies of a point are merged as they stream: a tile never holds them in memory") {
+  const Cloud surface = plane(50);
+  for (const Cloud& cloud : {coincident(50'000), surface.joined(coincident(50'000)).shuffled(2),
+                             coincident(20'000).joined(coincident(20'000).translated({1, 0, 0}))}) {
+    const TiledScan scan(cloud, tiled({}, 1'000));
+    std::uint64_t raw = 0, copies = 0;
+    for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
+      raw = std::max(raw, scan.store.tiling().tiles[t].raw);
+      scan.store.for_each_duplicate(t, [&](const Duplicate&) { ++copies; });
+    }
+    CHECK(raw <= 1'000);
+    CHECK(copies + scan.store.tiling().points() == cloud.size());
+  }
 }
 
 TEST_CASE("an input that changes between the two readings is an error") {

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
+
+constexpr std::uint64_t kCellPoints = 32;
 
 StoredPoint stored(double x, double y, double z, std::uint64_t id) {
   return {x, y, z, PointId{id}};
@@ -19,9 +22,13 @@ TEST_CASE("points come by cell, then by coordinates; of coincident ones the lowe
   const std::vector<StoredPoint> points = {stored(5, 0, 0, 7), stored(1, 0, 0, 4), stored(1, 0, 0, 2),
                                            stored(0, 9, 0, 9), stored(1, 0, 0, 8), stored(0, 3, 0, 1)};
   const std::vector<std::uint32_t> cells = {2, 0, 0, 0, 0, 0};
-  const OrderedTile tile = order_tile(points, cells, 3, CellGrid{});
+  const OrderedTile tile = order_tile(points, cells, 3, CellGrid{}, kCellPoints);
   CHECK(tile.order == std::vector<std::uint32_t>{5, 3, 2, 0});
-  CHECK(tile.cell_points == std::vector<std::uint64_t>{3, 0, 1});
+  REQUIRE(tile.cells.size() == 2);  // the one without points is none
+  CHECK(tile.cells[0].points == 3);
+  CHECK(tile.cells[0].box.min() == Eigen::Vector3d(0, 0, 0));
+  CHECK(tile.cells[0].box.max() == Eigen::Vector3d(1, 9, 0));
+  CHECK(tile.cells[1].points == 1);
   REQUIRE(tile.duplicates.size() == 2);
   std::map<std::uint64_t, LocalIndex> of;
   for (const Duplicate& d : tile.duplicates) of[value(d.id)] = d.of;
@@ -32,7 +39,7 @@ TEST_CASE("minus zero is at the place of zero") {
   const std::vector<StoredPoint> points = {stored(-0.0, 0, 0.0, 3), stored(0.0, -0.0, -0.0, 1),
                                            stored(0, 0, 0, 2)};
   const std::vector<std::uint32_t> cells = {0, 0, 0};
-  const OrderedTile tile = order_tile(points, cells, 1, CellGrid{});
+  const OrderedTile tile = order_tile(points, cells, 1, CellGrid{}, kCellPoints);
   CHECK(tile.order == std::vector<std::uint32_t>{1});
   CHECK(tile.duplicates.size() == 2);
 }
@@ -42,16 +49,17 @@ TEST_CASE("points that differ in one coordinate are two points") {
        {stored(1, 0, 0, 1), stored(0, 1, 0, 1), stored(0, 0, 1, 1), stored(0, 0, 5e-324, 1)}) {
     const std::vector<StoredPoint> points = {stored(0, 0, 0, 0), other};
     const std::vector<std::uint32_t> cells = {0, 0};
-    CHECK(order_tile(points, cells, 1, CellGrid{}).duplicates.empty());
+    CHECK(order_tile(points, cells, 1, CellGrid{}, kCellPoints).duplicates.empty());
   }
   const std::vector<StoredPoint> same = {stored(0, 0, 0, 0), stored(0, 0, 0, 1)};
-  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}).duplicates.size() == 1);
+  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}, kCellPoints).duplicates.size() ==
+        1);
 }
 
 TEST_CASE("nothing is ordered into nothing") {
-  const OrderedTile tile = order_tile({}, {}, 2, CellGrid{});
+  const OrderedTile tile = order_tile({}, {}, 2, CellGrid{}, kCellPoints);
   CHECK(tile.order.empty());
-  CHECK(tile.cell_points == std::vector<std::uint64_t>{0, 0});
+  CHECK(tile.cells.empty());
 }
 
 TEST_CASE(
@@ -67,7 +75,7 @@ TEST_CASE(
     const auto ordered = [](std::vector<StoredPoint> in) {
       std::vector<std::uint32_t> cells;
       for (const StoredPoint& p : in) cells.push_back(p.x < 0 ? 0 : 1);
-      const OrderedTile tile = order_tile(in, cells, 2, CellGrid{});
+      const OrderedTile tile = order_tile(in, cells, 2, CellGrid{}, kCellPoints);
       std::vector<PointId> kept, copies;
       for (const std::uint32_t i : tile.order) kept.push_back(in[i].id);
       for (const Duplicate& d : tile.duplicates) {
@@ -85,6 +93,29 @@ TEST_CASE(
     std::reverse(points.begin(), points.end());
     CHECK(ordered(points) == expected);
   }
+}
+
+TEST_CASE("a crowded cell becomes cells of few points near each other, at any density") {
+  Random random(5);
+  std::vector<StoredPoint> points;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    const double r = std::pow(10, random.uniform(-9, 0)), turn = random.uniform(0, 7);
+    points.push_back(stored(r * std::cos(turn), r * std::sin(turn), 0, i));
+  }
+  const OrderedTile tile =
+      order_tile(points, std::vector<std::uint32_t>(points.size(), 0), 1, CellGrid{}, 32);
+  REQUIRE(tile.order.size() == points.size());
+  std::size_t at = 0, wide = 0;
+  for (const Cell& cell : tile.cells) {
+    CHECK(cell.points <= 32);
+    Eigen::AlignedBox3d box;
+    for (std::uint64_t i = 0; i < cell.points; ++i) box.extend(points[tile.order[at++]].position());
+    CHECK((box.min() == cell.box.min() && box.max() == cell.box.max()));
+    wide += box.diagonal().norm() > 0.5 * std::max(box.min().norm(), box.max().norm());
+  }
+  CHECK(at == points.size());
+  CHECK(tile.cells.size() < points.size() / 8);
+  CHECK(wide * 5 < tile.cells.size());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tile.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 #include <algorithm>
 #include <map>
@@ -52,11 +53,29 @@ void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
   }
 }
 
-Tiling tiling_of(const Cloud& cloud, std::uint64_t tile_points) {
+TilePlan plan_of(const Cloud& cloud, std::uint64_t tile_points) {
   SurveyedScan scan = survey(cloud);
-  Tiling tiling = split_tiles(std::move(scan.cells), scan.grid, tile_points);
-  for (Tile& tile : tiling.tiles) tile.points = tile.raw;
-  return tiling;
+  return split_tiles(std::move(scan.cells), scan.grid, tile_points);
+}
+
+// The index of a cloud's distinct points, and the points of each of its cells.
+struct Index {
+  Tiling tiling;
+  std::vector<std::vector<Eigen::Vector3d>> points;
+};
+
+Index index_of(const Cloud& cloud, std::int64_t tile_points) {
+  const TiledScan scan(cloud, tiled({}, tile_points));
+  Index index{scan.store.tiling(), {}};
+  for (std::uint32_t c = 0; c < index.tiling.cells.size(); ++c) {
+    auto& points = index.points.emplace_back();
+    for (const StoredPoint& p : scan.store.cell(c)) points.push_back(p.position());
+  }
+  return index;
+}
+
+Tiling tiling_of(const Cloud& cloud, std::int64_t tile_points) {
+  return index_of(cloud, tile_points).tiling;
 }
 
 TEST_CASE("a survey counts every finite point in the cell that the final grid gives it") {
@@ -112,6 +131,24 @@ TEST_CASE("outliers far from all else do not make the cells of a surface larger"
   }
 }
 
+TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a millimetre") {
+  const Cloud scan = plane(200).scaled(1e-3);
+  const std::size_t cells = survey(scan).cells.size();
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(5.4e6, 5.4e6, 300), Eigen::Vector3d(500'000, 5.4e6, 300),
+        Eigen::Vector3d(-2.7e6, -4.3e6, 3.85e6), Eigen::Vector3d(1e9, 0, -1e9)}) {
+    const Cloud there = scan.translated(place);
+    const SurveyedScan surveyed = survey(there);
+    check_counts(there, surveyed);
+    INFO(place.transpose());
+    CHECK(surveyed.cells.size() > cells / 2);
+    CHECK(surveyed.cells.size() < cells * 2);
+    std::uint64_t most = 0;
+    for (const CountedCell& cell : surveyed.cells) most = std::max(most, cell.points);
+    CHECK(most < 200);
+  }
+}
+
 TEST_CASE("far outliers are counted like any point") {
   Cloud cloud = scattered(500, 1);
   cloud.positions.insert(cloud.positions.begin(), {1e30, -1e30, 0});
@@ -143,57 +180,68 @@ TEST_CASE("a survey of nothing, of nothing finite and of one place") {
   }
 }
 
-TEST_CASE("tiles hold every cell once, in order, and no more points than allowed unless a cell alone does") {
+TEST_CASE("planned tiles hold every cell once, in order, and no more points than allowed") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloud cloud = random_cloud(5000 + seed);
     const auto before = counts_of(survey(cloud).cells);
     for (const std::uint64_t limit : {1, 20, 300, 1'000'000}) {
-      const Tiling tiling = tiling_of(cloud, limit);
+      const TilePlan plan = plan_of(cloud, limit);
       INFO("seed " << seed << ", " << limit << " points a tile");
-      CHECK(tiling.check());
-      CHECK(counts_of(tiling.cells) == before);
-      CHECK(tiling.cells.size() == before.size());
+      std::vector<CountedCell> all = plan.cells;
+      all.insert(all.end(), plan.aside.begin(), plan.aside.end());
+      CHECK(counts_of(all) == before);
+      CHECK(all.size() == before.size());
+      std::uint64_t most_tiles = plan.tiles.size();
+      std::uint64_t far = 0;
+      for (std::size_t cell = 0; cell < plan.aside.size(); ++cell) {
+        const std::uint64_t points = plan.aside[cell].points;
+        if (cell < plan.heavy) {
+          CHECK(points > limit);
+          most_tiles += (points + limit - 1) / limit;
+        } else {
+          far += points;
+        }
+      }
+      most_tiles += (far + limit - 1) / limit;
+      CHECK(plan.most_tiles() == most_tiles);
       std::uint32_t next_cell = 0;
       std::uint64_t next_row = 0;
-      for (const Tile& tile : tiling.tiles) {
+      for (const Tile& tile : plan.tiles) {
         CHECK(tile.first_cell == next_cell);
         REQUIRE(tile.last_cell > tile.first_cell);
         std::uint64_t points = 0;
-        for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) {
-          points += tiling.cells[c].points;
-          if (tiling.tile_of_cell(c) != TileIndex(&tile - tiling.tiles.data()))
-            FAIL_CHECK("wrong tile of a cell");
-        }
+        for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) points += plan.cells[c].points;
         CHECK(points == tile.raw);
-        CHECK((points <= limit || tile.last_cell - tile.first_cell == 1));
+        CHECK(points <= limit);
         CHECK(value(tile.first_row) % kRowAlignment == 0);
         CHECK(value(tile.first_row) >= next_row);
         next_row = value(tile.first_row) + tile.raw;
         next_cell = tile.last_cell;
       }
-      CHECK(next_cell == tiling.cells.size());
+      CHECK(next_cell == plan.cells.size());
     }
   }
 }
 
 TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
-  const Tiling tiling = tiling_of(hard_cloud(1), 400);
-  for (const CellNode& node : tiling.nodes) {
-    CellCoord low = tiling.cells[node.first].coord, high = low;
-    std::uint64_t points = 0;
-    for (std::uint32_t c = node.first; c < node.last; ++c) {
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], tiling.cells[c].coord[axis]);
-        high[axis] = std::max(high[axis], tiling.cells[c].coord[axis]);
+  for (const Cloud& cloud : {hard_cloud(1), plane(60), random_cloud(1).joined(coincident(3000))}) {
+    const Tiling tiling = tiling_of(cloud, 400);
+    for (const CellNode& node : tiling.nodes) {
+      Eigen::AlignedBox3d box;
+      std::uint64_t points = 0;
+      for (std::uint32_t c = node.first; c < node.last; ++c) {
+        box.extend(tiling.cells[c].box);
+        points += tiling.cells[c].points;
       }
-      points += tiling.cells[c].points;
-    }
-    CHECK((low == node.low && high == node.high && points == node.points));
-    if (node.left == 0) {
-      CHECK(node.last - node.first <= kLeafCells);
-    } else {
-      const CellNode &left = tiling.nodes[node.left], &right = tiling.nodes[node.right];
-      CHECK((left.first == node.first && left.last == right.first && right.last == node.last));
+      CHECK((box.min() == node.box.min() && box.max() == node.box.max() && points == node.points));
+      const bool spans_tiles = tiling.tile_of_cell(node.first) != tiling.tile_of_cell(node.last - 1);
+      if (node.left == 0) {
+        CHECK(node.last - node.first <= Tiling::kLeafCells);
+      } else {
+        const CellNode &left = tiling.nodes[node.left], &right = tiling.nodes[node.right];
+        CHECK((left.first == node.first && left.last == right.first && right.last == node.last));
+        if (spans_tiles) CHECK(tiling.tile_of_cell(left.last - 1) != tiling.tile_of_cell(right.first));
+      }
     }
   }
 }
@@ -215,24 +263,23 @@ TEST_CASE("a tiling is found wrong where cells are missing, rows overlap or node
   CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[1].first_row = t.tiles[0].first_row; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].points = t.tiles[0].raw + 1; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].first_row = Row{1}; }));
-  CHECK_FALSE(is_right_with([](Tiling& t) { t.cell_rows.resize(1); }));
-  CHECK_FALSE(is_right_with([](Tiling& t) { t.cell_rows.resize(t.cells.size()); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cells[1].first_row = t.cells[0].first_row; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.cells[0].points; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[0].first; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].left].last; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].right].points; }));
   CHECK_FALSE(is_right_with([](Tiling& t) { t.nodes.clear(); }));
 }
 
-TEST_CASE("a single heavy cell is a tile of its own, and no cells make no tiles") {
+TEST_CASE("a single heavy cell is set aside, as is one without end, and no cells make no tiles") {
   const std::vector<CountedCell> cells = {
-      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}};
-  const Tiling tiling = split_tiles(cells, CellGrid{}, 12);
-  const auto heavy = std::find_if(tiling.tiles.begin(), tiling.tiles.end(),
-                                  [](const Tile& tile) { return tile.raw == 10'000; });
-  REQUIRE(heavy != tiling.tiles.end());
-  CHECK(heavy->last_cell - heavy->first_cell == 1);
+      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, CellGrid::kLast, 0}, 1}};
+  const TilePlan plan = split_tiles(cells, CellGrid{}, 12);
+  CHECK(counts_of(plan.aside) ==
+        std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, CellGrid::kLast, 0}, 1}});
+  CHECK(plan.heavy == 1);
+  CHECK(plan.cells.size() == 3);
   CHECK(split_tiles({}, CellGrid{}, 12).tiles.empty());
-  CHECK(split_tiles({}, CellGrid{}, 12).nodes.empty());
 }
 
 TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbour of any of its points") {
@@ -242,20 +289,20 @@ TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbou
     Cloud distinct;
     for (const PointId id : distinct_ids(cloud)) distinct.positions.push_back(cloud.positions[value(id)]);
     if (distinct.size() == 0) continue;
-    const Tiling tiling = tiling_of(distinct, 200);
-    std::map<CellCoord, std::uint32_t> place;
-    for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) place[tiling.cells[c].coord] = c;
+    const auto [tiling, points] = index_of(distinct, 200);
     for (const std::size_t k : {1, 7, 40}) {
       std::vector<double> reach(tiling.cells.size());
       for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) reach[c] = squared_reach(tiling, c, k);
       std::size_t too_short = 0;
       for (std::size_t i = 0; i < distinct.size(); i += 1 + distinct.size() / 300) {
         const Eigen::Vector3d& p = distinct.positions[i];
+        std::uint32_t cell = 0;
+        while (std::find(points[cell].begin(), points[cell].end(), p) == points[cell].end()) ++cell;
         std::vector<double> others;
         for (std::size_t j = 0; j < distinct.size(); ++j) {
           if (j != i) others.push_back(squared_distance(p, distinct.positions[j]));
         }
-        const double bound = reach[place.at(tiling.grid.cell_of(p))];
+        const double bound = reach[cell];
         if (others.size() < k) {
           too_short += bound != std::numeric_limits<double>::infinity();
         } else {
@@ -291,13 +338,13 @@ TEST_CASE("cells near a box are those of a search through all") {
     Random random(seed);
     for (int query = 0; query < 50; ++query) {
       const auto pick = [&] { return static_cast<std::uint32_t>(random.whole(0, cells - 1)); };
-      const Eigen::AlignedBox3d box = tiling.cell_box(pick());
-      const double radius = tiling.grid.edge() * random.uniform(0, 5);
+      const Eigen::AlignedBox3d box = tiling.cells[pick()].box;
+      const double radius = tiling.cells[pick()].box.diagonal().norm() * random.uniform(0, 5);
       std::uint32_t skip_first = pick(), skip_last = pick();
       if (skip_first > skip_last || random.chance(0.3)) skip_first = skip_last = 0;
       std::vector<std::uint32_t> expected, found;
       for (std::uint32_t c = 0; c < cells; ++c) {
-        const bool near = min_squared_distance(box, tiling.cell_box(c)) <= radius * radius;
+        const bool near = min_squared_distance(box, tiling.cells[c].box) <= radius * radius;
         if (near && !(c >= skip_first && c < skip_last)) expected.push_back(c);
       }
       const auto all = [&](std::uint32_t c) {
@@ -316,7 +363,7 @@ TEST_CASE("cells near a box are those of a search through all") {
   }
 }
 
-TEST_CASE("cells without end at the far side of the grid are near to what lies in them") {
+TEST_CASE("points beyond the end of the grid have a finite reach") {
   Cloud cloud = scattered(300, 4);
   cloud.positions.push_back({1e40, 0, 0});
   cloud.positions.push_back({1e39, 0, 0});

@@ -45,13 +45,9 @@ TEST_CASE("a column is filled in many runs at once, whatever the memory and the 
   }
 }
 
-// Two tiles of one cell each: 3000 and 5000 points.
-Tiling two_tiles() {
-  Tiling tiling;
-  tiling.cells = {{{0, 0, 0}, 3000}, {{1, 0, 0}, 5000}};
-  tiling.tiles = {{.first_cell = 0, .last_cell = 1, .first_row = Row{0}, .raw = 3000},
-                  {.first_cell = 1, .last_cell = 2, .first_row = Row{3008}, .raw = 5000}};
-  return tiling;
+// Of 3000 and 5000 points.
+std::vector<Tile> two_tiles() {
+  return {{.first_row = Row{0}, .raw = 3000}, {.first_row = Row{3008}, .raw = 5000}};
 }
 
 StoredPoint numbered(std::uint64_t id) {
@@ -60,7 +56,7 @@ StoredPoint numbered(std::uint64_t id) {
 
 TEST_CASE("points that come from several threads are in their tile once each, beside their normals") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), Precision::kSingle, true, 1 << 16);
+  TileStore store(folder / "", two_tiles(), 2, Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
   std::vector<std::thread> threads;
   for (std::uint64_t first = 0; first < 8000; first += 1000) {
@@ -96,7 +92,7 @@ TEST_CASE("points that come from several threads are in their tile once each, be
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), Precision::kDouble, false, 1 << 16);
+  TileStore store(folder / "", two_tiles(), 2, Precision::kDouble, false, 1 << 16);
   TileStore::Filler filler(store, 4000);
   const std::vector<StoredPoint> points(3000, numbered(1));
   filler.append(0, points, {});
@@ -107,7 +103,7 @@ TEST_CASE("a tile that gets more or fewer points than were counted is an error")
 TEST_CASE("a tile whose points were cut off on disk is an error, in either precision") {
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const ScratchFolder folder;
-    TileStore store(folder / "", two_tiles(), precision, false, 1 << 16);
+    TileStore store(folder / "", two_tiles(), 2, precision, false, 1 << 16);
     TileStore::Filler filler(store, 4000);
     filler.append(0, std::vector<StoredPoint>(3000, numbered(1)), {});
     filler.append(1, std::vector<StoredPoint>(5000, numbered(2)), {});
