@@ -1,6 +1,6 @@
 #include "engine/data/tiling.hpp"
 
-#include "engine/core/dispatch.hpp"
+#include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "engine/passes/record_tile.hpp"
 
-#include "engine/core/dispatch.hpp"
+#include "engine/simd/vectorised.hpp"
 #include "engine/stages/orient.hpp"
 #include "engine/stages/tile_stars.hpp"
 
