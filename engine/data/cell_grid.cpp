@@ -1,6 +1,6 @@
 #include "engine/data/cell_grid.hpp"
 
-#include "engine/core/dispatch.hpp"
+#include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
 #include <bit>

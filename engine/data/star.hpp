@@ -1,5 +1,4 @@
-// Stars of points: the triangles over which a ball can rest. Included by arithmetic in lanes
-// (core/lanes.hpp): plain structs only.
+// Stars of points: the triangles over which a ball can rest.
 #pragma once
 
 #include "engine/data/ids.hpp"

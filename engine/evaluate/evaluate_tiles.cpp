@@ -1,6 +1,6 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
-#include "engine/core/dispatch.hpp"
+#include "engine/simd/vectorised.hpp"
 #include "engine/passes/balls.hpp"
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"

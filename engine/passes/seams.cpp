@@ -170,13 +170,13 @@ class Seams {
     const std::vector<Seat> seats = read_seats(queries, waiting, lists_.seats);
     StoredStars stars;
     Letters<ToldSampling> letters(samplings_);
-    StarFinder(seats).for_each_bundle(
+    StarFinder(seats).for_each_batch(
         queries.size(), [&](std::size_t i) { return queries[i]; },
-        [&](std::size_t first, std::span<const FoundStar> bundle) {
-          const std::array<Sampling, kEight> samplings = samplings_of(bundle);
-          for (std::size_t i = 0; i < bundle.size(); ++i) {
+        [&](std::size_t first, std::span<const FoundStar> batch) {
+          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch);
+          for (std::size_t i = 0; i < batch.size(); ++i) {
             const StarQuery& query = queries[first + i];
-            const FoundStar& star = bundle[i];
+            const FoundStar& star = batch[i];
             const Vertex& point = waiting.in_sight[query.point].vertex;
             if (star.size() > 0) stars.add(point.id, here.local(point.row), 0);
             for (std::size_t c = 0; c < star.size(); ++c)

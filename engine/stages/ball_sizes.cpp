@@ -1,6 +1,6 @@
 #include "engine/stages/ball_sizes.hpp"
 
-#include "engine/core/sorting_network.hpp"
+#include "engine/simd/sort.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,39 +11,23 @@ namespace {
 
 constexpr double kTelling = 0.85, kCircles = 1.5, kScatters = 1, kLeastUnit = 0.1, kMostCircle = 0.5;
 
-constexpr Eight kBeyondAll = [] {
-  Eight row{};
+constexpr Batch<double> kBeyondAll = [] {
+  Batch<double> row{};
   for (double& number : row.at) number = std::numeric_limits<double>::infinity();
   return row;
 }();
 
-using Counts = std::array<std::size_t, kEight>;
-
-// The first `counts[i]` numbers of each point i, half of them up to the median.
-void sort_halves(std::span<Eight> rows, const Counts& counts) {
-  const std::size_t most = *std::max_element(counts.begin(), counts.end());
-  if (most == 0) return;
-  if (most <= kMostSortedRows) {
-    fastest::sort_rows(rows.data(), most, most / 2 + 1);
-    return;
-  }
-  for (std::size_t i = 0; i < kEight; ++i) {
-    std::vector<double> numbers;
-    for (std::size_t row = 0; row < counts[i]; ++row) numbers.push_back(rows[row].at[i]);
-    std::sort(numbers.begin(), numbers.end());
-    for (std::size_t row = 0; row < counts[i]; ++row) rows[row].at[i] = numbers[row];
-  }
-}
+using Counts = std::array<std::size_t, kBatchSize>;
 
 }  // namespace
 
-std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
+std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars) {
   std::size_t most = 0;
   for (const FoundStar& star : stars) most = std::max(most, star.size());
-  std::vector<Eight> many;
-  std::array<Eight, 16> few;
+  std::vector<Batch<double>> many;
+  std::array<Batch<double>, 16> few;
   if (most > few.size()) many.resize(most);
-  const std::span<Eight> balls(many.empty() ? few.data() : many.data(), most);
+  const std::span<Batch<double>> balls(many.empty() ? few.data() : many.data(), most);
   std::fill(balls.begin(), balls.end(), kBeyondAll);
   Counts counts{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
@@ -53,8 +37,8 @@ std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
       counts[i] += ball <= kTelling;
     }
   }
-  sort_halves(balls, counts);
-  std::array<Sampling, kEight> samplings{};
+  sort_rows(balls.data(), *std::max_element(counts.begin(), counts.end()));
+  std::array<Sampling, kBatchSize> samplings{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
     if (stars[i].size() == 0) continue;
     samplings[i].distance = stars[i].distance();
@@ -86,8 +70,9 @@ void BallSizer::find() {
     look_at(points_[i].point);
     for (const LocalIndex q : points_[i].neighbours) look_at(q);
   }
-  sort_halves(circles_, counts);
-  sort_halves(scatters_, counts);
+  rows = *std::max_element(counts.begin(), counts.end());
+  sort_rows(circles_.data(), rows);
+  sort_rows(scatters_.data(), rows);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double most = kMostCircle * samplings_[points_[i].point].distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);

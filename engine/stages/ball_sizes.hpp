@@ -6,8 +6,8 @@
 // such as lie in a hole for sure are left out, since on strips and islands half of the balls do.
 #pragma once
 
-#include "engine/core/batches.hpp"
 #include "engine/data/star.hpp"
+#include "engine/simd/batch.hpp"
 #include "engine/stages/stars.hpp"
 
 #include <array>
@@ -16,8 +16,9 @@
 
 namespace lacuna {
 
-// Of stars as they are found, side by side: as many as there are, up to kEight. None where one has no corner.
-std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars);
+// Of stars as they are found, side by side: as many as there are, up to kBatchSize. None where one has no
+// corner.
+std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars);
 
 // The room of a ball in units of `own.distance`.
 inline float room_beyond(const BallSize& size, const Sampling& own, float ball) {
@@ -33,7 +34,7 @@ struct Surroundings {
 // With M the median of the circles of a point and its neighbours, S that of their scatters, each at most half
 // of the point's mean distance, the radius is 1.5 M + S, the unit S + 0.1 M and the unevenness S / M. Those
 // without a star, or with large balls only, say nothing; if no one says anything, M and S are that half.
-// Eight points side by side: keeps its memory.
+// A batch of points at once: keeps its memory.
 class BallSizer {
  public:
   explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}
@@ -53,8 +54,8 @@ class BallSizer {
 
   std::span<const Sampling> samplings_;
   std::vector<Surroundings> points_;
-  std::vector<Eight> circles_, scatters_;
-  std::array<BallSize, kEight> sizes_;
+  std::vector<Batch<double>> circles_, scatters_;
+  std::array<BallSize, kBatchSize> sizes_;
 };
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 #include "engine/stages/block_search.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/simd/sort.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,7 +78,7 @@ struct BlockSearch::Boxes {
   // Squared distances from a box to those of a group.
   void gaps(std::size_t group, const double* from_low, const double* from_high, double* squared) const {
     const Sides to = sides(group);
-    fastest::box_gaps(from_low, from_high, to.lows, to.highs, squared);
+    box_gaps(from_low, from_high, to.lows, to.highs, squared);
   }
 
   // A bit for each box of a group that is within the radius of a box.
@@ -85,7 +86,7 @@ struct BlockSearch::Boxes {
     const Sides to = sides(group);
     const std::size_t there =
         std::min(kFan, count - group * kFan);  // where distances overflow, so does padding
-    return fastest::boxes_within(from.low.data(), from.high.data(), to.lows, to.highs, squared_radius) &
+    return boxes_within(from.low.data(), from.high.data(), to.lows, to.highs, squared_radius) &
            ((1U << there) - 1);
   }
 };
@@ -203,7 +204,7 @@ void BlockSearch::narrow(CandidateList& list) {
   const double wanted = 1.2 * wanted_candidates(neighbours_);
   if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
   const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
-  fastest::narrow_list(limit, neighbours_ + 1, list);
+  narrow_list(limit, neighbours_ + 1, list);
   set_reach(list);
 }
 
@@ -214,7 +215,7 @@ void BlockSearch::list_within(LocalIndex query, double radius, double more, Cand
     seen[axis] = static_cast<float>((positions_[query][axis] - sight_.origin[axis]) * sight_.scale);
   const double scaled = radius * sight_.scale;
   const auto limit = static_cast<float>(scaled * scaled + more);
-  fastest::find_within(sight_, seen, limit, list);
+  find_within(sight_, seen, limit, list);
   set_reach(list);
 }
 
@@ -233,8 +234,8 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
     const CandidateList& list = lists_[place];
     const Ranking& ranking = rankings_[place / kQueries];
     const std::span found(rows[place], neighbours_);
-    if (!can_rank || list.count == 0 || ranking.in_doubt[place % kQueries]) {
-      find_carefully(query, list, found);
+    if (!can_rank || list.count == 0 || ranking.is_ambiguous[place % kQueries]) {
+      find_exactly(query, list, found);
     } else {
       ranking.pick(list, place % kQueries, found.size(), found.data());
     }
@@ -243,12 +244,12 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
 
 void BlockSearch::rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit) {
   for (std::size_t place = 0; place < count; place += kQueries)
-    fastest::rank_candidates(&lists_[place], std::min(kQueries, count - place), wanted, ends_at_limit,
+    rank_candidates(&lists_[place], std::min(kQueries, count - place), wanted, ends_at_limit,
                              rankings_[place / kQueries]);
 }
 
 // By the distances themselves, of listed candidates or of what a walk through the tree finds.
-void BlockSearch::find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
+void BlockSearch::find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
   nearest_.clear();
   for (std::size_t i = 0; i < list.count; ++i) meet(query, list.points[i]);
   const bool are_listed = list.count > 0 && nearest_.front().squared_distance < list.squared_reach;
@@ -322,7 +323,7 @@ void BlockSearch::collect_ball(LocalIndex query, std::size_t place, double squar
     return list.squared_distances[ranking.number(rank, place % kQueries)] >= list.limit - 4 * list.margin;
   };
   found_.clear();
-  if (is_listed && !ranking.in_doubt[place % kQueries] && !may_be_outside(list.count - 1)) {
+  if (is_listed && !ranking.is_ambiguous[place % kQueries] && !may_be_outside(list.count - 1)) {
     found_.resize(list.count - 1);
     ranking.pick(list, place % kQueries, found_.size(), found_.data());
     return;
@@ -390,7 +391,7 @@ bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) 
     }
   }
   const Boxes::Sides boxes = levels_[0].sides(0);
-  fastest::look_closely(blocks_.data(), boxes.lows, boxes.highs, sight_);
+  look_closely(blocks_.data(), boxes.lows, boxes.highs, sight_);
   in_sight_ = radius;
   return true;
 }

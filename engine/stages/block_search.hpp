@@ -80,7 +80,7 @@ class BlockSearch {
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
   void rank(LocalIndex first, LocalIndex last, Rows rows);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
-  void find_carefully(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
+  void find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);
   void descend(LocalIndex query, std::size_t level, std::size_t group);
   void meet(LocalIndex query, LocalIndex other);

@@ -1,6 +1,8 @@
 #include "engine/stages/evaluate.hpp"
 
-#include "engine/criteria/judge.hpp"
+#include "engine/criteria/criteria_values.hpp"
+#include "engine/criteria/criterion.hpp"
+#include "engine/simd/maths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +17,10 @@ namespace {
 constexpr double kNoCone = 2.0;  // no direction is that steep
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-JudgeParameters judge_parameters(const NormalsConfig& normals, const CriteriaConfig& criteria) {
-  JudgeParameters parameters{
+CriteriaParameters criteria_parameters(const NormalsConfig& normals, const CriteriaConfig& criteria) {
+  CriteriaParameters parameters{
       .sigma = criteria.sigma,
-      .cos_cone = criteria.cone == 0 ? kNoCone : std::cos(criteria.cone * std::numbers::pi / 180),
+      .cos_cone = criteria.cone == 0 ? kNoCone : cosine(criteria.cone * std::numbers::pi / 180),
       .crease_threshold = normals.crease_threshold};
   static_assert(std::size(decltype(parameters.shares){}) == kCriteria);
   double sum = 0;
@@ -34,23 +36,22 @@ Evaluation lone_point() {
   return lone;
 }
 
-// Points with nearly as many neighbours each stand side by side, or most of a bundle would wait for the
-// largest neighbourhood.
-class Bundler {
+// Batches of points with nearly as many neighbours each: a batch takes as long as its largest neighbourhood.
+class Batches {
  public:
-  Bundler(const TilePoints& points, const Rows& neighbourhoods,
+  Batches(const TilePoints& points, const Rows& neighbourhoods,
           std::span<const Eigen::Vector3d> given_normals)
       : points_(points), neighbourhoods_(neighbourhoods), given_normals_(given_normals) {}
 
-  // Of the points [first, last) that have neighbours. visit(bundle, points): the points of a bundle's lanes;
-  // a last one that is not full repeats a point.
+  // Of the points [first, last) that have neighbours. visit(batch, points): the points of the batch; a
+  // last one that is not full repeats a point.
   template <class Visit>
-  void for_each_bundle(LocalIndex first, LocalIndex last, Visit&& visit) {
+  void for_each(LocalIndex first, LocalIndex last, Visit&& visit) {
     order_by_count(first, last);
-    for (std::size_t i = 0; i < order_.size(); i += kBundle) {
-      for (std::size_t lane = 0; lane < kBundle; ++lane)
+    for (std::size_t i = 0; i < order_.size(); i += kBatchSize) {
+      for (std::size_t lane = 0; lane < kBatchSize; ++lane)
         lanes_[lane] = order_[std::min(i + lane, order_.size() - 1)];
-      visit(gather(), std::span<const LocalIndex>(lanes_).first(std::min(kBundle, order_.size() - i)));
+      visit(gather(), std::span<const LocalIndex>(lanes_).first(std::min(kBatchSize, order_.size() - i)));
     }
   }
 
@@ -71,31 +72,30 @@ class Bundler {
     }
   }
 
-  const Bundle& gather() {
+  const NeighbourBatch& gather() {
     const std::size_t rows = count(lanes_.back());
     if (rows > capacity_) grow(rows);
-    bundle_.rows = rows;
-    BundledNeighbours of{.positions = points_.positions.front().data()};
-    for (std::size_t lane = 0; lane < kBundle; ++lane) {
+    batch_.rows = rows;
+    NeighbourLists lists{.positions = points_.positions.front().data()};
+    for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
       const LocalIndex p = lanes_[lane];
-      of.points[lane] = p;
-      of.neighbours[lane] = neighbourhoods_[p].data();
-      of.counts[lane] = static_cast<std::uint32_t>(count(p));
-      bundle_.counts.at[lane] = static_cast<double>(count(p));
+      lists.points[lane] = p;
+      lists.neighbours[lane] = neighbourhoods_[p].data();
+      lists.counts[lane] = static_cast<std::uint32_t>(count(p));
       const Eigen::Vector3d normal = given_normal(p);
-      for (int axis = 0; axis < 3; ++axis) bundle_.given_normals[axis].at[lane] = normal[axis];
+      for (int axis = 0; axis < 3; ++axis) batch_.given_normals[axis].at[lane] = normal[axis];
     }
-    fastest::gather_neighbours(of, bundle_);
-    return bundle_;
+    gather_neighbours(lists, batch_);
+    return batch_;
   }
 
   void grow(std::size_t rows) {
     capacity_ = std::max(rows, 2 * capacity_);
-    Eight** const columns[] = {&bundle_.x, &bundle_.y, &bundle_.z, &bundle_.squared_distance,
-                               &bundle_.weight};
+    Batch<double>** const columns[] = {&batch_.x, &batch_.y, &batch_.z, &batch_.squared_distance,
+                                       &batch_.weight};
     memory_.resize(capacity_ * std::size(columns));
-    Eight* column = memory_.data();
-    for (Eight** place : columns) {
+    Batch<double>* column = memory_.data();
+    for (Batch<double>** place : columns) {
       *place = column;
       column += capacity_;
     }
@@ -113,24 +113,25 @@ class Bundler {
   std::span<const Eigen::Vector3d> given_normals_;
   std::vector<std::uint32_t> ends_;  // by count
   std::vector<LocalIndex> order_;
-  std::array<LocalIndex, kBundle> lanes_{};
-  Bundle bundle_;
+  std::array<LocalIndex, kBatchSize> lanes_{};
+  NeighbourBatch batch_;
   std::size_t capacity_ = 0;
-  std::vector<Eight> memory_;
+  std::vector<Batch<double>> memory_;
 };
 
-Evaluation evaluation(const Judgements& judged, std::size_t lane, std::span<const LocalIndex> neighbours) {
+Evaluation evaluation(const CriteriaValues& values, std::size_t lane,
+                      std::span<const LocalIndex> neighbours) {
   Evaluation e;
-  for (std::size_t i = 0; i < kCriteria; ++i) e.criteria[i] = judged.criteria[i].at[lane];
+  for (std::size_t i = 0; i < kCriteria; ++i) e.criteria[i] = values.criteria[i].at[lane];
   for (int axis = 0; axis < 3; ++axis) {
-    e.normal[axis] = judged.normal[axis].at[lane];
-    e.mean_offset[axis] = judged.mean_offset[axis].at[lane];
+    e.normal[axis] = values.normal[axis].at[lane];
+    e.mean_offset[axis] = values.mean_offset[axis].at[lane];
   }
-  e.probability = judged.probability.at[lane];
-  e.mean_distance = judged.mean_distance.at[lane];
-  if (judged.gap_near.at[lane] >= 0) {
-    e.gap_near = neighbours[static_cast<std::size_t>(judged.gap_near.at[lane])];
-    e.gap_far = neighbours[static_cast<std::size_t>(judged.gap_far.at[lane])];
+  e.probability = values.probability.at[lane];
+  e.mean_distance = values.mean_distance.at[lane];
+  if (values.gap_near.at[lane] >= 0) {
+    e.gap_near = neighbours[static_cast<std::size_t>(values.gap_near.at[lane])];
+    e.gap_far = neighbours[static_cast<std::size_t>(values.gap_far.at[lane])];
   }
   return e;
 }
@@ -144,20 +145,20 @@ double round_to_step(double value) {
 std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria) {
-  const JudgeParameters parameters = judge_parameters(normals, criteria);
-  Bundler bundler(points, neighbourhoods, given_normals);
+  const CriteriaParameters parameters = criteria_parameters(normals, criteria);
+  Batches batches(points, neighbourhoods, given_normals);
   std::vector<Evaluation> evaluations;
   evaluations.reserve(points.owned);
-  Judgements judgements;
+  CriteriaValues values;
   // By runs of the store order: what is near in space shares the cache.
   constexpr LocalIndex kRun = 64;
   for (LocalIndex first = 0, last; first < points.owned; first = last) {
     last = std::min(first + kRun, points.owned);
     evaluations.resize(last, lone_point());
-    bundler.for_each_bundle(first, last, [&](const Bundle& bundle, std::span<const LocalIndex> judged) {
-      fastest::judge(bundle, parameters, judgements);
-      for (std::size_t lane = 0; lane < judged.size(); ++lane)
-        evaluations[judged[lane]] = evaluation(judgements, lane, neighbourhoods[judged[lane]]);
+    batches.for_each(first, last, [&](const NeighbourBatch& batch, std::span<const LocalIndex> of) {
+      evaluate_criteria(batch, parameters, values);
+      for (std::size_t lane = 0; lane < of.size(); ++lane)
+        evaluations[of[lane]] = evaluation(values, lane, neighbourhoods[of[lane]]);
     });
   }
   return evaluations;

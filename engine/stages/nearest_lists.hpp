@@ -1,8 +1,6 @@
 // N_p^k of many points, in whole cache lines: the question asked most is whether one holds a point.
 #pragma once
 
-#include "engine/core/dispatch.hpp"
-
 #include <cstddef>
 #include <cstdint>
 
@@ -24,8 +22,7 @@ struct NearestLists {
 
 // Sets `mutual` among points [first, last) and those before them, which have been asked likewise: the lists
 // of those after them need not be there yet.
-using FindMutual = void(const NearestLists&, std::uint32_t first, std::uint32_t last);
-LACUNA_DISPATCH(FindMutual, find_mutual)
+void find_mutual(const NearestLists& lists, std::uint32_t first, std::uint32_t last);
 
 // From points p to neighbours q. What is appended writes up to kListLine more.
 struct EdgeList {
@@ -35,8 +32,7 @@ struct EdgeList {
 
 // Sets `edges` to those from points [first, last) to neighbours below `owned` that are not mutual, once this
 // is known of all points; returns how many.
-using FindOneSided = std::size_t(const NearestLists&, std::uint32_t first, std::uint32_t last,
-                                 std::uint32_t owned, const EdgeList& edges);
-LACUNA_DISPATCH(FindOneSided, find_one_sided)
+std::size_t find_one_sided(const NearestLists& lists, std::uint32_t first, std::uint32_t last,
+                           std::uint32_t owned, const EdgeList& edges);
 
 }  // namespace lacuna

@@ -28,7 +28,7 @@ class Nearest {
       for (LocalIndex p = first; p < last; ++p)
         std::fill(rows[p - first] + count, rows[p - first] + rows.stride, kNoIndex);
       // Now: those before are still in the cache.
-      fastest::find_mutual(lists_, first, last);
+      find_mutual(lists_, first, last);
     }
   }
 
@@ -64,7 +64,7 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
       p.resize(q.size());
     }
     const LocalIndex last = std::min(first + kTogether, points.owned);
-    count += fastest::find_one_sided(nearest.lists(), first, last, points.owned,
+    count += find_one_sided(nearest.lists(), first, last, points.owned,
                                      {q.data() + count, p.data() + count});
   }
   Rows rows;

@@ -1,6 +1,6 @@
 #include "engine/stages/order_tile.hpp"
 
-#include "engine/core/dispatch.hpp"
+#include "engine/simd/vectorised.hpp"
 #include "engine/stages/z_curve.hpp"
 
 #include <algorithm>

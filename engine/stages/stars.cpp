@@ -1,5 +1,7 @@
 #include "engine/stages/stars.hpp"
 
+#include "engine/stages/star-inl.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +19,20 @@ double random_share(PointId id) {
   return static_cast<double>(mixed >> 40) * 0x1p-24;
 }
 
-Vector<double> vector(const double (&components)[3]) {
-  return {components[0], components[1], components[2]};
+// The kernel's formulas, for one point.
+namespace formulas = HWY_NAMESPACE;
+using One = formulas::hn::Vec<formulas::hn::CappedTag<double, 1>>;
+
+One one(double number) {
+  return formulas::all<One>(number);
+}
+template <class Components>
+formulas::Vector<One> vector(const Components& components) {
+  return {one(components[0]), one(components[1]), one(components[2])};
+}
+template <class V>
+auto number(V one) {
+  return formulas::hn::GetLane(one);
 }
 
 // Where a point sees a neighbour, inverted.
@@ -34,20 +48,16 @@ struct Views {
 
 Views look_around(std::span<const Seat> seats, const StarQuery& query) {
   const Seat& at = seats[query.point];
-  const Frame<double> frame = frame_of(Vector<double>{query.normal.x(), query.normal.y(), query.normal.z()});
+  const auto frame = formulas::frame_of(vector(query.normal));
   Views views;
   double sum = at.closeness;
   for (LocalIndex i = 0; i < query.neighbours.size(); ++i) {
     const Seat& q = seats[query.neighbours[i]];
     sum += q.closeness;
-    const Vector<double> d =
-        (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
-    // The weights make it a ball orthogonal to small balls around the points: any two views of four points
-    // on one circle then agree on how it falls into triangles.
-    const double power = dot(d, d) + (at.weight - q.weight);
-    const double inverse = 1 / power;
-    const View view{dot(d, frame.u) * inverse, dot(d, frame.v) * inverse, i};
-    if (power > 0 && std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
+    const auto offset = (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
+    const auto seen = formulas::view_of(offset, one(at.weight - q.weight), frame);
+    const View view{number(seen.x), number(seen.y), i};
+    if (std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
   }
   views.distance = static_cast<double>(query.neighbours.size() + 1) / sum;
   return views;
@@ -85,8 +95,8 @@ Seat seat_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
           kWeights * random_share(id) * r * r};
 }
 
-CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& query) {
-  CarefulStar star;
+ExactStar find_star_exactly(std::span<const Seat> seats, const StarQuery& query) {
+  ExactStar star;
   if (!query.normal.allFinite()) return star;
   Views views = look_around(seats, query);
   star.distance = views.distance;
@@ -103,33 +113,33 @@ CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& qu
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
     const double dx = next.x - x, dy = next.y - y;
-    star.corners.push_back({hull[i].neighbour, ball_at(x, y, dx, dy, views.distance)});
-    x += dx;  // rounded as in a bundle
+    const auto ball = formulas::ball_at(one(x), one(y), one(dx), one(dy), one(views.distance));
+    star.corners.push_back({hull[i].neighbour, number(ball)});
+    x += dx;  // rounded as in a batch
     y += dy;
   }
   return star;
 }
 
 void StarFinder::find() {
-  StarBundle bundle{.seats = seats_.data()};
-  for (std::size_t lane = 0; lane < kStarBundle; ++lane) {
+  StarBatch batch{.seats = seats_.data()};
+  for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
     const StarQuery& query = queries_[std::min(lane, queries_.size() - 1)];
     const bool fits = lane < queries_.size() && query.neighbours.size() <= kMostSeen;
-    bundle.points[lane] = query.point;
-    bundle.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
-    bundle.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
-    for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][lane] = query.normal[axis];
+    batch.points[lane] = query.point;
+    batch.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
+    batch.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
+    for (int axis = 0; axis < 3; ++axis) batch.normals[axis][lane] = query.normal[axis];
   }
-  fastest::find_bundled_stars(bundle, bundled_);
+  find_batch_stars(batch, batch_stars_);
 
   for (std::size_t lane = 0; lane < queries_.size(); ++lane) {
-    const std::uint32_t size = bundled_.sizes[lane];
-    if (queries_[lane].neighbours.size() > kMostSeen || size == BundledStars::kInDoubt) {
-      careful_[lane] = find_star_carefully(seats_, queries_[lane]);
-      stars_[lane] = {careful_[lane].corners.data(), 1, careful_[lane].corners.size(),
-                      careful_[lane].distance};
+    const std::uint32_t size = batch_stars_.sizes[lane];
+    if (queries_[lane].neighbours.size() > kMostSeen || size == BatchStars::kAmbiguous) {
+      exact_[lane] = find_star_exactly(seats_, queries_[lane]);
+      stars_[lane] = {exact_[lane].corners.data(), 1, exact_[lane].corners.size(), exact_[lane].distance};
     } else {
-      stars_[lane] = {&bundled_.corners[0][lane], kStarBundle, size, bundled_.distances[lane]};
+      stars_[lane] = {&batch_stars_.corners[0][lane], kBatchSize, size, batch_stars_.distances[lane]};
     }
   }
 }

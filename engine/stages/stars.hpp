@@ -16,10 +16,10 @@
 // are closed curves.
 #pragma once
 
-#include "engine/core/batches.hpp"
 #include "engine/data/evaluation.hpp"
 #include "engine/data/star.hpp"
-#include "engine/stages/star_bundle.hpp"
+#include "engine/simd/batch.hpp"
+#include "engine/stages/star_batch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,11 +41,11 @@ struct StarQuery {
 // Corners in counterclockwise order about the normal, from the one that is seen farthest when inverted, by
 // their number among the neighbours; none where the normal is undefined or fewer than three directions are
 // seen. Deterministic: the order of the neighbours decides between points in one place.
-struct CarefulStar {
+struct ExactStar {
   std::vector<StarCorner<LocalIndex>> corners;
   double distance = 0;  // `Sampling::distance`
 };
-CarefulStar find_star_carefully(std::span<const Seat> seats, const StarQuery& query);
+ExactStar find_star_exactly(std::span<const Seat> seats, const StarQuery& query);
 
 // Corners as above.
 class FoundStar {
@@ -64,16 +64,16 @@ class FoundStar {
   double distance_ = 0;
 };
 
-// Finds the same stars, those of a bundle side by side: keeps its memory.
+// Finds the same stars, those of a batch side by side: keeps its memory.
 class StarFinder {
  public:
   explicit StarFinder(std::span<const Seat> seats) : seats_(seats) {}
 
-  // visit(first, stars): the stars of queries `first` and the next, up to kStarBundle; query(i): the i-th of
+  // visit(first, stars): the stars of queries `first` and the next, up to kBatchSize; query(i): the i-th of
   // `count`. What a star is depends on no other query.
   template <class Query, class Visit>
-  void for_each_bundle(std::size_t count, Query&& query, Visit&& visit) {
-    for_each_batch(count, queries_, query, [&](std::size_t first) {
+  void for_each_batch(std::size_t count, Query&& query, Visit&& visit) {
+    lacuna::for_each_batch(count, queries_, query, [&](std::size_t first) {
       find();
       visit(first, std::span<const FoundStar>(stars_).first(queries_.size()));
     });
@@ -84,9 +84,9 @@ class StarFinder {
 
   std::span<const Seat> seats_;
   std::vector<StarQuery> queries_;
-  BundledStars bundled_;
-  std::array<CarefulStar, kStarBundle> careful_;
-  std::array<FoundStar, kStarBundle> stars_;
+  BatchStars batch_stars_;
+  std::array<ExactStar, kBatchSize> exact_;
+  std::array<FoundStar, kBatchSize> stars_;
 };
 
 // Stars of points 0, 1, 2, ...; `agreements` of the triangles that begin at each corner.

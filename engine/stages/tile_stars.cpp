@@ -112,11 +112,11 @@ class TileStarFinder {
       return StarQuery{wanted_[i], evaluations_[wanted_[i]].normal, neighbourhoods_[wanted_[i]]};
     };
     StarFinder({seats_.get(), points_.owned})
-        .for_each_bundle(wanted_.size(), query, [&](std::size_t first, std::span<const FoundStar> bundle) {
-          const std::array<Sampling, kEight> samplings = samplings_of(bundle);
-          for (std::size_t i = 0; i < bundle.size(); ++i) {
+        .for_each_batch(wanted_.size(), query, [&](std::size_t first, std::span<const FoundStar> batch) {
+          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch);
+          for (std::size_t i = 0; i < batch.size(); ++i) {
             found_.samplings[wanted_[first + i]] = samplings[i];
-            add(wanted_[first + i], bundle[i]);
+            add(wanted_[first + i], batch[i]);
           }
         });
   }
@@ -290,7 +290,7 @@ void agree(TileStars& found) {
     for (LocalIndex p = first; p < last; ++p) most += stars.places[p].size;
     if (asked.size() < most) asked.resize(2 * most);
     const std::size_t count = ask(found, first, last, asked.data());
-    fastest::agree_on_triangles(table, asked.data(), count);
+    agree_on_triangles(table, asked.data(), count);
   }
   for (LocalIndex p = 0; p < points; ++p) {
     const Standing standing = found.standings[p];

@@ -1,8 +1,8 @@
 // Each criterion on its own, on surfaces drawn by hand.
-#include "engine/criteria/angle.hpp"
-#include "engine/criteria/halfdisc.hpp"
-#include "engine/criteria/largest_gaps.hpp"
-#include "engine/criteria/shape.hpp"
+#include "engine/criteria/angle-inl.hpp"
+#include "engine/criteria/exact_fallback.hpp"
+#include "engine/criteria/halfdisc-inl.hpp"
+#include "engine/criteria/shape-inl.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,19 +18,19 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNoCone = 2;
 constexpr double kNone = -1;
 
-// One point's neighbourhood as the third of a bundle.
-GapFit gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
-              const Vector3d& normal = {0, 0, 1}) {
+// One point's neighbourhood as the third of a batch.
+LargestGap gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCone,
+                  const Vector3d& normal = {0, 0, 1}) {
   constexpr std::size_t kPoint = 2;
-  std::vector<Eight> x(offsets.size()), y(offsets.size()), z(offsets.size());
+  std::vector<Batch<double>> x(offsets.size()), y(offsets.size()), z(offsets.size());
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     x[i].at[kPoint] = offsets[i].x();
     y[i].at[kPoint] = offsets[i].y();
     z[i].at[kPoint] = offsets[i].z();
   }
-  Bundle bundle{.rows = offsets.size(), .x = x.data(), .y = y.data(), .z = z.data()};
-  bundle.counts.at[kPoint] = double(offsets.size());
-  return largest_gap_carefully(bundle, kPoint, normal.data(), cos_cone);
+  NeighbourBatch batch{.rows = offsets.size(), .x = x.data(), .y = y.data(), .z = z.data()};
+  batch.counts.at[kPoint] = double(offsets.size());
+  return find_largest_gap_exactly(batch, kPoint, normal.data(), cos_cone);
 }
 
 // In the plane, at these degrees; nearest first.
@@ -44,7 +44,7 @@ std::vector<Vector3d> at_degrees(const std::vector<double>& degrees) {
 }
 
 TEST_CASE("the largest gap is the one between neighbours side by side, the nearer of them named first") {
-  const GapFit gap = gap_of(at_degrees({200, 0, 90, 300}));
+  const LargestGap gap = gap_of(at_degrees({200, 0, 90, 300}));
   CHECK(gap.size == Approx(110 * kPi / 180));
   CHECK(gap.near == 0);
   CHECK(gap.far == 2);
@@ -52,39 +52,39 @@ TEST_CASE("the largest gap is the one between neighbours side by side, the neare
 }
 
 TEST_CASE("a gap across the jump of the angle is seen") {
-  const GapFit gap = gap_of(at_degrees({-60, 0, 60, 100, -100}));
+  const LargestGap gap = gap_of(at_degrees({-60, 0, 60, 100, -100}));
   CHECK(gap.size == Approx(160 * kPi / 180));
   CHECK((gap.near == 3 && gap.far == 4));
 }
 
 TEST_CASE("of equal gaps the one is taken whose neighbours come first") {
-  const GapFit gap = gap_of(at_degrees({180, 0, 270, 90}));
+  const LargestGap gap = gap_of(at_degrees({180, 0, 270, 90}));
   CHECK(gap.size == Approx(kPi / 2));
   CHECK((gap.near == 0 && gap.far == 2));
 }
 
 TEST_CASE("neighbours in one direction are one, the nearest stands for it, across the jump too") {
   for (const double turn : {0.0, 180.0, 77.0}) {
-    const GapFit gap = gap_of(at_degrees({10 + turn, turn, turn + 360, 100 + turn, turn - 360}));
+    const LargestGap gap = gap_of(at_degrees({10 + turn, turn, turn + 360, 100 + turn, turn - 360}));
     CHECK(gap.used == 5);
     CHECK((gap.near == 1 && gap.far == 3));
     CHECK(gap.size == Approx(260 * kPi / 180));
   }
-  const GapFit one = gap_of(at_degrees({45, 45, 45}));
+  const LargestGap one = gap_of(at_degrees({45, 45, 45}));
   CHECK(one.size == Approx(2 * kPi));
   CHECK((one.near == 0 && one.far == 0 && one.used == 3));
 }
 
 TEST_CASE("without a direction there is no gap: no neighbours, or all along the normal") {
   CHECK(gap_of({}).near == kNone);
-  const GapFit along = gap_of({{0, 0, 1}, {0, 0, -2}});
+  const LargestGap along = gap_of({{0, 0, 1}, {0, 0, -2}});
   CHECK((along.used == 0 && along.near == kNone && along.far == kNone));
 }
 
 TEST_CASE("directions strictly within the cone about the normal are not used") {
   const double cos_cone = std::cos(45 * kPi / 180);
   const std::vector<Vector3d> offsets = {{1, 0, 0.9}, {0, 1, 1.1}, {-1, 0, -0.9}, {0, -1, -1.1}};
-  const GapFit gap = gap_of(offsets, cos_cone);
+  const LargestGap gap = gap_of(offsets, cos_cone);
   CHECK(gap.used == 2);
   CHECK((gap.near == 0 && gap.far == 2));
   CHECK(gap_of(offsets).used == 4);
@@ -95,20 +95,42 @@ TEST_CASE("the sign and the place of the normal do not change the gap") {
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Vector3d> turned;
   for (const Vector3d& offset : flat) turned.push_back(rotation * offset);
-  const GapFit expected = gap_of(flat);
+  const LargestGap expected = gap_of(flat);
   for (const double sign : {1.0, -1.0}) {
-    const GapFit gap = gap_of(turned, kNoCone, sign * rotation.col(2));
+    const LargestGap gap = gap_of(turned, kNoCone, sign * rotation.col(2));
     CHECK(gap.size == Approx(expected.size));
     CHECK((gap.near == expected.near && gap.far == expected.far));
   }
 }
 
-Surface<double> with_gap(double size, double used) {
-  Surface<double> surface{};
-  surface.has_normal = true;
-  surface.normal = {0, 0, 1};
-  surface.gap = {.size = size, .used = used, .near = 0, .far = 1};
+// The kernels' formulas, for one point.
+namespace formulas = HWY_NAMESPACE;
+using OneTag = formulas::hn::CappedTag<double, 1>;
+using One = formulas::hn::Vec<OneTag>;
+
+One one(double number) {
+  return formulas::hn::Set(OneTag(), number);
+}
+double number(One one) {
+  return formulas::hn::GetLane(one);
+}
+auto mask(bool is_set) {
+  return formulas::hn::FirstN(OneTag(), is_set);
+}
+
+formulas::Surface<One> with_gap(double size, double used) {
+  formulas::Surface<One> surface{};
+  surface.has_normal = mask(true);
+  surface.normal = {one(0), one(0), one(1)};
+  surface.gap = {one(size), one(used), one(0), one(1)};
   return surface;
+}
+
+double angle_probability(const formulas::Surface<One>& surface) {
+  return number(formulas::angle_probability(surface));
+}
+double halfdisc_probability(const formulas::Surface<One>& surface) {
+  return number(formulas::halfdisc_probability(surface));
 }
 
 TEST_CASE("the angle probability is 0 for even directions, 1 for half a turn, and rises between") {
@@ -117,28 +139,29 @@ TEST_CASE("the angle probability is 0 for even directions, 1 for half a turn, an
   CHECK(angle_probability(with_gap(1.5 * kPi, 8)) == 1);
   CHECK(angle_probability(with_gap((2 * kPi / 8 + kPi) / 2, 8)) == Approx(0.5));
   CHECK(angle_probability(with_gap(0.1, 2)) == 1);
-  Surface<double> no_normal = with_gap(0.1, 8);
-  no_normal.has_normal = false;
+  formulas::Surface<One> no_normal = with_gap(0.1, 8);
+  no_normal.has_normal = mask(false);
   CHECK(angle_probability(no_normal) == 1);
 }
 
 TEST_CASE("the halfdisc probability is 1 where the mean lies at the centroid of a half disc or beyond") {
-  Surface<double> surface = with_gap(1, 8);
-  surface.mean_distance = 3;
+  formulas::Surface<One> surface = with_gap(1, 8);
+  surface.mean_distance = one(3);
   const double centroid = 4 * 3 / (3 * kPi);
   for (const double share : {0.0, 0.25, 1.0, 1.5}) {
-    surface.mean_offset = {share * centroid, 0, 17};  // what lies along the normal does not count
+    surface.mean_offset = {one(share * centroid), one(0),
+                           one(17)};  // what lies along the normal does not count
     CHECK(halfdisc_probability(surface) == Approx(std::min(share, 1.0)));
   }
-  surface.has_normal = false;
+  surface.has_normal = mask(false);
   CHECK(halfdisc_probability(surface) == 1);
 }
 
 TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small at the other three shapes") {
   const auto shape = [](double a, double b, double c) {
-    Surface<double> surface{};
-    surface.eigenvalues = {a, b, c};
-    return shape_probability(surface);
+    formulas::Surface<One> surface{};
+    surface.eigenvalues = {one(a), one(b), one(c)};
+    return number(formulas::shape_probability(surface));
   };
   const double boundary = shape(2, 1, 0);
   CHECK(boundary > 0.7);

@@ -1,8 +1,9 @@
-// The candidates of a query in single precision: none is missed, and where it cannot tell the order it says
-// so.
+// The candidates of a query in single precision: none is missed, and an order that rounding may decide is
+// marked as ambiguous.
 #include "engine/stages/candidates.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/instruction_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +13,6 @@
 
 namespace lacuna {
 namespace {
-
-struct InstructionSet {
-  LookClosely* look_closely;
-  FindWithin* find_within;
-  RankCandidates* rank_candidates;
-};
-
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets{{plain::look_closely, plain::find_within, plain::rank_candidates}};
-#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
-  if (__builtin_cpu_supports("x86-64-v3"))
-    sets.push_back({v3::look_closely, v3::find_within, v3::rank_candidates});
-  if (__builtin_cpu_supports("x86-64-v4"))
-    sets.push_back({v4::look_closely, v4::find_within, v4::rank_candidates});
-#endif
-  return sets;
-}
 
 // A list of candidates at these squared distances; their points are 100, 101, ...
 CandidateList list_of(const std::vector<float>& squared_distances, float limit, float margin) {
@@ -82,13 +66,13 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
       }
     }
     INFO("round " << round << ", " << expected.size() << " points");
-    for (const InstructionSet& set : instruction_sets()) {
-      set.look_closely(all.data(), lows, highs, sight);
+    by_each_instruction_set([&] {
+      look_closely(all.data(), lows, highs, sight);
       CandidateList list{};
-      set.find_within(sight, query, limit, list);
+      find_within(sight, query, limit, list);
       if (expected.size() > kMostCandidates) {
         CHECK(list.count == kMostCandidates + 1);
-        continue;
+        return;
       }
       std::vector<std::pair<std::uint32_t, float>> found;
       for (std::size_t i = 0; i < list.count; ++i)
@@ -96,17 +80,12 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
       CHECK(found == expected);
       CHECK(list.limit == limit);
       CHECK(list.margin == 1e-5F);
-    }
+    });
   }
 }
 
 TEST_CASE("a narrowed list holds what is within the smaller limit, or all it held if that is too little") {
   Random random(6);
-  std::vector<NarrowList*> sets{plain::narrow_list};
-#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
-  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::narrow_list);
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::narrow_list);
-#endif
   std::size_t narrowed = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<float> all(static_cast<std::size_t>(random.whole(0, kMostCandidates)));
@@ -118,9 +97,9 @@ TEST_CASE("a narrowed list holds what is within the smaller limit, or all it hel
       if (all[i] <= limit) within.emplace_back(before.points[i], all[i]);
     }
     for (const std::size_t least : {within.size(), within.size() + 1}) {
-      for (NarrowList* const narrow : sets) {
+      by_each_instruction_set([&] {
         CandidateList list = before;
-        narrow(limit, least, list);
+        narrow_list(limit, least, list);
         found.clear();
         for (std::size_t i = 0; i < list.count; ++i)
           found.emplace_back(list.points[i], list.squared_distances[i]);
@@ -129,13 +108,13 @@ TEST_CASE("a narrowed list holds what is within the smaller limit, or all it hel
         CHECK(list.count == (is_narrow ? within.size() : all.size()));
         if (is_narrow) CHECK(found == within);
         narrowed += is_narrow && within.size() < all.size();
-      }
+      });
     }
   }
   CHECK(narrowed > 200);
 }
 
-TEST_CASE("candidates are ranked, and doubts told, by every instruction set") {
+TEST_CASE("candidates are ranked, and what is ambiguous is marked, by every instruction set") {
   const float margin = 1e-5F;
   const std::vector<CandidateList> lists = {
       list_of({0.5F, 0, 0.25F, 0.75F}, 1, margin),
@@ -146,14 +125,14 @@ TEST_CASE("candidates are ranked, and doubts told, by every instruction set") {
       list_of({0.5F, 0, 0.5F + 1e-3F, 0.75F}, 1, 0.6e-3F),  // a larger margin
       list_of({}, 1, margin),
   };
-  for (const InstructionSet& set : instruction_sets()) {
+  by_each_instruction_set([&] {
     Ranking ranking{};
-    set.rank_candidates(lists.data(), lists.size(), 4, true, ranking);
-    std::vector<bool> doubts(ranking.in_doubt, ranking.in_doubt + lists.size());
-    CHECK(doubts == std::vector<bool>{false, true, false, true, false, true, false});
-    set.rank_candidates(lists.data(), lists.size(), 3, true, ranking);
-    doubts.assign(ranking.in_doubt, ranking.in_doubt + lists.size());
-    CHECK(doubts == std::vector<bool>{false, true, false, false, false, true, false});
+    rank_candidates(lists.data(), lists.size(), 4, true, ranking);
+    std::vector<bool> ambiguous(ranking.is_ambiguous, ranking.is_ambiguous + lists.size());
+    CHECK(ambiguous == std::vector<bool>{false, true, false, true, false, true, false});
+    rank_candidates(lists.data(), lists.size(), 3, true, ranking);
+    ambiguous.assign(ranking.is_ambiguous, ranking.is_ambiguous + lists.size());
+    CHECK(ambiguous == std::vector<bool>{false, true, false, false, false, true, false});
     std::uint32_t points[2];
     ranking.pick(lists[0], 0, 2, points);
     CHECK(points[0] == 102);
@@ -161,12 +140,12 @@ TEST_CASE("candidates are ranked, and doubts told, by every instruction set") {
     ranking.pick(lists[4], 4, 2, points);
     CHECK(points[0] == 102);
     CHECK(points[1] == 100);
-    set.rank_candidates(lists.data(), lists.size(), 5, true, ranking);
-    CHECK(ranking.in_doubt[2]);
+    rank_candidates(lists.data(), lists.size(), 5, true, ranking);
+    CHECK(ranking.is_ambiguous[2]);
     // What is in no list takes no part.
-    set.rank_candidates(lists.data(), lists.size(), 4, false, ranking);
-    CHECK_FALSE(ranking.in_doubt[3]);
-  }
+    rank_candidates(lists.data(), lists.size(), 4, false, ranking);
+    CHECK_FALSE(ranking.is_ambiguous[3]);
+  });
 }
 
 TEST_CASE("long lists are ranked, too, and lists that are too long count as empty") {
@@ -180,11 +159,11 @@ TEST_CASE("long lists are ranked, too, and lists that are too long count as empt
   }
   lists[5].count = kMostCandidates + 1;
   constexpr std::size_t kWanted = 30;
-  for (const InstructionSet& set : instruction_sets()) {
+  by_each_instruction_set([&] {
     Ranking ranking{};
-    set.rank_candidates(lists.data(), lists.size(), kWanted, true, ranking);
+    rank_candidates(lists.data(), lists.size(), kWanted, true, ranking);
     for (std::size_t i = 0; i < kQueries; ++i) {
-      if (i == 5 || ranking.in_doubt[i]) continue;
+      if (i == 5 || ranking.is_ambiguous[i]) continue;
       const CandidateList& list = lists[i];
       std::vector<std::uint32_t> expected(list.points, list.points + list.count), found(kWanted - 1);
       std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -193,8 +172,8 @@ TEST_CASE("long lists are ranked, too, and lists that are too long count as empt
       ranking.pick(list, i, found.size(), found.data());
       CHECK(std::equal(found.begin(), found.end(), expected.begin() + 1));
     }
-    CHECK(std::count(ranking.in_doubt, ranking.in_doubt + kQueries, true) < 4);
-  }
+    CHECK(std::count(ranking.is_ambiguous, ranking.is_ambiguous + kQueries, true) < 4);
+  });
 }
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 #include "engine/stages/nearest_lists.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/instruction_sets.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -12,20 +13,6 @@
 
 namespace lacuna {
 namespace {
-
-struct InstructionSet {
-  FindMutual* find_mutual;
-  FindOneSided* find_one_sided;
-};
-
-std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets{{plain::find_mutual, plain::find_one_sided}};
-#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
-  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back({v3::find_mutual, v3::find_one_sided});
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back({v4::find_mutual, v4::find_one_sided});
-#endif
-  return sets;
-}
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // to q, from p
@@ -56,7 +43,7 @@ Edges expected_edges(const Lists& lists) {
 }
 
 // Asked in runs of `run` points.
-Edges found_edges(const InstructionSet& set, const Lists& lists, std::size_t count, std::uint32_t run) {
+Edges found_edges(const Lists& lists, std::size_t count, std::uint32_t run) {
   const auto owned = std::uint32_t(lists.size());
   const std::size_t stride = (count + kListLine - 1) / kListLine;
   std::vector<ListLine> lines(stride * owned);
@@ -67,12 +54,12 @@ Edges found_edges(const InstructionSet& set, const Lists& lists, std::size_t cou
   std::vector<std::uint16_t> mutual(lines.size());
   const NearestLists nearest{lines.data(), stride, count, mutual.data()};
   for (std::uint32_t first = 0; first < owned; first += run)
-    set.find_mutual(nearest, first, std::min(first + run, owned));
+    find_mutual(nearest, first, std::min(first + run, owned));
   std::vector<std::uint32_t> q(owned * count + kListLine), p(q.size());
   Edges edges;
   for (std::uint32_t first = 0; first < owned; first += run) {
     const std::size_t found =
-        set.find_one_sided(nearest, first, std::min(first + run, owned), owned, {q.data(), p.data()});
+        find_one_sided(nearest, first, std::min(first + run, owned), owned, {q.data(), p.data()});
     for (std::size_t i = 0; i < found; ++i) edges.emplace_back(q[i], p[i]);
   }
   std::sort(edges.begin(), edges.end());
@@ -88,16 +75,16 @@ TEST_CASE("edges to points whose lists do not hold their beginning are found, by
       const Lists lists =
           drawn_lists(random, std::uint32_t(random.whole(std::int64_t(2 * count), 300)), count);
       const Edges expected = expected_edges(lists);
-      for (const InstructionSet& set : instruction_sets()) {
-        CHECK(found_edges(set, lists, count, 64) == expected);
-        CHECK(found_edges(set, lists, count, 1) == expected);
-      }
+      by_each_instruction_set([&] {
+        CHECK(found_edges(lists, count, 64) == expected);
+        CHECK(found_edges(lists, count, 1) == expected);
+      });
     }
   }
 }
 
 TEST_CASE("two points that are each other's only neighbours have no one-sided edge") {
-  for (const InstructionSet& set : instruction_sets()) CHECK(found_edges(set, {{1}, {0}}, 1, 2).empty());
+  by_each_instruction_set([] { CHECK(found_edges({{1}, {0}}, 1, 2).empty()); });
 }
 
 }  // namespace lacuna

@@ -1,7 +1,9 @@
-// Stars found side by side are those found with care, from every instruction set and beside whatever others.
+// Stars found side by side are those of the exact fallback, from every instruction set and beside whatever
+// others.
 #include "engine/stages/stars.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/instruction_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +52,7 @@ Neighbourhood drawn_neighbourhood(Random& random) {
 
 std::vector<Neighbourhood> drawn_neighbourhoods(Random& random) {
   std::vector<Neighbourhood> drawn;
-  for (std::size_t i = 0; i < kStarBundle; ++i) drawn.push_back(drawn_neighbourhood(random));
+  for (std::size_t i = 0; i < kBatchSize; ++i) drawn.push_back(drawn_neighbourhood(random));
   return drawn;
 }
 
@@ -78,11 +80,11 @@ struct Queries {
 std::vector<Star> found_side_by_side(const Queries& queries) {
   std::vector<Star> stars(queries.all.size());
   StarFinder(queries.seats)
-      .for_each_bundle(
+      .for_each_batch(
           queries.all.size(), [&](std::size_t i) { return queries.all[i]; },
-          [&](std::size_t first, std::span<const FoundStar> bundle) {
-            for (std::size_t i = 0; i < bundle.size(); ++i) {
-              for (std::size_t c = 0; c < bundle[i].size(); ++c) stars[first + i].push_back(bundle[i][c]);
+          [&](std::size_t first, std::span<const FoundStar> batch) {
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+              for (std::size_t c = 0; c < batch[i].size(); ++c) stars[first + i].push_back(batch[i][c]);
             }
           });
   return stars;
@@ -92,25 +94,16 @@ bool same_bits(const Star& a, const Star& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
-StarBundle bundle_of(const Queries& queries) {
-  StarBundle bundle{.seats = queries.seats.data()};
-  for (std::size_t i = 0; i < kStarBundle; ++i) {
+StarBatch batch_of(const Queries& queries) {
+  StarBatch batch{.seats = queries.seats.data()};
+  for (std::size_t i = 0; i < kBatchSize; ++i) {
     const StarQuery& query = queries.all[i];
-    bundle.points[i] = query.point;
-    bundle.neighbours[i] = query.neighbours.empty() ? &query.point : query.neighbours.data();
-    bundle.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
-    for (int axis = 0; axis < 3; ++axis) bundle.normals[axis][i] = query.normal[axis];
+    batch.points[i] = query.point;
+    batch.neighbours[i] = query.neighbours.empty() ? &query.point : query.neighbours.data();
+    batch.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
+    for (int axis = 0; axis < 3; ++axis) batch.normals[axis][i] = query.normal[axis];
   }
-  return bundle;
-}
-
-std::vector<FindBundledStars*> available_sets() {
-  std::vector<FindBundledStars*> sets{plain::find_bundled_stars};
-#if defined(__x86_64__) && !defined(LACUNA_PORTABLE)
-  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(v3::find_bundled_stars);
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(v4::find_bundled_stars);
-#endif
-  return sets;
+  return batch;
 }
 
 // A point with neighbours at these places of its tangent plane, all on the unit length.
@@ -147,14 +140,14 @@ TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
   CHECK(star_among({{1, 0}, {2, 0}, {-1, 0}, {3, 0}}).empty());
 }
 
-TEST_CASE("stars found side by side are those found with care, bit for bit") {
+TEST_CASE("stars found side by side are those of the exact fallback, bit for bit") {
   Random random(21);
   std::size_t different = 0, corners = 0;
   for (int round = 0; round < 3000; ++round) {
     const Queries queries(drawn_neighbourhoods(random));
     const std::vector<Star> found = found_side_by_side(queries);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      different += !same_bits(found[i], find_star_carefully(queries.seats, queries.all[i]).corners);
+      different += !same_bits(found[i], find_star_exactly(queries.seats, queries.all[i]).corners);
       corners += found[i].size();
     }
   }
@@ -164,49 +157,49 @@ TEST_CASE("stars found side by side are those found with care, bit for bit") {
 
 TEST_CASE("nearly every star is decided side by side, from every instruction set with the same bits") {
   Random random(22);
-  std::size_t different = 0, unlike_care = 0, plain_ones = 0, in_doubt = 0;
+  std::size_t different = 0, unlike_exact = 0, plain_ones = 0, ambiguous = 0;
   for (int round = 0; round < 3000; ++round) {
     const Queries queries(drawn_neighbourhoods(random));
-    const StarBundle bundle = bundle_of(queries);
-    BundledStars expected, found;
-    plain::find_bundled_stars(bundle, expected);
-    for (FindBundledStars* const find : available_sets()) {
-      find(bundle, found);
-      for (std::size_t i = 0; i < kStarBundle; ++i) {
+    const StarBatch batch = batch_of(queries);
+    BatchStars expected, found;
+    find_batch_stars(batch, expected);
+    by_each_instruction_set([&] {
+      find_batch_stars(batch, found);
+      for (std::size_t i = 0; i < kBatchSize; ++i) {
         different += found.sizes[i] != expected.sizes[i];
-        if (found.sizes[i] == BundledStars::kInDoubt || found.sizes[i] != expected.sizes[i]) continue;
+        if (found.sizes[i] == BatchStars::kAmbiguous || found.sizes[i] != expected.sizes[i]) continue;
         for (std::uint32_t c = 0; c < found.sizes[i]; ++c)
           different +=
               std::memcmp(&found.corners[c][i], &expected.corners[c][i], sizeof found.corners[0][0]) != 0;
       }
-    }
-    for (std::size_t i = 0; i < kStarBundle; ++i) {
+    });
+    for (std::size_t i = 0; i < kBatchSize; ++i) {
       if (queries.all[i].neighbours.size() > kMostSeen) continue;
-      const auto [careful, distance] = find_star_carefully(queries.seats, queries.all[i]);
-      if (expected.sizes[i] == BundledStars::kInDoubt) {
-        ++in_doubt;
+      const auto [exact, distance] = find_star_exactly(queries.seats, queries.all[i]);
+      if (expected.sizes[i] == BatchStars::kAmbiguous) {
+        ++ambiguous;
         continue;
       }
       ++plain_ones;
       Star star;
       for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.corners[c][i]);
-      unlike_care += !same_bits(star, careful);
-      if (!careful.empty()) unlike_care += expected.distances[i] != distance;
+      unlike_exact += !same_bits(star, exact);
+      if (!exact.empty()) unlike_exact += expected.distances[i] != distance;
     }
   }
   CHECK(different == 0);
-  CHECK(unlike_care == 0);
-  CHECK(in_doubt > 0);  // lattices without weights
-  CHECK(plain_ones > 3 * in_doubt);
+  CHECK(unlike_exact == 0);
+  CHECK(ambiguous > 0);  // lattices without weights
+  CHECK(plain_ones > 3 * ambiguous);
 }
 
-TEST_CASE("a star is the same wherever its point stands in a bundle, and whatever stands beside it") {
+TEST_CASE("a star is the same wherever its point is in a batch, and whatever the other points are") {
   Random random(23);
   std::size_t different = 0;
   for (int round = 0; round < 300; ++round) {
     const Neighbourhood drawn = drawn_neighbourhood(random);
     const Star alone = found_side_by_side(Queries({drawn}))[0];
-    for (std::size_t place = 0; place < kStarBundle; ++place) {
+    for (std::size_t place = 0; place < kBatchSize; ++place) {
       std::vector<Neighbourhood> others = drawn_neighbourhoods(random);
       others[place] = drawn;
       different += !same_bits(found_side_by_side(Queries(others))[place], alone);

@@ -38,7 +38,7 @@ std::vector<Star> measured_stars(const Judged& judged, bool measure = true) {
   std::vector<Star> stars(judged.points.owned);
   std::vector<Sampling> samplings(judged.points.owned);
   for (LocalIndex p = 0; p < judged.points.owned; ++p) {
-    const CarefulStar found = find_star_carefully(seats, {p, judged.evaluations[p].normal, judged.rows[p]});
+    const ExactStar found = find_star_exactly(seats, {p, judged.evaluations[p].normal, judged.rows[p]});
     stars[p] = found.corners;
     const FoundStar star(found.corners.data(), 1, found.corners.size(), found.distance);
     samplings[p] = samplings_of(std::span(&star, 1))[0];

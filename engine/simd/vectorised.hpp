@@ -1,0 +1,9 @@
+// A plain loop that the compiler vectorises by itself, compiled for several instruction sets beside the code
+// around it. Only for whole numbers and for what has one exact result: such a loop is no kernel of Highway.
+#pragma once
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define LACUNA_VECTORISED __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define LACUNA_VECTORISED
+#endif
