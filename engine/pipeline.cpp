@@ -98,8 +98,9 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   EvaluatedScan evaluated = evaluate_tiles(store, std::move(links), survey.points, eps, extent, job);
 
   // Loops, and the boundary points beside them.
-  const Boundary boundary = config.loops.method == LoopMethod::kStars ? find_by_stars(evaluated, store, job)
-                                                                      : find_by_paper(evaluated, store, job);
+  const Boundary boundary = config.loops.method == LoopMethod::kTangential
+                                ? find_by_stars(evaluated, store, job)
+                                : find_by_paper(evaluated, store, job);
   const RawLoops& raw_loops = boundary.traced.loops;
   MeasuredLoops loops = measure_loops(raw_loops, evaluated, store, evaluated.mean_edge_length(), job);
 

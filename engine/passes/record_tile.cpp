@@ -98,7 +98,8 @@ class TileRecorder {
   }
 
   void record_stars() {
-    const TileStars found = find_stars(points_, neighbourhoods_, evaluations_, is_border_);
+    const TileStars found = find_stars(points_, neighbourhoods_, evaluations_, is_border_,
+                                       job_.config.coherence.threshold, job_.config.tangential);
     StoredStars as_found, open;
     std::vector<Gap> gaps;
     std::vector<std::uint8_t> is_vertex = is_border_;
@@ -116,7 +117,7 @@ class TileRecorder {
       is_vertex[p] = 1;
       if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
         for_each_gap(found.stars[p], agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({vertex(p), points_.rows[from], points_.rows[to], room, found.unevenness[p]});
+          gaps.push_back({vertex(p), points_.rows[from], points_.rows[to], room});
         });
       } else {
         add_star(found, p, standing == Standing::kBeside ? as_found : open);
@@ -133,7 +134,7 @@ class TileRecorder {
     const auto star = found.stars[p];
     const auto agreements = found.stars.agreements_of(p);
     if (star.empty()) return;
-    stars.add(points_.ids[p], p, found.unevenness[p]);
+    stars.add(points_.ids[p], p);
     for (std::size_t i = 0; i < star.size(); ++i)
       stars.add_corner({points_.rows[star[i].point], star[i].room, agreements[i]});
   }

@@ -97,20 +97,22 @@ class OpenRims {
   std::mutex mutex_;
 };
 
-void report(std::vector<RimPoint> rim, RawLoops& loops) {
-  if (rim.size() < kLeastRim) return;
+void report(std::vector<RimPoint> rim, const TangentialConfig& config, RawLoops& loops) {
+  const auto least = static_cast<std::size_t>(config.min_curve);
+  if (rim.size() < least) return;
   normalise(rim);
   for (const std::vector<RimPoint>& curve : split_at_pinches(std::move(rim))) {
-    if (curve.size() < kLeastRim) continue;
+    if (curve.size() < least) continue;
     std::vector<Vertex> loop;
     loop.reserve(curve.size());
     for (const RimPoint& p : curve) loop.push_back(p.vertex);
-    loops.add(loop, confidence(curve));
+    loops.add(loop, confidence(curve, config));
   }
 }
 
 // The whole rims of a tile to `loops`, the parts of others to `open`.
-void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops& loops, OpenRims& open) {
+void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, const TangentialConfig& config,
+                 RawLoops& loops, OpenRims& open) {
   const Row first = tiling.tiles[t].first_row, last{value(first) + tiling.tiles[t].points};
   std::vector<Gap> gaps = lists.gaps.read(t);
   lists.gaps.drop(t);
@@ -120,7 +122,7 @@ void follow_tile(StarLists& lists, const Tiling& tiling, std::size_t t, RawLoops
   merge_runs(gaps, [](const Gap& a, const Gap& b) { return a.point.row < b.point.row; });
   follow_rims(gaps, first, last, [&](RimPart& part) {
     if (part.is_closed) {
-      report(std::move(part.points), loops);
+      report(std::move(part.points), config, loops);
     } else {
       open.add(part);
     }
@@ -134,9 +136,11 @@ RawLoops trace_rims(StarLists& lists, const Tiling& tiling, Job& job) {
   settle_seams(lists, tiling, job);
   RawLoops loops(job.file("raw-loops"), job.config.selection.min_confidence);
   OpenRims open(job.file("open-rims"));
-  job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) { follow_tile(lists, tiling, t, loops, open); });
+  const TangentialConfig& config = job.config.tangential;
+  job.crew.for_each(tiling.tiles.size(),
+                    [&](std::size_t t) { follow_tile(lists, tiling, t, config, loops, open); });
   const auto rims = open.join();
-  job.crew.for_each(rims.size(), [&](std::size_t i) { report(open.read(rims[i]), loops); });
+  job.crew.for_each(rims.size(), [&](std::size_t i) { report(open.read(rims[i]), config, loops); });
   loops.sort();
   return loops;
 }

@@ -7,10 +7,8 @@
 namespace lacuna {
 
 // The stars at seams settled, then the rims followed: whole ones within a tile, parts of others joined at the
-// ends of the edges that cross a seam. Those of fewer than `kLeastRim` points are left out: around so few, a
+// ends of the edges that cross a seam. Those of fewer than `min_curve` points are left out: around so few, a
 // sampling leaves gaps by itself. Consumes the lists.
 RawLoops trace_rims(StarLists& lists, const Tiling& tiling, Job& job);
-
-inline constexpr std::size_t kLeastRim = 8;
 
 }  // namespace lacuna

@@ -9,8 +9,6 @@
 namespace lacuna {
 namespace {
 
-constexpr double kTelling = 0.85, kCircles = 1.5, kScatters = 1, kLeastUnit = 0.1, kMostCircle = 0.5;
-
 constexpr Eight kBeyondAll = [] {
   Eight row{};
   for (double& number : row.at) number = std::numeric_limits<double>::infinity();
@@ -37,7 +35,7 @@ void sort_halves(std::span<Eight> rows, const Counts& counts) {
 
 }  // namespace
 
-std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
+std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars, const TangentialConfig& config) {
   std::size_t most = 0;
   for (const FoundStar& star : stars) most = std::max(most, star.size());
   std::vector<Eight> many;
@@ -49,8 +47,8 @@ std::array<Sampling, kEight> samplings_of(std::span<const FoundStar> stars) {
   for (std::size_t i = 0; i < stars.size(); ++i) {
     for (std::size_t corner = 0; corner < stars[i].size(); ++corner) {
       const double ball = stars[i][corner].room;
-      balls[counts[i]].at[i] = ball <= kTelling ? ball : kBeyondAll.at[i];
-      counts[i] += ball <= kTelling;
+      balls[counts[i]].at[i] = ball <= config.hole_radius ? ball : kBeyondAll.at[i];
+      counts[i] += ball <= config.hole_radius;
     }
   }
   sort_halves(balls, counts);
@@ -89,11 +87,10 @@ void BallSizer::find() {
   sort_halves(circles_, counts);
   sort_halves(scatters_, counts);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double most = kMostCircle * samplings_[points_[i].point].distance;
+    const double most = config_.most_radius * samplings_[points_[i].point].distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);
     const double scatter = std::min(scatters_[counts[i] / 2].at[i], most);
-    sizes_[i] = {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter,
-                 static_cast<float>(scatter / circle)};
+    sizes_[i] = {config_.max_radius * circle + scatter, config_.least_spread * circle + scatter};
   }
 }
 

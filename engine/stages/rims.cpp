@@ -8,10 +8,6 @@
 namespace lacuna {
 namespace {
 
-// Points without room that are added to a rim, by its unevenness, and at most: shares of a few points say
-// little where points have room by chance.
-constexpr double kDoubt = 42, kMostDoubt = 6;
-
 // Gaps as steps: a rim enters one from one neighbour and leaves it for the other.
 class Follower {
  public:
@@ -50,7 +46,7 @@ class Follower {
     for (std::size_t g = start;;) {
       const Gap& gap = gaps_[g];
       is_done_[g] = true;
-      part.points.push_back({gap.point, gap.room, gap.unevenness});
+      part.points.push_back({gap.point, gap.room});
       part.after = forwards ? gap.to : gap.from;
       g = next(part.after, gap.point.row);
       if (g == kNone) {
@@ -163,17 +159,14 @@ std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
   return curves;
 }
 
-double confidence(std::span<const RimPoint> rim) {
-  const auto points = static_cast<double>(rim.size());
-  double unevenness = 0;
-  for (const RimPoint& p : rim) unevenness += p.unevenness;
-  const double doubt = std::min(kDoubt * (unevenness / points), kMostDoubt);
-  const auto share = [&](float room) {
-    const auto wide =
-        std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
-    return static_cast<double>(wide) / (points + doubt);
+double confidence(std::span<const RimPoint> rim, const TangentialConfig& config) {
+  const double points = static_cast<double>(rim.size()) + config.doubt;
+  const auto count = [&](double room) {
+    return static_cast<double>(
+        std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; }));
   };
-  return std::min(share(1.5f), std::min(1.25 * share(2.5f), 1.0));
+  return std::min(
+      {count(config.clear_excess) / points, count(config.wide_excess) / (config.wide_share * points), 1.0});
 }
 
 }  // namespace lacuna

@@ -44,11 +44,10 @@ std::vector<RimPart> follow(const std::vector<Gap>& gaps, std::uint64_t first, s
   return parts;
 }
 
-std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {},
-                             float unevenness = 1) {
+std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
   std::vector<RimPoint> rim;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i], unevenness});
+    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i]});
   return rim;
 }
 
@@ -123,27 +122,34 @@ TEST_CASE("a rim is parted where it passes a point again, into curves that pass 
   CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
 }
 
-TEST_CASE("confidence is the share of points with room, of six more than there are where they lie unevenly") {
+TEST_CASE("confidence is the share of points with room, of some more than there are") {
+  const TangentialConfig config{.clear_excess = 1.5, .wide_excess = 2.5, .wide_share = 0.75, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
-  const double points = 20 + 6;
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3))) == 20 / points);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f))) == 0);
+  const double points = 20 + 4;
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3)), config) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.4f)), config) == 0);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f)), config) == 0);
   std::vector<float> half(20, 1.4f);
   std::fill(half.begin(), half.begin() + 10, 2.5f);
-  CHECK(confidence(rim_of(twenty, half)) == 10 / points);
+  CHECK(confidence(rim_of(twenty, half), config) == 10 / points);
   std::fill(half.begin(), half.begin() + 5, 1.5f);  // 10 of 1.5, 5 of 2.5
-  CHECK(confidence(rim_of(twenty, half)) == 1.25 * (5 / points));
+  CHECK(confidence(rim_of(twenty, half), config) == 5 / (0.75 * points));
 }
 
-TEST_CASE("the more evenly points lie around a rim, the less doubt there is") {
+TEST_CASE("confidence is at most 1, however little doubt and however many points the wide share asks for") {
   const std::vector<std::uint64_t> eight(8, 1);
-  const std::vector<float> wide(8, 3);
-  CHECK(confidence(rim_of(eight, wide, 0.5)) == 8.0 / 14);
-  CHECK(confidence(rim_of(eight, wide, 1.0f / 8)) == 8 / (8 + 42.0 / 8));
-  CHECK(confidence(rim_of(eight, wide, 0)) == 1);
-  std::vector<RimPoint> both = rim_of(eight, wide, 0);
-  for (std::size_t i = 0; i < 4; ++i) both[i].unevenness = 0.125f;
-  CHECK(confidence(both) == 8 / (8 + 42.0 / 16));
+  const TangentialConfig sure{.wide_share = 0.1, .doubt = 0};
+  CHECK(confidence(rim_of(eight, std::vector<float>(8, 3)), sure) == 1);
+}
+
+TEST_CASE("the more points a rim has, the surer it is") {
+  double before = 0;
+  for (std::size_t count = 3; count < 40; ++count) {
+    const double now =
+        confidence(rim_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
+    CHECK(now > before);
+    before = now;
+  }
 }
 
 }  // namespace lacuna
