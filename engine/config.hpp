@@ -66,11 +66,9 @@ struct TangentialConfig {
   double most_radius = 0.5;
   // Excess radii are counted in units of S + `least_spread` M: on a grid S is 0.
   double least_spread = 0.1;
-  // Of n points of a boundary curve, a have an excess radius of `clear_excess` and b one of `wide_excess`:
-  // confidence = min(a, b / `wide_share`) / (n + `doubt`).
-  double clear_excess = 1.5;
-  double wide_excess = 2.5;
-  double wide_share = 0.8;
+  // A point with an excess radius of x units counts as min(x / `clear_excess`, 1): by chance few exceed it.
+  double clear_excess = 3.5;
+  // Confidence of a boundary curve of n points: the sum of these over n + `doubt`. Few points say little.
   double doubt = 5;
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps by itself
 };

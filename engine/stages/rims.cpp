@@ -160,13 +160,9 @@ std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
 }
 
 double confidence(std::span<const RimPoint> rim, const TangentialConfig& config) {
-  const double points = static_cast<double>(rim.size()) + config.doubt;
-  const auto count = [&](double room) {
-    return static_cast<double>(
-        std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; }));
-  };
-  return std::min(
-      {count(config.clear_excess) / points, count(config.wide_excess) / (config.wide_share * points), 1.0});
+  double sum = 0;
+  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  return sum / (static_cast<double>(rim.size()) + config.doubt);
 }
 
 }  // namespace lacuna

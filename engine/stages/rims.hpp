@@ -38,9 +38,9 @@ void normalise(std::vector<RimPoint>& rim);
 std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim);
 
 // How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a larger
-// ball fits at few points of the rim. The share of points at which there is room of 1.5 (`clear_excess`); or,
-// if that is less, the share with room of 2.5 (`wide_excess`) divided by 0.8 (`wide_share`). Shares are those
-// of five points more than there are (`doubt`), without room: in a few points' shares there is chance.
+// ball fits at few points of the rim. A point counts in proportion to its room, fully from 3.5 on
+// (`clear_excess`). The mean of that, with five more points that have none (`doubt`): a few points may have
+// room by chance. The sum is taken in the order of the rim.
 double confidence(std::span<const RimPoint> rim, const TangentialConfig& config);
 
 }  // namespace lacuna

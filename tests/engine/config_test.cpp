@@ -76,7 +76,7 @@ TEST_CASE("every file in configs is read and possible, and each of its values ha
     CHECK((print_config(config) == print_config({})) == is_default);
     ++files;
   }
-  REQUIRE(files == 4);
+  REQUIRE(files == 3);
 }
 
 TEST_CASE("a printed config reads back as itself, whatever its values") {

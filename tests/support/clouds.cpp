@@ -388,9 +388,7 @@ Config random_config(std::uint64_t seed, double spacing) {
     tangential.hole_radius = random.uniform(0.5, 2);
     tangential.most_radius = random.uniform(0.2, 0.8);
     tangential.least_spread = random.uniform(0.02, 0.5);
-    tangential.clear_excess = random.uniform(0, 4);
-    tangential.wide_excess = random.uniform(0, 6);
-    tangential.wide_share = random.uniform(0.2, 2);
+    tangential.clear_excess = random.uniform(0.5, 6);
     tangential.doubt = random.uniform(0, 12);
     tangential.min_curve = random.whole(3, 20);
   }

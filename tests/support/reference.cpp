@@ -817,13 +817,9 @@ std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
 }
 
 double confidence(const std::vector<RimPoint>& rim, const TangentialConfig& config) {
-  double clear = 0, wide = 0;
-  for (const RimPoint& p : rim) {
-    clear += p.room >= config.clear_excess;
-    wide += p.room >= config.wide_excess;
-  }
-  const double count = static_cast<double>(rim.size()) + config.doubt;
-  return std::min({clear / count, wide / (config.wide_share * count), 1.0});
+  double sum = 0;
+  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  return sum / (static_cast<double>(rim.size()) + config.doubt);
 }
 
 void find_rims(const Positions& positions, const Config& config, Detection& result) {
@@ -857,7 +853,7 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
       if (curve.size() < least) continue;
       std::vector<PointId> loop;
       for (const RimPoint& p : first_way(curve)) loop.push_back(p.point);
-      rims.emplace_back(loop, confidence(curve, config.tangential));
+      rims.emplace_back(loop, confidence(first_way(curve), config.tangential));
     }
   }
   std::sort(rims.begin(), rims.end());

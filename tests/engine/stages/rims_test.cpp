@@ -122,24 +122,18 @@ TEST_CASE("a rim is parted where it passes a point again, into curves that pass 
   CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
 }
 
-TEST_CASE("confidence is the share of points with room, of some more than there are") {
-  const TangentialConfig config{.clear_excess = 1.5, .wide_excess = 2.5, .wide_share = 0.75, .doubt = 4};
+TEST_CASE(
+    "confidence is the mean of the points' room, up to what is clear, with some points more that have none") {
+  const TangentialConfig config{.clear_excess = 2, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
   const double points = 20 + 4;
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3)), config) == 20 / points);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.4f)), config) == 0);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f)), config) == 0);
-  std::vector<float> half(20, 1.4f);
-  std::fill(half.begin(), half.begin() + 10, 2.5f);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
+  CHECK(confidence(rim_of(twenty), config) == 0);
+  std::vector<float> half(20, 0);
+  std::fill(half.begin(), half.begin() + 10, 3.0f);
   CHECK(confidence(rim_of(twenty, half), config) == 10 / points);
-  std::fill(half.begin(), half.begin() + 5, 1.5f);  // 10 of 1.5, 5 of 2.5
-  CHECK(confidence(rim_of(twenty, half), config) == 5 / (0.75 * points));
-}
-
-TEST_CASE("confidence is at most 1, however little doubt and however many points the wide share asks for") {
-  const std::vector<std::uint64_t> eight(8, 1);
-  const TangentialConfig sure{.wide_share = 0.1, .doubt = 0};
-  CHECK(confidence(rim_of(eight, std::vector<float>(8, 3)), sure) == 1);
 }
 
 TEST_CASE("the more points a rim has, the surer it is") {
