@@ -19,9 +19,9 @@ using test::ScratchFolder;
 // Another value than the default, for all but flags and the method.
 const std::map<std::string_view, std::string_view> kOtherValues = {
     {"k", "9"},
-    {"eps", "1.6"},
+    {"eps", "4"},
     {"eps_fraction", "0.05"},
-    {"crease_threshold", "0.1"},
+    {"crease_threshold", "1"},
     {"sigma", "0.6"},
     {"cone", "40"},
     {"weight_angle", "3"},
@@ -35,8 +35,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"hole_radius", "0.4"},
     {"most_radius", "0.2"},
     {"least_spread", "2"},
-    {"clear_excess", "7"},
-    {"doubt", "20"},
+    {"clear_excess", "100"},
+    {"doubt", "400"},
     {"min_curve", "40"},
     {"min_confidence", "0.85"},
     {"min_perimeter", "45"},
@@ -48,10 +48,12 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"tile_points", "150"},
 };
 
-// A rough sheet with two holes, and two sheets that meet in a sharp crease.
+// A rough sheet with two holes, and pairs of sheets that meet in creases.
 std::string scan_text() {
-  const Cloud rough = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
-  const Cloud cloud = rough.joined(crease(14, 70).jittered(0.2, 3).translated({60, 0, 0}));
+  Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
+  for (const int degrees : {40, 60, 80, 100, 120}) {
+    cloud = cloud.joined(crease(14, degrees).jittered(0.4, 3).translated({60, 2.0 * degrees, 0}));
+  }
   std::ostringstream text;
   text.precision(17);
   text << "x y z\n";
