@@ -15,7 +15,7 @@ namespace lacuna {
 struct StoredStar {
   PointId id;
   LocalIndex owned;
-  StarPlace place;   // among the tile's stored corners
+  StarPlace place;  // among the tile's stored corners
 };
 
 // A corner of one, and the agreement on the triangle that begins there.
