@@ -347,7 +347,8 @@ void find_stars(benchmark::State& state, double noise) {
   std::size_t corners = 0;
   for (auto _ : state) {
     const TileStars found =
-        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.is_border);
+        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.is_border,
+                           kConfig.coherence.threshold, kConfig.tangential);
     corners = found.stars.corners.size();
   }
   time_per(state, "per_point", kPoints);

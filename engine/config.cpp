@@ -28,7 +28,8 @@ constexpr std::size_t kLargestConfigFile = 1 << 20;
 constexpr double kAboveZero = std::numeric_limits<double>::min();
 
 // In the order of LoopMethod.
-constexpr std::string_view kMethods[] = {"stars", "paper"};
+constexpr std::string_view kMethods[] = {"tangential", "paper"};
+constexpr std::string_view kFormerTangential = "stars";
 
 struct Unit {
   std::string_view name;
@@ -106,7 +107,9 @@ struct SetFromText {
   void operator()(std::string* target) const { *target = text; }
   void operator()(LoopMethod* target) const {
     const auto method = std::find(std::begin(kMethods), std::end(kMethods), text);
-    if (method == std::end(kMethods)) refuse(parameter, text);
+    if (method == std::end(kMethods)) {
+      refuse(parameter, text == kFormerTangential ? "stars (now called tangential)" : text);
+    }
     *target = static_cast<LoopMethod>(method - std::begin(kMethods));
   }
   void operator()(std::uint64_t* target) const {
@@ -176,9 +179,7 @@ struct PrintValue {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return quote(*value); }
   std::string operator()(const std::uint64_t* value) const { return quote(print_bytes(*value)); }
-  std::string operator()(const LoopMethod* value) const {
-    return quote(kMethods[static_cast<std::size_t>(*value)]);
-  }
+  std::string operator()(const LoopMethod* value) const { return quote(name_of(*value)); }
 };
 
 // Number of letters to insert, remove or replace to turn one word into the other.
@@ -276,6 +277,16 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
+// ---- What parameters need
+
+constexpr Need kNothing{"", [](const Config&) { return true; }};
+constexpr Need kTangential{"--method tangential",
+                           [](const Config& c) { return c.loops.method == LoopMethod::kTangential; }};
+constexpr Need kPaper{"--method paper", [](const Config& c) { return c.loops.method == LoopMethod::kPaper; }};
+constexpr Need kPoints{"--points", [](const Config& c) { return c.output.points; }};
+constexpr Need kPointsNormals{"--points --normals",
+                              [](const Config& c) { return c.output.points && c.output.normals; }};
+
 toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
   if (const auto fault = find_fault(text)) {
     throw Error(file.string() + ":" + std::to_string(fault->line) + ": " + fault->reason);
@@ -290,77 +301,104 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
 
 }  // namespace
 
+std::string_view name_of(LoopMethod method) {
+  return kMethods[static_cast<std::size_t>(method)];
+}
+
 std::vector<Parameter> parameters(Config& config) {
-  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, selection, input, output, run] =
-      config;
+  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, tangential, selection, input, output,
+         run] = config;
   const double below_90 = std::nextafter(90.0, 0.0);
   return {
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
-       "Nearest neighbours of a point, before the neighbourhoods are made symmetric."},
+       "Nearest neighbours of a point, before the neighbourhoods are made symmetric.", kNothing},
       {"neighbourhood", "eps", &neighbourhood.eps, 0, 1e150, "a length of 0 (off) or more",
-       "Radius, in units of the scan, within which every point is a neighbour too."},
+       "Radius, in units of the scan, within which every point is a neighbour too.", kNothing},
       {"neighbourhood", "eps_fraction", &neighbourhood.eps_fraction, 0, 1, "a number from 0 (off) to 1",
-       "The same radius as a fraction of the bounding box's diagonal; set at most one of the two."},
+       "The same radius as a fraction of the bounding box's diagonal; set at most one of the two.", kNothing},
 
       {"normals", "crease_threshold", &normals.crease_threshold, 0, 1, "a number from 0 to 1",
-       "Angle probability above which an estimated normal is turned at a crease."},
+       "Angle probability above which an estimated normal is turned at a crease.", kNothing},
       {"normals", "orient_normals", &normals.orient, 0, 1, "true or false",
-       "Orient normals consistently, by minimum spanning tree."},
+       "Orient normals consistently, by minimum spanning tree.", kPointsNormals},
 
       {"criteria", "sigma", &criteria.sigma, kAboveZero, 1000, "a number above 0, at most 1000",
-       "Width of the Gauss weights, as a multiple of a point's mean distance to its neighbours."},
+       "Width of the Gauss weights, as a multiple of a point's mean distance to its neighbours.", kNothing},
       {"criteria", "cone", &criteria.cone, 0, below_90, "degrees from 0 (off) to less than 90",
-       "Angle around the normal line within which directions to neighbours are not used."},
+       "Angle around the normal line within which directions to neighbours are not used.", kNothing},
       {"criteria", "weight_angle", &criteria.weight_angle, 0, 1e6, "a number from 0 to 1000000",
-       "Share of the angle criterion; the three weights are divided by their sum."},
+       "Share of the angle criterion; the three weights are divided by their sum.", kNothing},
       {"criteria", "weight_halfdisc", &criteria.weight_halfdisc, 0, 1e6, "a number from 0 to 1000000",
-       "Share of the halfdisc criterion."},
+       "Share of the halfdisc criterion.", kNothing},
       {"criteria", "weight_shape", &criteria.weight_shape, 0, 1e6, "a number from 0 to 1000000",
-       "Share of the shape criterion; more of it for noisy scans."},
+       "Share of the shape criterion; more of it for noisy scans.", kNothing},
 
       {"coherence", "threshold", &coherence.threshold, 0, 1, "a number from 0 to 1",
-       "Boundary probability above which a point is a candidate."},
+       "Boundary probability above which a point is a candidate; tangential loops are searched from these.",
+       kNothing},
 
-      {"loops", "method", &loops.method, 0, 1, "stars or paper",
-       "How loops are found: stars, along the surface that the points agree on; paper, as Bendels et al. "
-       "do."},
+      {"loops", "method", &loops.method, 0, 1, "tangential or paper",
+       "How loops are found: tangential, as the boundary of the triangles on which neighbouring points "
+       "agree; "
+       "paper, as Bendels et al. do.",
+       kNothing},
 
       {"spanning", "max_prob_weight", &spanning.max_prob_weight, 0, 1e9, "a number from 0 to 1000000000",
-       "Method paper: an edge takes part if its probability weight is below this."},
+       "Method paper: an edge takes part if its probability weight is below this.", kPaper},
       {"spanning", "max_total_weight", &spanning.max_total_weight, 0, 1e9, "a number from 0 to 1000000000",
-       "Method paper: an edge takes part if its total weight is below this."},
+       "Method paper: an edge takes part if its total weight is below this.", kPaper},
       {"spanning", "e", &spanning.e, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
        "Method paper: loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of "
-       "neighbours."},
+       "neighbours.",
+       kPaper},
+
+      {"tangential", "max_radius", &tangential.max_radius, 0.5, 4, "a number from 0.5 to 4",
+       "Largest circumradius of a triangle, in medians of those around it; their spread is added.",
+       kTangential},
+      {"tangential", "hole_radius", &tangential.hole_radius, 0.1, 4, "a number from 0.1 to 4",
+       "Circumradius above which a circle lies in a hole, in mean distances to neighbours; medians leave it "
+       "out.",
+       kTangential},
+      {"tangential", "most_radius", &tangential.most_radius, 0.1, 1, "a number from 0.1 to 1",
+       "Bound of the median circumradius and of the spread, in mean distances to neighbours.", kTangential},
+      {"tangential", "least_spread", &tangential.least_spread, 0.001, 10, "a number from 0.001 to 10",
+       "Share of the median circumradius that is added to the spread where excess radii are counted.",
+       kTangential},
+      {"tangential", "clear_excess", &tangential.clear_excess, 0.001, 1000, "a number from 0.001 to 1000",
+       "Excess radius, in spreads, with which a point counts fully for a loop's confidence.", kTangential},
+      {"tangential", "doubt", &tangential.doubt, 0, 1000, "a number from 0 to 1000",
+       "Points without excess radius that confidence adds to each boundary curve.", kTangential},
+      {"tangential", "min_curve", &tangential.min_curve, 3, 1e9, "a whole number from 3 to 1000000000",
+       "Boundary curves with fewer points are no loops.", kTangential},
 
       {"selection", "min_confidence", &selection.min_confidence, 0, 1, "a number from 0 to 1",
-       "Loops with a lower confidence are not reported."},
+       "Loops with a lower confidence are not reported.", kTangential},
       {"selection", "min_perimeter", &selection.min_perimeter, 0, 1e300, "a length of 0 or more",
-       "Loops with a smaller perimeter are not reported."},
+       "Loops with a smaller perimeter are not reported.", kNothing},
       {"selection", "max_perimeter", &selection.max_perimeter, 0, 1e300, "a length of 0 (no limit) or more",
-       "Loops with a larger perimeter are not reported; 0: no limit."},
+       "Loops with a larger perimeter are not reported; 0: no limit.", kNothing},
       {"selection", "min_points", &selection.min_points, 0, 1e15, "a whole number from 0 to 10^15",
-       "Loops with fewer points are not reported."},
+       "Loops with fewer points are not reported.", kNothing},
       {"selection", "holes_only", &selection.holes_only, 0, 1, "true or false",
-       "Report holes only, not the outer rims of open surfaces."},
+       "Report holes only, not the outer rims of open surfaces.", kNothing},
 
       {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
-       "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
+       "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line.", kNothing},
 
       {"output", "points", &output.points, 0, 1, "true or false",
-       "Write points.ply too: every point of the input with its probabilities."},
+       "Write points.ply too: every point of the input with its probabilities.", kNothing},
       {"output", "normals", &output.normals, 0, 1, "true or false",
-       "Add the estimated normals to points.ply, unless a scan brings its own."},
+       "Add the estimated normals to points.ply, unless a scan brings its own.", kPoints},
 
       {"run", "threads", &run.threads, 0, 1024, "a whole number from 0 (one per core) to 1024",
-       "Threads at work; 0: one per core."},
+       "Threads at work; 0: one per core.", kNothing},
       {"run", "memory_limit", &run.memory_limit, static_cast<double>(kLeastMemory), 0x1p60,
        "0 (automatic) or a size of at least 64MiB, such as 512MiB, 2GiB or 4000000000",
-       "Memory that the run may take; 0: half of the machine's."},
+       "Memory that the run may take; 0: half of the machine's.", kNothing},
       {"run", "tile_points", &run.tile_points, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
-       "Points per tile at most; 0: chosen from threads and memory limit."},
+       "Points per tile at most; 0: chosen from threads and memory limit.", kNothing},
       {"run", "workspace", &run.workspace, 0, 0, "the name of a folder",
-       "Folder for what does not fit in memory; empty: inside the output folder."},
+       "Folder for what does not fit in memory; empty: inside the output folder.", kNothing},
   };
 }
 
@@ -378,18 +416,9 @@ void Parameter::set(std::string_view text) const {
   std::visit(SetFromText{*this, text}, value);
 }
 
-std::vector<IdleParameter> idle_parameters(const Config& config) {
-  std::vector<IdleParameter> idle;
-  if (config.loops.method != LoopMethod::kPaper) {
-    for (const std::string_view key : {"max_prob_weight", "max_total_weight", "e"})
-      idle.push_back({key, "--method paper"});
-  }
-  if (!config.output.points) idle.push_back({"normals", "--points"});
-  return idle;
-}
-
-void read_config(const std::filesystem::path& file, Config& config) {
+std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
   Config changed = config;
+  std::vector<std::string> keys;
   const std::vector<Parameter> all = parameters(changed);
   const toml::table root = parse_toml(file, read_text(file));
   const auto fail = [&file](const toml::source_region& place, const std::string& reason) {
@@ -411,9 +440,11 @@ void read_config(const std::filesystem::path& file, Config& config) {
       } catch (const Error& error) {
         fail(key.source(), error.what());
       }
+      keys.emplace_back(key.str());
     }
   }
   config = std::move(changed);
+  return keys;
 }
 
 std::string print_config(const Config& config) {

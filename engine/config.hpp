@@ -42,12 +42,35 @@ struct SpanningConfig {
 };
 
 enum class LoopMethod : std::uint8_t {
-  kStars,  // rims of the triangles that points' stars agree on
-  kPaper,  // spanning graph and breadth first search (5.1, 5.2)
+  kTangential,  // boundary of the consistent triangles of the tangential Delaunay complex
+  kPaper,       // spanning graph and breadth first search (5.1, 5.2)
 };
+std::string_view name_of(LoopMethod method);  // as in the config file
 
 struct LoopsConfig {
-  LoopMethod method = LoopMethod::kStars;
+  LoopMethod method = LoopMethod::kTangential;
+};
+
+// The constants of the tangential method, all of them. Lengths are relative, so that none depends on the
+// scan's unit: d is the mean distance of a point to its neighbours, M the median circumradius of triangles
+// around it, S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0. Chosen on the made
+// and real scans of bench/accuracy; its README has what happens when each is halved and doubled.
+struct TangentialConfig {
+  // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing row.
+  double max_radius = 1.5;
+  // A circle with a radius of more than `hole_radius` d lies in a hole: M and S leave it out. That is twice
+  // the grid's.
+  double hole_radius = 0.85;
+  // M and S are at most `most_radius` d each, a little more than the grid's M: where half of the circles lie
+  // in holes, as on strips and islands, medians say nothing.
+  double most_radius = 0.5;
+  // Excess radii are counted in units of S + `least_spread` M: on a grid S is 0.
+  double least_spread = 0.1;
+  // A point with an excess radius of x units counts as min(x / `clear_excess`, 1): by chance few exceed it.
+  double clear_excess = 3.5;
+  // Confidence of a boundary curve of n points: the sum of these over n + `doubt`. Few points say little.
+  double doubt = 5;
+  std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps by itself
 };
 
 struct SelectionConfig {
@@ -82,10 +105,17 @@ struct Config {
   CoherenceConfig coherence;
   LoopsConfig loops;
   SpanningConfig spanning;
+  TangentialConfig tangential;
   SelectionConfig selection;
   InputConfig input;
   OutputConfig output;
   RunConfig run;
+};
+
+// What a parameter needs in order to change the results.
+struct Need {
+  std::string_view options;  // as on the command line; empty: nothing
+  bool (*is_given)(const Config&);
 };
 
 // One line of the list: `[section] key = value`, on the command line `--key` with dashes.
@@ -98,6 +128,7 @@ struct Parameter {
   double max;
   std::string_view allowed;  // for error messages: "a whole number from 1 to 1000"
   std::string_view help;
+  Need needs;
 
   std::string option() const;  // "--tile-points"
   std::string print() const;   // as in the config file
@@ -108,16 +139,9 @@ struct Parameter {
 // Every parameter, in the order of the config file.
 std::vector<Parameter> parameters(Config& config);
 
-// A parameter that changes nothing while another has the value that it has, and the option that would make it
-// count.
-struct IdleParameter {
-  std::string_view key, needs;
-};
-std::vector<IdleParameter> idle_parameters(const Config& config);
-
-// Values of the file over those in `config`. Throws `Error` (file, line, key, what is allowed) for unknown
-// keys, wrong types and impossible values.
-void read_config(const std::filesystem::path& file, Config& config);
+// Values of the file over those in `config`. Returns the file's keys. Throws `Error` (file, line, key, what
+// is allowed) for unknown keys, wrong types and impossible values.
+std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 
 // The whole config as TOML, a help comment above each key.
 std::string print_config(const Config& config);

@@ -22,11 +22,19 @@ Json list(const Vector& vector) {
   return Json{vector[0], vector[1], vector[2]};
 }
 
+template <class Value>
+Json json_value(const Value& value) {
+  return value;
+}
+Json json_value(LoopMethod method) {
+  return name_of(method);
+}
+
 Json parameter_values(Config config) {
   Json sections = Json::object();
   for (const Parameter& parameter : parameters(config)) {
     Json& entry = sections[std::string(parameter.section)][std::string(parameter.key)];
-    std::visit([&](const auto* value) { entry = *value; }, parameter.value);
+    std::visit([&](const auto* value) { entry = json_value(*value); }, parameter.value);
   }
   return sections;
 }

@@ -84,7 +84,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
 }
 
 void run_detect(const CLI::App& command, const DetectArguments& arguments) {
-  Config config = arguments.parameters.effective_config();
+  auto [config, warnings] = arguments.parameters.read();
   config.run.keep_index = arguments.keep_workspace;
   if (arguments.print_config) {
     std::cout << print_config(config);
@@ -94,7 +94,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   require(command, "--out");
   if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   if (arguments.quiet) quiet_log();
-  arguments.parameters.warn_of_idle_options(config);
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 
   const std::string told = detect_to(arguments, config);
   if (!arguments.quiet) std::cout << told;

@@ -158,7 +158,7 @@ void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
 }
 
 void run_info(const InfoArguments& arguments) {
-  const Config config = arguments.parameters.effective_config();
+  const Config config = arguments.parameters.read().config;
   const ReadOptions options{.columns = config.input.columns};
   FileScan scan(arguments.scans, options);
   std::vector<FileInfo> files;

@@ -7,7 +7,6 @@
 #include <variant>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -42,9 +41,10 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
   }
 }
 
-Config ParameterOptions::effective_config() const {
+EffectiveConfig ParameterOptions::read() const {
   Config config;
-  if (!config_file_.empty()) read_config(config_file_, config);
+  std::vector<std::string> keys_in_file;
+  if (!config_file_.empty()) keys_in_file = read_config(config_file_, config);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (given_[i].option->count() == 0) continue;
@@ -60,18 +60,26 @@ Config ParameterOptions::effective_config() const {
     if (config_file_.empty()) throw CLI::ValidationError(error.what());
     throw Error(config_file_ + " with the command line: " + error.what());
   }
-  return config;
+  return {config, idle_warnings(config, keys_in_file)};
 }
 
-void ParameterOptions::warn_of_idle_options(const Config& config) const {
-  Config copy = config;
-  const std::vector<Parameter> all = parameters(copy);
-  for (const IdleParameter& idle : idle_parameters(config)) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].key == idle.key && given_[i].option->count() > 0)
-        spdlog::warn("{} changes nothing without {}", all[i].option(), idle.needs);
+std::vector<std::string> ParameterOptions::idle_warnings(Config config,
+                                                         const std::vector<std::string>& keys_in_file) const {
+  Config defaults;
+  const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].needs.is_given(config)) continue;
+    const bool in_file =
+        std::find(keys_in_file.begin(), keys_in_file.end(), all[i].key) != keys_in_file.end();
+    const std::string effect = " changes nothing without " + std::string(all[i].needs.options);
+    if (given_[i].option->count() > 0) {
+      warnings.push_back(all[i].option() + effect);
+    } else if (in_file && all[i].print() != unchanged[i].print()) {
+      warnings.push_back(config_file_ + ": " + std::string(all[i].key) + effect);
     }
   }
+  return warnings;
 }
 
 std::vector<std::string> join_columns(std::vector<std::string> arguments) {

@@ -14,6 +14,13 @@ class Option;
 
 namespace lacuna {
 
+struct EffectiveConfig {
+  Config config;
+  // One for each parameter without effect that was given: on the command line with any value, in the config
+  // file with another than the default. (A printed config has all parameters.)
+  std::vector<std::string> warnings;
+};
+
 class ParameterOptions {
  public:
   // Adds `--config` and an option for every parameter, grouped by section in --help.
@@ -21,12 +28,11 @@ class ParameterOptions {
 
   // Defaults, then the config file, then the command line. Throws `Error` for what is wrong in the file and
   // `CLI::ValidationError` for what is wrong on the command line.
-  Config effective_config() const;
-
-  // Logs a warning for each option on the command line that changes nothing in this configuration.
-  void warn_of_idle_options(const Config& config) const;
+  EffectiveConfig read() const;
 
  private:
+  std::vector<std::string> idle_warnings(Config config, const std::vector<std::string>& keys_in_file) const;
+
   struct Given {
     const CLI::Option* option;
     std::string text;

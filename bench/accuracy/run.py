@@ -163,6 +163,9 @@ def range_made_sets(arguments):
                         lambda made=(scene, view == "perspective", noise, strays, number): range_map(*made))
 
 
+GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets, range_made_sets]
+
+
 # ---- runs
 
 def known_methods(arguments):
@@ -308,7 +311,7 @@ def main():
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
     methods = known_methods(arguments)
     results = []
-    for sets in (synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets, range_made_sets):
+    for sets in GROUPS:
         for case in sets(arguments):
             if not re.search(arguments.only, f"{case.group}/{case.name}"):
                 continue

@@ -32,10 +32,6 @@ inline bool waits(Standing standing) {
   return standing == Standing::kBeside || standing == Standing::kBorder;
 }
 
-// A suspect's angle and halfdisc criteria have a larger mean; at a straight rim it is 1. What it is matters
-// little: one suspect is enough for a rim to be found.
-inline constexpr double kSuspicion = 0.4;
-
 // One corner of a star, and the ball that rests on the star's point, this corner and the next one around.
 template <class Name>
 struct StarCorner {
@@ -61,8 +57,7 @@ struct Sampling {
 // What a ball may be to make a triangle.
 struct BallSize {
   double radius;
-  double unit;       // of the room beyond
-  float unevenness;  // of the sampling around: its scatter over its circle
+  double unit;  // of the room beyond
 };
 
 // What is known of a triangle of a star: all its rough corners must have it in their stars.

@@ -15,8 +15,7 @@ namespace lacuna {
 struct StoredStar {
   PointId id;
   LocalIndex owned;
-  float unevenness;  // of a measured one
-  StarPlace place;   // among the tile's stored corners
+  StarPlace place;  // among the tile's stored corners
 };
 
 // A corner of one, and the agreement on the triangle that begins there.
@@ -31,8 +30,8 @@ struct StoredStars {
   std::vector<StoredStar> stars;
   std::vector<StoredCorner> corners;
 
-  void add(PointId id, LocalIndex owned, float unevenness) {
-    stars.push_back({id, owned, unevenness, {static_cast<std::uint32_t>(corners.size()), 0}});
+  void add(PointId id, LocalIndex owned) {
+    stars.push_back({id, owned, {static_cast<std::uint32_t>(corners.size()), 0}});
   }
   void add_corner(const StoredCorner& corner) {  // of the last star
     corners.push_back(corner);
@@ -48,8 +47,7 @@ struct StoredStars {
 struct Gap {
   Vertex point;
   Row from, to;
-  float room;        // of the largest ball that rests there
-  float unevenness;  // `BallSize::unevenness` of the point
+  float room;  // of the largest ball that rests there
 };
 
 }  // namespace lacuna

@@ -152,6 +152,7 @@ class Seams {
   Seams(StarLists& lists, const Tiling& tiling, Job& job)
       : lists_(lists),
         tiling_(tiling),
+        config_(job.config.tangential),
         is_found_(tiling.tiles.size()),
         is_measured_(tiling.tiles.size()),
         told_(tiling.row_count()),
@@ -173,12 +174,12 @@ class Seams {
     StarFinder(seats).for_each_batch(
         queries.size(), [&](std::size_t i) { return queries[i]; },
         [&](std::size_t first, std::span<const FoundStar> batch) {
-          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch);
+          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch, config_);
           for (std::size_t i = 0; i < batch.size(); ++i) {
             const StarQuery& query = queries[first + i];
             const FoundStar& star = batch[i];
             const Vertex& point = waiting.in_sight[query.point].vertex;
-            if (star.size() > 0) stars.add(point.id, here.local(point.row), 0);
+            if (star.size() > 0) stars.add(point.id, here.local(point.row));
             for (std::size_t c = 0; c < star.size(); ++c)
               stars.add_corner(
                   {waiting.row(query.neighbours[star[c].point]), star[c].room, Agreement::kOpen});
@@ -206,19 +207,20 @@ class Seams {
     Letters<Claim> letters(claims_);
     auto star = found.stars.begin();
     const auto surroundings = [&](std::size_t i) { return points[i]; };
-    BallSizer(samplings).for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
-      const Vertex& point = waiting.in_sight[points[i].point].vertex;
-      lists_.unmeasured.erase(point.row);
-      while (star != found.stars.end() && here.row(star->owned) < point.row) ++star;
-      if (star == found.stars.end() || here.row(star->owned) != point.row) return;
-      measured.add(point.id, star->owned, size.unevenness);
-      for (StoredCorner corner : found[*star]) {
-        corner.room = room_beyond(size, samplings[points[i].point], corner.room);
-        if (corner.room > 0) corner.agreement = Agreement::kRefused;
-        measured.add_corner(corner);
-      }
-      tell_triangles(point.row, measured[measured.stars.back()], tiling_, t, letters);
-    });
+    BallSizer(samplings, config_)
+        .for_each(points.size(), surroundings, [&](std::size_t i, const BallSize& size) {
+          const Vertex& point = waiting.in_sight[points[i].point].vertex;
+          lists_.unmeasured.erase(point.row);
+          while (star != found.stars.end() && here.row(star->owned) < point.row) ++star;
+          if (star == found.stars.end() || here.row(star->owned) != point.row) return;
+          measured.add(point.id, star->owned);
+          for (StoredCorner corner : found[*star]) {
+            corner.room = room_beyond(size, samplings[points[i].point], corner.room);
+            if (corner.room > 0) corner.agreement = Agreement::kRefused;
+            measured.add_corner(corner);
+          }
+          tell_triangles(point.row, measured[measured.stars.back()], tiling_, t, letters);
+        });
     lists_.open.append(t, std::move(measured));
     letters.send();
   }
@@ -251,6 +253,7 @@ class Seams {
 
   StarLists& lists_;
   const Tiling& tiling_;
+  const TangentialConfig& config_;
   std::vector<std::uint8_t> is_found_, is_measured_;  // of tiles: all their waiting stars are
   RowSet told_;                                       // border points that have told of the sampling
   AppendLists<ToldSampling> samplings_;

@@ -9,8 +9,6 @@
 namespace lacuna {
 namespace {
 
-constexpr double kTelling = 0.85, kCircles = 1.5, kScatters = 1, kLeastUnit = 0.1, kMostCircle = 0.5;
-
 constexpr Batch<double> kBeyondAll = [] {
   Batch<double> row{};
   for (double& number : row.at) number = std::numeric_limits<double>::infinity();
@@ -21,7 +19,7 @@ using Counts = std::array<std::size_t, kBatchSize>;
 
 }  // namespace
 
-std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars) {
+std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars, const TangentialConfig& config) {
   std::size_t most = 0;
   for (const FoundStar& star : stars) most = std::max(most, star.size());
   std::vector<Batch<double>> many;
@@ -33,8 +31,8 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars) 
   for (std::size_t i = 0; i < stars.size(); ++i) {
     for (std::size_t corner = 0; corner < stars[i].size(); ++corner) {
       const double ball = stars[i][corner].room;
-      balls[counts[i]].at[i] = ball <= kTelling ? ball : kBeyondAll.at[i];
-      counts[i] += ball <= kTelling;
+      balls[counts[i]].at[i] = ball <= config.hole_radius ? ball : kBeyondAll.at[i];
+      counts[i] += ball <= config.hole_radius;
     }
   }
   sort_rows(balls.data(), *std::max_element(counts.begin(), counts.end()));
@@ -74,11 +72,10 @@ void BallSizer::find() {
   sort_rows(circles_.data(), rows);
   sort_rows(scatters_.data(), rows);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double most = kMostCircle * samplings_[points_[i].point].distance;
+    const double most = config_.most_radius * samplings_[points_[i].point].distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);
     const double scatter = std::min(scatters_[counts[i] / 2].at[i], most);
-    sizes_[i] = {kCircles * circle + kScatters * scatter, kLeastUnit * circle + scatter,
-                 static_cast<float>(scatter / circle)};
+    sizes_[i] = {config_.max_radius * circle + scatter, config_.least_spread * circle + scatter};
   }
 }
 

@@ -6,6 +6,7 @@
 // such as lie in a hole for sure are left out, since on strips and islands half of the balls do.
 #pragma once
 
+#include "engine/config.hpp"
 #include "engine/data/star.hpp"
 #include "engine/simd/batch.hpp"
 #include "engine/stages/stars.hpp"
@@ -18,7 +19,8 @@ namespace lacuna {
 
 // Of stars as they are found, side by side: as many as there are, up to kBatchSize. None where one has no
 // corner.
-std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars);
+std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
+                                              const TangentialConfig& config);
 
 // The room of a ball in units of `own.distance`.
 inline float room_beyond(const BallSize& size, const Sampling& own, float ball) {
@@ -32,12 +34,14 @@ struct Surroundings {
 };
 
 // With M the median of the circles of a point and its neighbours, S that of their scatters, each at most half
-// of the point's mean distance, the radius is 1.5 M + S, the unit S + 0.1 M and the unevenness S / M. Those
-// without a star, or with large balls only, say nothing; if no one says anything, M and S are that half.
+// of the point's mean distance (`most_radius`), the radius is 1.5 M + S (`max_radius`) and the unit S + 0.1 M
+// (`least_spread`). Those without a star, or with large balls only, say nothing; if no one says anything, M
+// and S are that half.
 // A batch of points at once: keeps its memory.
 class BallSizer {
  public:
-  explicit BallSizer(std::span<const Sampling> samplings) : samplings_(samplings) {}
+  BallSizer(std::span<const Sampling> samplings, const TangentialConfig& config)
+      : samplings_(samplings), config_(config) {}
 
   // visit(i, size) for each of `count` points; surroundings(i): of the i-th. What a size is depends on no
   // other point.
@@ -53,6 +57,7 @@ class BallSizer {
   void find();  // the sizes for `points_`
 
   std::span<const Sampling> samplings_;
+  TangentialConfig config_;
   std::vector<Surroundings> points_;
   std::vector<Batch<double>> circles_, scatters_;
   std::array<BallSize, kBatchSize> sizes_;

@@ -75,7 +75,7 @@ std::vector<Gap> OpenStars::gaps() {
       if (!is_refused(s, c, c + 1 < begin + size ? c + 1 : begin)) stars_.agreements[c] = Agreement::kAgreed;
     }
     for_each_gap(stars_[s], std::as_const(stars_).agreements_of(s), [&](Row from, Row to, float room) {
-      gaps.push_back({{points_[s].id, row(s)}, from, to, room, points_[s].unevenness});
+      gaps.push_back({{points_[s].id, row(s)}, from, to, room});
     });
   }
   return gaps;

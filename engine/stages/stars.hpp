@@ -108,12 +108,6 @@ struct Stars {
   }
 };
 
-// Not by Pi: of a surface that goes on all around, the shape criterion alone may say much, where points
-// happen to lie in rows.
-inline bool is_suspect(const Evaluation& evaluation) {
-  return evaluation.criteria[kAngle] + evaluation.criteria[kHalfdisc] > 2 * kSuspicion;
-}
-
 // The star has the triangle of its point with a and b.
 template <class Name>
 bool has_triangle(std::span<const StarCorner<Name>> star, Name a, Name b) {

@@ -17,10 +17,12 @@ constexpr std::size_t kAhead = 8;
 class TileStarFinder {
  public:
   TileStarFinder(const TilePoints& points, const Rows& neighbourhoods,
-                 std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border)
+                 std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
+                 const TangentialConfig& config)
       : points_(points),
         neighbourhoods_(neighbourhoods),
         evaluations_(evaluations),
+        config_(config),
         seats_(std::make_unique_for_overwrite<Seat[]>(points.owned)),
         marks_(points.size()),
         watches_of_(points.owned, kNone) {
@@ -28,14 +30,13 @@ class TileStarFinder {
     found_.is_rough.resize(points.owned);
     found_.stars.places.resize(points.owned);
     found_.samplings.resize(points.owned);
-    found_.unevenness.resize(points.owned);
     mark_waiting(is_border);
     std::fill(marks_.begin() + points.owned, marks_.end(), kWanted);
   }
 
-  TileStars find() && {
+  TileStars find(double threshold) && {
     for (LocalIndex p = points_.owned; p-- > 0;) {
-      if (is_suspect(evaluations_[p])) enter(p);
+      if (is_seed(evaluations_[p], threshold)) enter(p);
     }
     search();
     // From here on: whatever other tiles may tell.
@@ -113,7 +114,7 @@ class TileStarFinder {
     };
     StarFinder({seats_.get(), points_.owned})
         .for_each_batch(wanted_.size(), query, [&](std::size_t first, std::span<const FoundStar> batch) {
-          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch);
+          const std::array<Sampling, kBatchSize> samplings = samplings_of(batch, config_);
           for (std::size_t i = 0; i < batch.size(); ++i) {
             found_.samplings[wanted_[first + i]] = samplings[i];
             add(wanted_[first + i], batch[i]);
@@ -176,10 +177,9 @@ class TileStarFinder {
     const auto surroundings = [&](std::size_t i) {
       return Surroundings{measurable[i], neighbourhoods_[measurable[i]]};
     };
-    BallSizer(found_.samplings)
+    BallSizer(found_.samplings, config_)
         .for_each(measurable.size(), surroundings, [&](std::size_t i, const BallSize& size) {
           const LocalIndex p = measurable[i];
-          found_.unevenness[p] = size.unevenness;
           const auto [begin, corners] = found_.stars.places[p];
           for (std::uint32_t c = begin; c < begin + corners; ++c) {
             float& room = found_.stars.corners[c].room;
@@ -241,6 +241,7 @@ class TileStarFinder {
   const TilePoints& points_;
   const Rows& neighbourhoods_;
   std::span<const Evaluation> evaluations_;
+  const TangentialConfig& config_;
   std::unique_ptr<Seat[]> seats_;
   std::vector<std::uint8_t> marks_;
   std::vector<Watch> watches_;
@@ -305,8 +306,9 @@ void agree(TileStars& found) {
 }  // namespace
 
 TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
-                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border) {
-  TileStars found = TileStarFinder(points, neighbourhoods, evaluations, is_border).find();
+                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
+                     double threshold, const TangentialConfig& config) {
+  TileStars found = TileStarFinder(points, neighbourhoods, evaluations, is_border, config).find(threshold);
   agree(found);
   return found;
 }

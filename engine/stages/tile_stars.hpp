@@ -1,10 +1,11 @@
 // tile_stars: which points of a tile are rough, and their stars.
 //
-// A surface ends where triangles are missing. So the search starts at the suspects, and goes on from triangle
-// to triangle along what is missing: suspects are rough, and where a triangle in the star of a rough point is
-// refused (its ball is too large, or the star of another rough corner has it not), all its corners are rough.
-// That is a least fixed point: it does not matter in which order it is reached, nor by which tile. Along a
-// gap between agreed triangles all points are rough, which is what closes the rims.
+// A surface ends where triangles are missing. So the search starts at the seeds, which are the paper's
+// candidates (method.md, 4): points with Pi above the threshold. It goes on from triangle to triangle along
+// what is missing: seeds are rough, and where a triangle in the star of a rough point is refused (its ball is
+// too large, or the star of another rough corner has it not), all its corners are rough. That is a least
+// fixed point: it does not matter in which order it is reached, nor by which tile. Along a gap between agreed
+// triangles all points are rough, which is what closes the rims.
 #pragma once
 
 #include "engine/data/evaluation.hpp"
@@ -28,12 +29,16 @@ struct TileStars {
   // the border as found, and open. Others were found for their samplings only: nothing is agreed.
   Stars<LocalIndex> stars;
   std::vector<Sampling> samplings;
-  std::vector<float> unevenness;  // of measured stars
 };
+
+inline bool is_seed(const Evaluation& evaluation, double threshold) {
+  return evaluation.probability > threshold;
+}
 
 // `is_border`: of owned points, has foreign neighbours. Cost: proportional to the rough points and their
 // neighbours, and a look at each point.
 TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
-                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border);
+                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
+                     double threshold, const TangentialConfig& config);
 
 }  // namespace lacuna

@@ -91,17 +91,23 @@ TEST_CASE("configs/default.toml is the printed default, byte for byte") {
   REQUIRE(test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml") == print_config({}));
 }
 
-TEST_CASE("every file in configs is read and possible") {
+TEST_CASE("every file in configs is read and possible, and each of its values has an effect") {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(LACUNA_SOURCE_DIR "/configs")) {
     Config config;
     read_config(entry.path(), config);
     check_config(config);
+    Config defaults;
+    const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      INFO(entry.path() << ": " << all[i].key);
+      CHECK((all[i].needs.is_given(config) || all[i].print() == unchanged[i].print()));
+    }
     const bool is_default = entry.path().filename() == "default.toml";
     CHECK((print_config(config) == print_config({})) == is_default);
     ++files;
   }
-  REQUIRE(files == 4);
+  REQUIRE(files == 3);
 }
 
 TEST_CASE("a printed config reads back as itself, whatever its values") {
@@ -170,6 +176,13 @@ TEST_CASE("an impossible value names its key and what is allowed") {
   CHECK_THAT(error_of_set("memory_limit", "plenty"), Contains("memory_limit = plenty"));
   CHECK(error_of_set("memory_limit", "64MiB").empty());
   CHECK(error_of_set("memory_limit", "0").empty());
+}
+
+TEST_CASE("the former name of a method is refused with its present one") {
+  CHECK(error_of_set("method", "stars") ==
+        "method = stars (now called tangential) is not possible; allowed: tangential or paper");
+  CHECK_THAT(error_of_file("[loops]\nmethod = \"stars\"\n"), Contains(":2: ") && Contains("tangential"));
+  CHECK_THAT(error_of_set("method", "star"), Contains("method = star is not"));
 }
 
 TEST_CASE("an impossible value in a file is an error with its line") {

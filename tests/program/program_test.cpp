@@ -299,22 +299,6 @@ TEST_CASE("a workspace whose name takes a detour leaves none of it behind") {
   CHECK(count_entries(scratch / "out") == 3);
 }
 
-TEST_CASE("options that change nothing are told") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  const auto warnings = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"detect", scan, "--out", (scratch / "out").string(), "--quiet"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const ProgramResult result = run_program(arguments);
-    CHECK(result.exit_code == 0);
-    return result.err;
-  };
-  CHECK_THAT(warnings({"--e", "50"}), Contains("--e changes nothing without --method paper"));
-  CHECK_THAT(warnings({"--normals"}), Contains("--normals changes nothing without --points"));
-  CHECK(warnings({"--normals", "--points", "--e", "50", "--method", "paper"}).empty());
-  CHECK(warnings({}).empty());
-}
-
 TEST_CASE("a signal while a scan is made leaves nothing") {
   const ScratchFolder scratch;
   const auto is_writing = [&] { return count_entries(scratch.path()) > 0; };

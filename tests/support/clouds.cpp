@@ -382,6 +382,16 @@ Config random_config(std::uint64_t seed, double spacing) {
   if (varied()) config.spanning.e = random.whole(2, 40);
   if (varied()) config.loops.method = LoopMethod::kPaper;
   if (varied()) config.selection.min_confidence = random.uniform();
+  if (random.chance(0.3)) {
+    TangentialConfig& tangential = config.tangential;
+    tangential.max_radius = random.uniform(1, 3);
+    tangential.hole_radius = random.uniform(0.5, 2);
+    tangential.most_radius = random.uniform(0.2, 0.8);
+    tangential.least_spread = random.uniform(0.02, 0.5);
+    tangential.clear_excess = random.uniform(0.5, 6);
+    tangential.doubt = random.uniform(0, 12);
+    tangential.min_curve = random.whole(3, 20);
+  }
   return config;
 }
 

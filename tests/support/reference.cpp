@@ -612,12 +612,11 @@ struct Star {
   double distance = 0;  // harmonic mean of r over the point and its neighbours
   double radius = 0;    // that a ball may have to make a triangle
   double unit = 0;      // of the room beyond
-  double unevenness = 0;
 };
 
 struct Gap {
   PointId point, from, to;
-  double room, unevenness;
+  double room;
 };
 
 double weight(PointId id, double r) {
@@ -681,7 +680,8 @@ double median(std::vector<double> numbers) {
 // Stars of points and of their neighbours, found when they are first asked for.
 class Stars {
  public:
-  Stars(const Positions& positions, const Detection& result) : positions_(positions), result_(result) {}
+  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
+      : positions_(positions), config_(config), result_(result) {}
 
   // Measured by the balls of its own and its neighbours' stars.
   const Star& operator[](PointId p) {
@@ -705,21 +705,21 @@ class Stars {
       const Star& other = found(q);
       std::vector<double> balls;
       for (const Corner& corner : other.corners) {
-        if (corner.ball <= 0.85 * other.distance) balls.push_back(corner.ball);
+        if (corner.ball <= config_.hole_radius * other.distance) balls.push_back(corner.ball);
       }
       if (balls.empty()) continue;
       circles.push_back(median(balls));
       scatters.push_back(circles.back() - *std::min_element(balls.begin(), balls.end()));
     }
-    const double most = star.distance / 2;
+    const double most = config_.most_radius * star.distance;
     const double circle = circles.empty() ? most : std::min(median(circles), most);
     const double scatter = scatters.empty() ? most : std::min(median(scatters), most);
-    star.radius = 1.5 * circle + scatter;
-    star.unit = scatter + 0.1 * circle;
-    star.unevenness = scatter / circle;
+    star.radius = config_.max_radius * circle + scatter;
+    star.unit = scatter + config_.least_spread * circle;
   }
 
   const Positions& positions_;
+  const TangentialConfig& config_;
   const Detection& result_;
   std::map<PointId, Star> found_, measured_;
 };
@@ -742,12 +742,12 @@ bool is_agreed(PointId p, std::size_t i, const std::set<PointId>& rough, Stars& 
          (!rough.contains(b) || has_triangle(stars[b], p, a));
 }
 
-// Points whose angle and halfdisc criteria have a mean of more than 0.4, and, again and again, the corners of
-// triangles in their stars that are not agreed.
-std::set<PointId> rough_points(const Detection& result, Stars& stars) {
+// Candidates (method.md, 4), and, again and again, the corners of triangles in their stars that are not
+// agreed.
+std::set<PointId> rough_points(const Detection& result, double threshold, Stars& stars) {
   std::set<PointId> rough;
   for (const PointId p : result.distinct) {
-    if (result.points[value(p)].angle + result.points[value(p)].halfdisc > 0.8) rough.insert(p);
+    if (result.points[value(p)].probability > threshold) rough.insert(p);
   }
   for (std::size_t before = 0; before != rough.size();) {
     before = rough.size();
@@ -772,7 +772,7 @@ std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
     if (!agreed(i) || agreed(i + 1)) continue;
-    Gap gap{p, corner(i + 1).point, {}, 0, star.unevenness};
+    Gap gap{p, corner(i + 1).point, {}, 0};
     std::size_t end = i + 1;
     for (; !agreed(end); ++end) gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
     gap.to = corner(end).point;
@@ -783,7 +783,7 @@ std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars
 
 struct RimPoint {
   PointId point;
-  double room, unevenness;
+  double room;
 };
 
 // Of all ways to write a closed curve, the one whose points come first.
@@ -819,9 +819,17 @@ std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
   return curves;
 }
 
-void find_rims(const Positions& positions, double threshold, double min_confidence, Detection& result) {
-  Stars stars(positions, result);
-  const std::set<PointId> rough = rough_points(result, stars);
+double confidence(const std::vector<RimPoint>& rim, const TangentialConfig& config) {
+  double sum = 0;
+  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  return sum / (static_cast<double>(rim.size()) + config.doubt);
+}
+
+void find_rims(const Positions& positions, const Config& config, Detection& result) {
+  const double threshold = config.coherence.threshold, min_confidence = config.selection.min_confidence;
+  const auto least = static_cast<std::size_t>(config.tangential.min_curve);
+  Stars stars(positions, config.tangential, result);
+  const std::set<PointId> rough = rough_points(result, threshold, stars);
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
   for (const PointId p : rough) {
@@ -841,23 +849,15 @@ void find_rims(const Positions& positions, double threshold, double min_confiden
       const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
-      rim.push_back({gaps[g].point, gaps[g].room, gaps[g].unevenness});
+      rim.push_back({gaps[g].point, gaps[g].room});
       g = at.at({next, rim.back().point});  // rims are closed
     } while (g != start);
-    if (rim.size() < 8) continue;
+    if (rim.size() < least) continue;
     for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
-      if (curve.size() < 8) continue;
+      if (curve.size() < least) continue;
       std::vector<PointId> loop;
-      double wide = 0, wider = 0, unevenness = 0;
-      for (const RimPoint& p : first_way(curve)) {
-        loop.push_back(p.point);
-        wide += p.room >= 1.5;
-        wider += p.room >= 2.5;
-        unevenness += p.unevenness;
-      }
-      const auto points = static_cast<double>(loop.size());
-      const double count = points + std::min(42 * unevenness / points, 6.0);
-      rims.emplace_back(loop, std::min({wide / count, 1.25 * (wider / count), 1.0}));
+      for (const RimPoint& p : first_way(curve)) loop.push_back(p.point);
+      rims.emplace_back(loop, confidence(first_way(curve), config.tangential));
     }
   }
   std::sort(rims.begin(), rims.end());
@@ -895,7 +895,7 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
     result.boundary_edges = result.eligible.size();
     find_loops(span(result), result);
   } else {
-    find_rims(positions, config.coherence.threshold, config.selection.min_confidence, result);
+    find_rims(positions, config, result);
   }
   for (Point& point : result.points) {
     if (!point.dropped) point = Point(result.points[value(point.representative)]);

@@ -10,9 +10,6 @@
 namespace lacuna {
 namespace {
 
-// Points without room that are added to a rim, by its unevenness, and at most: shares of a few points say
-// little where points have room by chance.
-constexpr double kDoubt = 42, kMostDoubt = 6;
 
 // Place i of the rim as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
@@ -57,7 +54,7 @@ void follow_curves(std::span<const Gap> wedges, std::span<const WedgePartners> p
     for (LocalIndex at = start; !is_done[at];) {
       const Gap& wedge = wedges[at];
       is_done[at] = true;
-      curve.push_back({wedge.point, wedge.room, wedge.unevenness});
+      curve.push_back({wedge.point, wedge.room});
       at = partners[at][side];
       assert(at != kNoIndex);  // the curve is closed
       side = wedges[at].from == wedge.point.row ? 1 : 0;
@@ -137,17 +134,10 @@ std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
   return curves;
 }
 
-double confidence(std::span<const RimPoint> rim) {
-  const auto points = static_cast<double>(rim.size());
-  double unevenness = 0;
-  for (const RimPoint& p : rim) unevenness += p.unevenness;
-  const double doubt = std::min(kDoubt * (unevenness / points), kMostDoubt);
-  const auto share = [&](float room) {
-    const auto wide =
-        std::count_if(rim.begin(), rim.end(), [&](const RimPoint& p) { return p.room >= room; });
-    return static_cast<double>(wide) / (points + doubt);
-  };
-  return std::min(share(1.5f), std::min(1.25 * share(2.5f), 1.0));
+double confidence(std::span<const RimPoint> rim, const TangentialConfig& config) {
+  double sum = 0;
+  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  return sum / (static_cast<double>(rim.size()) + config.doubt);
 }
 
 }  // namespace lacuna

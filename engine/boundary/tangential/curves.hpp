@@ -1,6 +1,7 @@
 // rims: the closed curves along which agreed triangles end, followed from gap to gap.
 #pragma once
 
+#include "engine/config.hpp"
 #include "engine/data/component.hpp"
 #include "engine/data/stored_stars.hpp"
 
@@ -15,7 +16,7 @@ namespace lacuna {
 // A point of a rim. A point with several gaps is on several rims, or several times on one.
 struct RimPoint {
   Vertex vertex;
-  float room, unevenness;  // of the gap
+  float room;  // of the gap
 };
 
 // The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these wedges.
@@ -39,10 +40,9 @@ void normalise(std::vector<RimPoint>& rim);
 std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim);
 
 // How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a larger
-// ball fits at few points of the rim. The share of points at which there is room of 1.5, or 1.25 times the
-// share with room of 2.5, if that is less; out of some points more than there are, so that small rims need
-// room all around: 42 times the mean unevenness, at most six. Where points lie evenly none has room by
-// chance.
-double confidence(std::span<const RimPoint> rim);
+// ball fits at few points of the rim. A point counts in proportion to its room, fully from 3.5 on
+// (`clear_excess`). The mean of that, with five more points that have none (`doubt`): a few points may have
+// room by chance. The sum is taken in the order of the rim.
+double confidence(std::span<const RimPoint> rim, const TangentialConfig& config);
 
 }  // namespace lacuna

@@ -11,12 +11,13 @@ namespace {
 
 class StarTaker {
  public:
-  StarTaker(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists)
-      : tile_(tile), tiling_(tiling), lists_(lists) {}
+  StarTaker(const EvaluatedTile& tile, const Tiling& tiling, const Config& config, StarLists& lists)
+      : tile_(tile), tiling_(tiling), config_(config), lists_(lists) {}
 
   // Returns which owned points a loop may pass through.
   std::vector<std::uint8_t> take() {
-    const TileStars found = find_stars(tile_.points, tile_.neighbourhoods, tile_.evaluations, tile_.is_border);
+    const TileStars found = find_stars(tile_.points, tile_.neighbourhoods, tile_.evaluations, tile_.is_border,
+                                       config_.coherence.threshold, config_.tangential);
     StoredStars as_found, open;
     std::vector<Gap> gaps;
     std::vector<std::uint8_t> is_vertex(tile_.is_border.begin(), tile_.is_border.end());
@@ -34,7 +35,7 @@ class StarTaker {
       is_vertex[p] = 1;
       if (standing == Standing::kRough && all_are(Agreement::kAgreed, Agreement::kRefused)) {
         for_each_gap(found.stars[p], agreements, [&](LocalIndex from, LocalIndex to, float room) {
-          gaps.push_back({tile_.vertex(p), tile_.points.rows[from], tile_.points.rows[to], room, found.unevenness[p]});
+          gaps.push_back({tile_.vertex(p), tile_.points.rows[from], tile_.points.rows[to], room});
         });
       } else {
         add_star(found, p, standing == Standing::kBeside ? as_found : open);
@@ -52,7 +53,7 @@ class StarTaker {
     const auto star = found.stars[p];
     const auto agreements = found.stars.agreements_of(p);
     if (star.empty()) return;
-    stars.add(tile_.points.ids[p], p, found.unevenness[p]);
+    stars.add(tile_.points.ids[p], p);
     for (std::size_t i = 0; i < star.size(); ++i)
       stars.add_corner({tile_.points.rows[star[i].point], star[i].room, agreements[i]});
   }
@@ -114,13 +115,15 @@ class StarTaker {
 
   const EvaluatedTile& tile_;
   const Tiling& tiling_;
+  const Config& config_;
   StarLists& lists_;
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists) {
-  return StarTaker(tile, tiling, lists).take();
+std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, const Config& config,
+                                     StarLists& lists) {
+  return StarTaker(tile, tiling, config, lists).take();
 }
 
 }  // namespace lacuna

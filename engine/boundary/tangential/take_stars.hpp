@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/config.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 
 #include <cstdint>
@@ -11,6 +12,7 @@ namespace lacuna {
 
 // Finds the stars of the tile's active points, and of those that may become active by what other tiles have. Boundary
 // wedges that are certain and stars that are not go to the lists. Returns which owned points a loop may pass through.
-std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, StarLists& lists);
+std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, const Config& config,
+                                     StarLists& lists);
 
 }  // namespace lacuna

@@ -20,23 +20,24 @@ bool by_row(const Gap& a, const Gap& b) {
 }
 
 // The loops along a closed curve.
-void add_loops(std::vector<RimPoint>& curve, RawLoops& loops) {
-  if (curve.size() < kLeastCurve) return;
+void add_loops(std::vector<RimPoint>& curve, const TangentialConfig& config, RawLoops& loops) {
+  const auto least = static_cast<std::size_t>(config.min_curve);
+  if (curve.size() < least) return;
   normalise(curve);
   for (const std::vector<RimPoint>& simple : split_at_pinches(std::move(curve))) {
-    if (simple.size() < kLeastCurve) continue;
+    if (simple.size() < least) continue;
     std::vector<Vertex> loop;
     loop.reserve(simple.size());
     for (const RimPoint& p : simple) loop.push_back(p.vertex);
-    loops.add(loop, confidence(simple));
+    loops.add(loop, confidence(simple, config));
   }
 }
 
 // Of a whole component.
-void add_component_loops(std::vector<Gap> wedges, RawLoops& loops) {
+void add_component_loops(std::vector<Gap> wedges, const TangentialConfig& config, RawLoops& loops) {
   std::sort(wedges.begin(), wedges.end(), by_row);
   follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
-                [&](std::vector<RimPoint>& curve) { add_loops(curve, loops); });
+                [&](std::vector<RimPoint>& curve) { add_loops(curve, config, loops); });
 }
 
 // A tile's part of the boundary graph. Its vertices are the wedges; those of one point are connected.
@@ -78,10 +79,11 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
     : BoundaryMethod(
           LoopPointLists(job.file("loop-points"), store.tiling().tiles.size(), job.memory.spills / 12)),
       tiling_(store.tiling()),
-      stars_(store, job) {}
+      stars_(store, job),
+      config_(job.config) {}
 
 void TangentialBoundary::take(const EvaluatedTile& tile) {
-  add_loop_points(loop_points_, tile, take_stars(tile, tiling_, stars_));
+  add_loop_points(loop_points_, tile, take_stars(tile, tiling_, config_, stars_));
 }
 
 std::vector<Gap> TangentialBoundary::wedges_of(TileIndex t) {
@@ -100,6 +102,7 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   settle_seams(stars_, tiling_, job);
 
   const std::size_t tiles = tiling_.tiles.size();
+  const TangentialConfig& config = config_.tangential;
   Stitch<Gap> stitch(tiles, kBytesPerWedge, job);
   job.crew.for_each(tiles, [&](std::size_t t) {
     const std::vector<Gap> wedges = wedges_of(static_cast<TileIndex>(t));
@@ -110,15 +113,15 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
     std::vector<bool> is_open = add_open_wedges(wedges, part);
     stitch.add(static_cast<TileIndex>(t), part);
     follow_curves(wedges, partners, std::move(is_open),
-                  [&](std::vector<RimPoint>& curve) { add_loops(curve, found.loops); });
+                  [&](std::vector<RimPoint>& curve) { add_loops(curve, config, found.loops); });
   });
   stitch.for_each_component(
-      [&](std::span<const Gap> wedges) { add_component_loops({wedges.begin(), wedges.end()}, found.loops); },
+      [&](std::span<const Gap> wedges) { add_component_loops({wedges.begin(), wedges.end()}, config, found.loops); },
       [&](const auto& for_each_wedge, std::uint64_t count) {
         std::vector<Gap> wedges;
         wedges.reserve(count);
         for_each_wedge([&](const Gap& wedge) { wedges.push_back(wedge); });
-        add_component_loops(std::move(wedges), found.loops);
+        add_component_loops(std::move(wedges), config, found.loops);
       });
   found.components = stitch.components();
   found.loops.sort();

@@ -15,7 +15,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
   void take(const EvaluatedTile& tile) override;
-  // Curves of fewer than `kLeastCurve` points are left out: around so few, a sampling leaves gaps by itself.
+  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves gaps by itself.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes through.
   RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
@@ -28,8 +28,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   const Tiling& tiling_;
   StarLists stars_;
+  const Config& config_;
 };
-
-inline constexpr std::size_t kLeastCurve = 8;
 
 }  // namespace lacuna

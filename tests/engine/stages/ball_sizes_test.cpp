@@ -11,11 +11,14 @@
 namespace lacuna {
 namespace {
 
+constexpr TangentialConfig kConfig{
+    .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .least_spread = 0.25};
+
 Sampling sampling_among(std::vector<float> balls, double distance) {
   std::vector<StarCorner<LocalIndex>> corners;
   for (const float ball : balls) corners.push_back({0, ball});
   const FoundStar star(corners.data(), 1, corners.size(), distance);
-  return samplings_of({&star, 1})[0];
+  return samplings_of({&star, 1}, kConfig)[0];
 }
 
 double median(std::vector<double> numbers) {
@@ -32,10 +35,10 @@ BallSize size_by_hand(const std::vector<Sampling>& samplings, const Surroundings
   };
   look_at(around.point);
   for (const LocalIndex q : around.neighbours) look_at(q);
-  const double most = samplings[around.point].distance / 2;
+  const double most = kConfig.most_radius * samplings[around.point].distance;
   const double circle = circles.empty() ? most : std::min(median(circles), most);
   const double scatter = circles.empty() ? most : std::min(median(scatters), most);
-  return {1.5 * circle + scatter, 0.1 * circle + scatter, static_cast<float>(scatter / circle)};
+  return {kConfig.max_radius * circle + scatter, kConfig.least_spread * circle + scatter};
 }
 
 }  // namespace
@@ -51,7 +54,7 @@ TEST_CASE("a star tells its median ball and how far the least is below") {
 }
 
 TEST_CASE("balls that lie in a hole say nothing of the sampling") {
-  CHECK(sampling_among({0.5f, 0.25f, 0.86f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
+  CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
   const Sampling none = sampling_among({2, 3, 4}, 2);
   CHECK(none.distance == 2);
   CHECK(none.circle == 0);
@@ -69,9 +72,9 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
         corner = {0, static_cast<float>(random.chance(0.8) ? random.uniform(0.1, 1) : 8)};
       stars.emplace_back(of_one.data(), 1, of_one.size(), random.uniform(1, 2));
     }
-    const auto together = samplings_of(stars);
+    const auto together = samplings_of(stars, kConfig);
     for (std::size_t i = 0; i < stars.size(); ++i) {
-      const Sampling alone = samplings_of({&stars[i], 1})[0];
+      const Sampling alone = samplings_of({&stars[i], 1}, kConfig)[0];
       wrong += together[i].distance != alone.distance || together[i].circle != alone.circle ||
                together[i].scatter != alone.scatter;
     }
@@ -80,9 +83,9 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
 }
 
 TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
-  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 2) == 2);
-  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 1.5f) == 0);
-  CHECK(room_beyond({3, 0.5, 0}, {.distance = 2}, 1) == -2);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1) == -2);
 }
 
 TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized beside") {
@@ -109,13 +112,13 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
     }
     for (std::size_t i = 0; i < points; ++i) all[i].neighbours = neighbours[i];
     std::size_t sized = 0;
-    BallSizer(samplings).for_each(
-        points, [&](std::size_t i) { return all[i]; },
-        [&](std::size_t i, const BallSize& size) {
-          const BallSize expected = size_by_hand(samplings, all[i]);
-          wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit ||
-                   size.unevenness != expected.unevenness;
-        });
+    BallSizer(samplings, kConfig)
+        .for_each(
+            points, [&](std::size_t i) { return all[i]; },
+            [&](std::size_t i, const BallSize& size) {
+              const BallSize expected = size_by_hand(samplings, all[i]);
+              wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit;
+            });
     CHECK(sized == points);
   }
   CHECK(wrong == 0);

@@ -24,7 +24,7 @@ struct Border {
 
   // `rooms` of the triangles that begin at each corner.
   void add(LocalIndex p, const std::vector<Row>& corners, const std::vector<float>& rooms) {
-    stars.add(PointId{p}, p, 0.5F);
+    stars.add(PointId{p}, p);
     for (std::size_t i = 0; i < corners.size(); ++i)
       stars.add_corner({corners[i], rooms[i], rooms[i] > 0 ? Agreement::kRefused : Agreement::kOpen});
   }
@@ -97,7 +97,6 @@ TEST_CASE("a rough point of another tile agrees to the triangles that it has tol
       CHECK(gaps[i].from == ends[i][1]);
       CHECK(gaps[i].to == ends[i][2]);
       CHECK(gaps[i].room == rooms[i]);
-      CHECK(gaps[i].unevenness == 0.5F);
     }
   }
   SECTION("none told") {

@@ -16,6 +16,8 @@
 namespace lacuna {
 namespace {
 
+constexpr double kThreshold = 0.5;
+
 using Star = std::vector<StarCorner<LocalIndex>>;
 
 // A cloud with all that stars are found from.
@@ -41,18 +43,19 @@ std::vector<Star> measured_stars(const Judged& judged, bool measure = true) {
     const ExactStar found = find_star_exactly(seats, {p, judged.evaluations[p].normal, judged.rows[p]});
     stars[p] = found.corners;
     const FoundStar star(found.corners.data(), 1, found.corners.size(), found.distance);
-    samplings[p] = samplings_of(std::span(&star, 1))[0];
+    samplings[p] = samplings_of(std::span(&star, 1), {})[0];
     for (auto& corner : stars[p]) corner.point = judged.rows[p][corner.point];
   }
   if (!measure) return stars;
-  BallSizer(samplings).for_each(
-      stars.size(),
-      [&](std::size_t p) {
-        return Surroundings{static_cast<LocalIndex>(p), judged.rows[p]};
-      },
-      [&](std::size_t p, const BallSize& size) {
-        for (auto& corner : stars[p]) corner.room = room_beyond(size, samplings[p], corner.room);
-      });
+  BallSizer(samplings, {})
+      .for_each(
+          stars.size(),
+          [&](std::size_t p) {
+            return Surroundings{static_cast<LocalIndex>(p), judged.rows[p]};
+          },
+          [&](std::size_t p, const BallSize& size) {
+            for (auto& corner : stars[p]) corner.room = room_beyond(size, samplings[p], corner.room);
+          });
   return stars;
 }
 
@@ -65,11 +68,11 @@ bool is_agreed(const std::vector<Star>& stars, const std::vector<bool>& rough, L
   return stars[p][i].room <= 0 && (!rough[a] || has(stars[a], p, b)) && (!rough[b] || has(stars[b], p, a));
 }
 
-// Suspects, these `others`, and corners of triangles that are not agreed, until there are no more.
+// Seeds, these `others`, and corners of triangles that are not agreed, until there are no more.
 std::vector<bool> rough_points(const Judged& judged, const std::vector<Star>& stars,
                                const std::vector<LocalIndex>& others) {
   std::vector<bool> rough(stars.size());
-  for (LocalIndex p = 0; p < stars.size(); ++p) rough[p] = is_suspect(judged.evaluations[p]);
+  for (LocalIndex p = 0; p < stars.size(); ++p) rough[p] = is_seed(judged.evaluations[p], kThreshold);
   for (const LocalIndex p : others) rough[p] = true;
   for (bool go_on = true; go_on;) {
     std::vector<bool> more = rough;
@@ -102,7 +105,8 @@ TEST_CASE("in one tile the rough points are those found by definition, and so ar
     const std::vector<Star> stars = measured_stars(judged);
     const std::vector<bool> rough = rough_points(judged, stars, {});
     const std::vector<std::uint8_t> is_border(judged.points.owned);
-    const TileStars found = find_stars(judged.points, judged.rows, judged.evaluations, is_border);
+    const TileStars found =
+        find_stars(judged.points, judged.rows, judged.evaluations, is_border, kThreshold, {});
     std::size_t wrong_standings = 0, wrong_stars = 0, wrong_agreements = 0;
     for (LocalIndex p = 0; p < judged.points.owned; ++p) {
       wrong_standings += found.standings[p] != (rough[p] ? Standing::kRough : Standing::kInner);
@@ -132,7 +136,8 @@ TEST_CASE("whatever is found at the border, what a tile calls rough, inner or se
     Random random(seed);
     std::vector<std::uint8_t> is_border(judged.points.owned);
     for (auto& border : is_border) border = random.chance(0.01);
-    const TileStars found = find_stars(judged.points, judged.rows, judged.evaluations, is_border);
+    const TileStars found =
+        find_stars(judged.points, judged.rows, judged.evaluations, is_border, kThreshold, {});
     for (int round = 0; round < 5; ++round) {
       // The stars of points that wait turn out as they like, and some of the border are rough.
       std::vector<Star> turned_out = stars;

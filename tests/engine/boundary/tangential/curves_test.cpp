@@ -31,11 +31,10 @@ std::vector<std::vector<RimPoint>> follow(std::vector<Gap> wedges) {
   return curves;
 }
 
-std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {},
-                             float unevenness = 1) {
+std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
   std::vector<RimPoint> rim;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i], unevenness});
+    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i]});
   return rim;
 }
 
@@ -120,27 +119,28 @@ TEST_CASE("a rim is parted where it passes a point again, into curves that pass 
   CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
 }
 
-TEST_CASE("confidence is the share of points with room, of six more than there are where they lie unevenly") {
+TEST_CASE(
+    "confidence is the mean of the points' room, up to what is clear, with some points more that have none") {
+  const TangentialConfig config{.clear_excess = 2, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
-  const double points = 20 + 6;
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 3))) == 20 / points);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 1.6f))) == 0);
-  std::vector<float> half(20, 1.4f);
-  std::fill(half.begin(), half.begin() + 10, 2.5f);
-  CHECK(confidence(rim_of(twenty, half)) == 10 / points);
-  std::fill(half.begin(), half.begin() + 5, 1.5f);  // 10 of 1.5, 5 of 2.5
-  CHECK(confidence(rim_of(twenty, half)) == 1.25 * (5 / points));
+  const double points = 20 + 4;
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
+  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
+  CHECK(confidence(rim_of(twenty), config) == 0);
+  std::vector<float> half(20, 0);
+  std::fill(half.begin(), half.begin() + 10, 3.0f);
+  CHECK(confidence(rim_of(twenty, half), config) == 10 / points);
 }
 
-TEST_CASE("the more evenly points lie around a rim, the less doubt there is") {
-  const std::vector<std::uint64_t> eight(8, 1);
-  const std::vector<float> wide(8, 3);
-  CHECK(confidence(rim_of(eight, wide, 0.5)) == 8.0 / 14);
-  CHECK(confidence(rim_of(eight, wide, 1.0f / 8)) == 8 / (8 + 42.0 / 8));
-  CHECK(confidence(rim_of(eight, wide, 0)) == 1);
-  std::vector<RimPoint> both = rim_of(eight, wide, 0);
-  for (std::size_t i = 0; i < 4; ++i) both[i].unevenness = 0.125f;
-  CHECK(confidence(both) == 8 / (8 + 42.0 / 16));
+TEST_CASE("the more points a rim has, the surer it is") {
+  double before = 0;
+  for (std::size_t count = 3; count < 40; ++count) {
+    const double now =
+        confidence(rim_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
+    CHECK(now > before);
+    before = now;
+  }
 }
 
 }  // namespace lacuna

@@ -1,0 +1,175 @@
+// Every parameter changes the results of a small scan, or the list says what it needs for that.
+#include "engine/config.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using test::ScratchFolder;
+
+// Another value than the default, for all but flags and the method.
+const std::map<std::string_view, std::string_view> kOtherValues = {
+    {"k", "9"},
+    {"eps", "4"},
+    {"eps_fraction", "0.05"},
+    {"crease_threshold", "1"},
+    {"sigma", "0.6"},
+    {"cone", "40"},
+    {"weight_angle", "3"},
+    {"weight_halfdisc", "3"},
+    {"weight_shape", "3"},
+    {"threshold", "0.8"},
+    {"max_prob_weight", "0.5"},
+    {"max_total_weight", "1.8"},
+    {"e", "40"},
+    {"max_radius", "2.5"},
+    {"hole_radius", "0.4"},
+    {"most_radius", "0.2"},
+    {"least_spread", "2"},
+    {"clear_excess", "100"},
+    {"doubt", "400"},
+    {"min_curve", "40"},
+    {"min_confidence", "0.85"},
+    {"min_perimeter", "45"},
+    {"max_perimeter", "45"},
+    {"min_points", "40"},
+    {"columns", "y x z"},
+    {"threads", "3"},
+    {"memory_limit", "64MiB"},
+    {"tile_points", "150"},
+};
+
+// A rough sheet with two holes, and pairs of sheets that meet in creases.
+std::string scan_text() {
+  Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
+  for (const int degrees : {40, 60, 80, 100, 120}) {
+    cloud = cloud.joined(crease(14, degrees).jittered(0.4, 3).translated({60, 2.0 * degrees, 0}));
+  }
+  std::ostringstream text;
+  text.precision(17);
+  text << "x y z\n";
+  for (const Eigen::Vector3d& p : cloud.positions) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  return text.str();
+}
+
+class Runs {
+ public:
+  Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
+
+  // All bytes of the results but the report, which has the parameters and times.
+  std::string results(const Config& config) {
+    const std::string file = scratch_.write("c.toml", print_config(config));
+    const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
+    const auto run = test::run_program({"detect", scan_, "--out", out.string(), "--quiet", "--config", file});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    std::string bytes;
+    for (const char* name : {"loops.ply", "boundary.ply", "points.ply"}) {
+      if (fs::exists(out / name)) bytes += name + test::read_file(out / name);
+    }
+    fs::remove_all(out);
+    return bytes;
+  }
+
+  // What the program says of these options.
+  std::string warnings(std::vector<std::string> options) {
+    options.insert(options.begin(), {"detect", scan_, "--out", (scratch_ / "out").string(), "--quiet"});
+    const auto run = test::run_program(options);
+    CHECK(run.exit_code == 0);
+    return run.err;
+  }
+
+  std::string workspace() const { return (scratch_ / "workspace").string(); }
+  std::string write(const std::string& config) const { return scratch_.write("given.toml", config); }
+
+ private:
+  ScratchFolder scratch_;
+  std::string scan_;
+  int runs_ = 0;
+};
+
+void set_other(const Parameter& parameter, const std::string& workspace) {
+  if (bool* const* flag = std::get_if<bool*>(&parameter.value)) {
+    **flag = !**flag;
+  } else if (parameter.key == "workspace") {
+    parameter.set(workspace);
+  } else {
+    parameter.set(kOtherValues.at(parameter.key));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a parameter changes the results unless what it needs is missing or it is about the run") {
+  Runs runs;
+  for (const LoopMethod method : {LoopMethod::kTangential, LoopMethod::kPaper}) {
+    for (const bool with_points : {false, true}) {
+      Config config;
+      config.loops.method = method;
+      config.output.points = config.output.normals = with_points;
+      const std::string before = runs.results(config);
+      for (std::size_t i = 0; i < parameters(config).size(); ++i) {
+        Config changed = config;
+        const Parameter parameter = parameters(changed)[i];
+        if (parameter.key == "method") continue;
+        set_other(parameter, runs.workspace());
+        const bool has_effect = parameter.needs.is_given(changed) && parameter.section != "run";
+        INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
+        CHECK((runs.results(changed) != before) == has_effect);
+      }
+    }
+  }
+}
+
+TEST_CASE("the two methods do not give the same loops") {
+  Runs runs;
+  Config paper;
+  paper.loops.method = LoopMethod::kPaper;
+  CHECK(runs.results({}) != runs.results(paper));
+}
+
+TEST_CASE("each option without effect has its warning, each other none") {
+  Runs runs;
+  for (const std::string_view method : {"tangential", "paper"}) {
+    Config config;
+    config.loops.method = method == "paper" ? LoopMethod::kPaper : LoopMethod::kTangential;
+    std::vector<std::string> options{"--method", std::string(method)};
+    std::string expected;
+    for (const Parameter& parameter : parameters(config)) {
+      const bool is_flag = std::holds_alternative<bool*>(parameter.value);
+      const bool is_left_out = parameter.section == "run" || parameter.key == "method" ||
+                               parameter.key == "points" || parameter.key == "columns" ||
+                               parameter.key == "eps" || parameter.key == "max_perimeter";
+      if (is_left_out) continue;
+      options.push_back(parameter.option());
+      if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
+      if (!parameter.needs.is_given(config)) {
+        expected += "lacuna: warning: " + parameter.option() + " changes nothing without " +
+                    std::string(parameter.needs.options) + "\n";
+      }
+    }
+    CHECK(runs.warnings(options) == expected);
+    CHECK_FALSE(expected.empty());
+  }
+}
+
+TEST_CASE("a config file's value without effect has its warning, unless it is the default") {
+  Runs runs;
+  const std::string file =
+      runs.write("[spanning]\ne = 50\nmax_prob_weight = 1.1\n[coherence]\nthreshold = 0.4\n");
+  CHECK(runs.warnings({"--config", file}) ==
+        "lacuna: warning: " + file + ": e changes nothing without --method paper\n");
+  CHECK(runs.warnings({"--config", file, "--method", "paper"}).empty());
+  CHECK(runs.warnings({"--config", runs.write(print_config({}))}).empty());
+}
+
+}  // namespace lacuna
