@@ -16,6 +16,7 @@ bench/accuracy/results/DATE.csv. Where PCL is installed (libpcl-dev), its bounda
   --build DIR         default build
   --work DIR          sets and results of runs; sets are kept            default bench/work/accuracy
   --data DIR          the real scans                                     default ../shared/data
+  --floors FILE       fails where fewer loops are found, or more are false, than this says
   --csv FILE          default bench/accuracy/results/DATE.csv
   -h, --help
 DETECT_OPTIONS go to every `lacuna detect`: tools/accuracy.sh -- --k 20
@@ -23,6 +24,7 @@ END
 }
 
 only=
+floors=
 lacuna=
 no_peers=0
 build=$root/build
@@ -54,6 +56,6 @@ if ((!no_peers)); then
 fi
 
 python3 bench/accuracy/run.py --lacuna "$lacuna" "${pcl[@]}" --work "$work" --data "$data" --csv "$csv" \
-  --only "$only" -- "${detect_options[@]}"
+  --only "$only" ${floors:+--floors "$floors"} -- "${detect_options[@]}"
 echo
 echo "$csv"

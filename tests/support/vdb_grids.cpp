@@ -10,8 +10,9 @@ std::map<std::string, VdbGrid> read_vdb_grids(const std::filesystem::path& file)
   openvdb::initialize();
   openvdb::io::File vdb(file.string());
   vdb.open();
+  const openvdb::GridPtrVecPtr all = vdb.getGrids();
   std::map<std::string, VdbGrid> grids;
-  for (const openvdb::GridBase::Ptr& base : *vdb.getGrids()) {
+  for (const openvdb::GridBase::Ptr& base : *all) {
     const auto grid = openvdb::gridPtrCast<openvdb::Int32Grid>(base);
     if (!grid) throw std::runtime_error(base->getName() + ": not a grid of 32-bit integers");
     VdbGrid& read = grids[grid->getName()];
