@@ -10,7 +10,7 @@ usage: tools/accuracy.sh [OPTIONS] [-- DETECT_OPTIONS]
 Builds the program, makes the sets, finds and evaluates their holes, prints one table and writes it as
 bench/accuracy/results/DATE.csv. Where PCL is installed (libpcl-dev), its boundary points stand beside ours.
 
-  --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all
+  --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all but quick/
   --lacuna PROGRAM    this one, instead of building
   --no-peers          without PCL
   --build DIR         default build
@@ -23,7 +23,7 @@ DETECT_OPTIONS go to every `lacuna detect`: tools/accuracy.sh -- --k 20
 END
 }
 
-only=
+only='^(?!quick/)'
 floors=
 lacuna=
 no_peers=0

@@ -151,7 +151,7 @@ def parse_arguments():
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")
     parser.add_argument("--csv", type=Path, required=True, help="file for every row")
     parser.add_argument("--floors", type=Path, help="what must be found at least; ends with status 1 where it is not")
-    parser.add_argument("--only", default="", help="sets whose GROUP/NAME matches this expression, such as synth/")
+    parser.add_argument("--only", default="^(?!quick/)", help="sets whose GROUP/NAME matches this expression, such as synth/")
     parser.add_argument("detect_options", nargs="*", help="after --: for every lacuna detect")
     arguments = parser.parse_args()
     try:
