@@ -174,7 +174,7 @@ TEST_CASE("a tile in cell order is read whole, by cell, and by runs of cells acr
   CHECK(same(by_run[24 + 3000], filled.points[65 + 3001]));
 }
 
-TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
+TEST_CASE("the tile store refuses more or fewer points than were counted") {
   Filled filled;
   const auto all = filled.of_tile(2);
   TileStore::Filler filler(filled.store, kMemory);
