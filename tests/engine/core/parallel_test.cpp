@@ -142,7 +142,7 @@ TEST_CASE("a thread that waits within a body starts no other body meanwhile") {
     crew.for_each_within(std::vector<std::uint64_t>(3, 1), 3, [&](std::size_t) {
       entangled += bodies_here++ > 0;
       const auto here = std::this_thread::get_id();
-      crew.for_each(4, [&](std::size_t) { work(std::this_thread::get_id() == here ? 10'000 : 100'000); });
+      crew.for_each(4, [&](std::size_t) { work(std::this_thread::get_id() == here ? 50'000 : 2'000'000); });
       --bodies_here;
     });
   }
