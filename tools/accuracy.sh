@@ -10,19 +10,21 @@ usage: tools/accuracy.sh [OPTIONS] [-- DETECT_OPTIONS]
 Builds the program, makes the sets, finds and evaluates their holes, prints one table and writes it as
 bench/accuracy/results/DATE.csv. Where PCL is installed (libpcl-dev), its boundary points stand beside ours.
 
-  --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all
+  --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all but quick/
   --lacuna PROGRAM    this one, instead of building
   --no-peers          without PCL
   --build DIR         default build
   --work DIR          sets and results of runs; sets are kept            default bench/work/accuracy
   --data DIR          the real scans                                     default ../shared/data
+  --floors FILE       fails where fewer loops are found, or more are false, than this says
   --csv FILE          default bench/accuracy/results/DATE.csv
   -h, --help
 DETECT_OPTIONS go to every `lacuna detect`: tools/accuracy.sh -- --k 20
 END
 }
 
-only=
+only='^(?!quick/)'
+floors=
 lacuna=
 no_peers=0
 build=$root/build
@@ -54,6 +56,6 @@ if ((!no_peers)); then
 fi
 
 python3 bench/accuracy/run.py --lacuna "$lacuna" "${pcl[@]}" --work "$work" --data "$data" --csv "$csv" \
-  --only "$only" -- "${detect_options[@]}"
+  --only "$only" ${floors:+--floors "$floors"} -- "${detect_options[@]}"
 echo
 echo "$csv"

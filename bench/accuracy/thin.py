@@ -1,29 +1,52 @@
-"""Uneven scans: a random part of the points of a surface that `lacuna synth surface` has made."""
+"""Uneven scans, made of a surface that `lacuna synth surface` has made."""
 
 import os
 import random
+import struct
 from pathlib import Path
 
-ROW_BYTES = 12  # x y z, float
+ROW = struct.Struct("<fff")
 
 
 def thin(scan, truth, one_in, seed, out):
-    """Writes a random one in so many points to `out` and their true loops beside it: the points that are left of
-    each loop, in its order."""
-    content = Path(scan).read_bytes()
-    body = content.index(b"end_header\n") + len(b"end_header\n")
-    count = (len(content) - body) // ROW_BYTES
+    """Writes a random one in so many points to `out`, and their true loops beside it."""
     draw = random.Random(seed)
-    kept = [vertex for vertex in range(count) if draw.random() < 1 / one_in]
+    rows = read_rows(scan)
+    write_part(rows, [vertex for vertex in range(len(rows)) if draw.random() < 1 / one_in], truth, out)
+
+
+def overlap(scan, truth, one_in, seed, error, out):
+    """Two scans of one surface as one file: a random one in so many points of the lower 60 % in x, then as many of
+    the upper 60 %, `error` higher in z than they should be."""
+    draw = random.Random(seed)
+    rows = read_rows(scan)
+    low, high = min(row[0] for row in rows), max(row[0] for row in rows)
+    share = [(row[0] - low) / (high - low) for row in rows]
+    first = [vertex for vertex in range(len(rows)) if share[vertex] < 0.6 and draw.random() < 1 / one_in]
+    second = [vertex for vertex in range(len(rows)) if share[vertex] > 0.4 and draw.random() < 1 / one_in]
+    # A vertex that both have drawn belongs to the first.
+    second = sorted(set(second) - set(first))
+    for vertex in second:
+        x, y, z = rows[vertex]
+        rows[vertex] = (x, y, z + error)
+    write_part(rows, first + second, truth, out)
+
+
+def read_rows(scan):
+    content = Path(scan).read_bytes()
+    return list(ROW.iter_unpack(content[content.index(b"end_header\n") + len(b"end_header\n"):]))
+
+
+def write_part(rows, kept, truth, out):
+    """True loops: the points that are left of each loop, in its order."""
     place = {vertex: i for i, vertex in enumerate(kept)}
-    rows = b"".join(content[body + ROW_BYTES * vertex:body + ROW_BYTES * (vertex + 1)] for vertex in kept)
     header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kept)}\n"
               "property float x\nproperty float y\nproperty float z\nend_header\n")
     with open(truth, encoding="utf-8") as lines:
         loops = [[place[vertex] for vertex in map(int, line.split()) if vertex in place]
                  for line in lines if not line.startswith("#")]
     partial = Path(f"{out}.partial")
-    partial.write_bytes(header.encode() + rows)
+    partial.write_bytes(header.encode() + b"".join(ROW.pack(*rows[vertex]) for vertex in kept))
     out.with_suffix(".loops.txt").write_text(
         f"# one boundary loop per line, 0-based point ids of {out.name}\n"
         + "".join(" ".join(map(str, loop)) + "\n" for loop in loops if loop), encoding="utf-8")

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
 
 namespace lacuna {
 
@@ -15,12 +14,8 @@ struct IndexedCell {
   std::int32_t points, tile;  // with copies; -1: in several tiles
 };
 
-// Writes grids `points` and `tile`. Memory: 600 KB for each cell that is far from all others. Throws `Error`
-// where it cannot, or where the module that can, lacuna_vdb.so beside the program, is missing.
+// Writes grids `points` and `tile`. Memory: 600 KB for each cell that is far from all others. Throws `Error` where it
+// cannot.
 void save_index(const CellGrid& grid, std::span<const IndexedCell> cells, const std::filesystem::path& file);
-
-// Returns what went wrong, empty if nothing did. `edge`: of the cells.
-using WriteIndex = std::string(double edge, std::span<const IndexedCell> cells,
-                               const std::filesystem::path& file);
 
 }  // namespace lacuna

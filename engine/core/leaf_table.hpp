@@ -15,10 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include <openvdb/version.h>
-// Leaves that are always in memory, as they will be in OpenVDB to come, need nothing but its headers.
-// Starting a program with the library takes 45 ms: its linker looks up 68,000 names.
-#undef OPENVDB_USE_DELAYED_LOADING
 #include <openvdb/tree/LeafNode.h>
 
 namespace lacuna {

@@ -1,15 +1,59 @@
-// The engine against what another program made of real scans: ../shared/golden.
+// The engine against golden results: of made clouds by the plain reference (tests/data), and of real scans by
+// another program (../shared/golden).
 #include "tests/support/golden.hpp"
 
 #include "engine/stages/evaluate.hpp"
 #include "engine/stages/neighbourhoods.hpp"
 #include "tests/support/detected.hpp"
+#include "tests/support/made_golden.hpp"
 #include "tests/support/tile.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
+
+GoldenOutcome outcome_of(const Detected& detected) {
+  GoldenOutcome outcome;
+  for (const PointResult& p : detected.points) {
+    outcome.points.push_back(
+        {std::uint32_t(std::lround(p.probability * 0x1p24)), p.coherent != 0, p.boundary != 0});
+  }
+  outcome.loops = detected.loop_ids();
+  std::sort(outcome.loops.begin(), outcome.loops.end());
+  return outcome;
+}
+
+TEST_CASE("the engine gives the golden results of made clouds, whatever the tiles") {
+  for (const GoldenCase& golden : golden_cases()) {
+    const Cloud cloud = read_golden_cloud(golden.cloud);
+    const GoldenOutcome expected = read_golden_outcome(golden);
+    REQUIRE(expected.points.size() == cloud.size());
+    for (const std::int64_t tile_points : {20, 150, 100'000}) {
+      INFO(golden.name() << ", " << tile_points << " points a tile");
+      const GoldenOutcome found = outcome_of(run_engine(cloud, tiled(golden.config, tile_points)));
+      REQUIRE(found.points.size() == expected.points.size());
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < found.points.size(); ++i) wrong += found.points[i] != expected.points[i];
+      CHECK(wrong == 0);
+      CHECK(found.loops == expected.loops);
+    }
+  }
+}
+
+TEST_CASE("the golden results of made clouds are those of the plain reference, and not empty") {
+  for (const GoldenCase& golden : golden_cases()) {
+    INFO(golden.name());
+    const GoldenOutcome expected = read_golden_outcome(golden);
+    const GoldenOutcome found = plain_outcome(read_golden_cloud(golden.cloud), golden.config);
+    CHECK(!expected.loops.empty());
+    CHECK(found.points == expected.points);
+    CHECK(found.loops == expected.loops);
+  }
+}
 
 TEST_CASE("the engine gives the golden probabilities, coherence and loops, in tiles of 3,000 points") {
   const auto shared = shared_folder();

@@ -3,6 +3,7 @@
 #include "io/file_scan.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
+#include "tests/support/skip.hpp"
 
 #include <filesystem>
 
@@ -33,7 +34,7 @@ void check_tiling(const std::string& name, const std::vector<Setting>& settings,
   const auto shared = shared_folder();
   if (!shared) return;
   if (!std::filesystem::exists(*shared / "data" / name)) {
-    WARN("no " << name << ": skipped");
+    test::skip("no " + name);
     return;
   }
   const std::filesystem::path file = *shared / "data" / name;

@@ -6,6 +6,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/skip.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -186,7 +187,7 @@ TEST_CASE("without permission to read or to write there is one line that names t
   const std::string scan = scratch.write("open/scan.ply", binary_ply(plane(12)));
   const std::string out = (root / "out").string();
   if (test::run_command(as_nobody({"--version"})).exit_code != 0) {
-    WARN("cannot run the program as another user: skipped");
+    test::skip("cannot run the program as another user");
     return;
   }
   REQUIRE(test::run_command(as_nobody({"detect", scan, "--out", out, "--quiet"})).exit_code == 0);
@@ -239,7 +240,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
        {"8k", "64k", "256k", "512k", "1m", "1536k", "2m", "2560k", "3m", "4m", "64m"}) {
     const SmallDisk disk(scratch / "disk", size);
     if (!disk.mounted()) {
-      WARN("cannot mount a small disk: skipped");
+      test::skip("cannot mount a small disk");
       return;
     }
     INFO("workspace on a disk of " << size);

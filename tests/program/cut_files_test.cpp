@@ -44,12 +44,12 @@ struct Run {
 
 TEST_CASE("a file of the workspace that is cut short during the run ends it with one line that names it") {
   for (const auto& [method, file] :
-       std::vector<std::pair<std::string, std::string>>{{"stars", "points"},
-                                                        {"stars", "links"},
-                                                        {"stars", "seats"},
-                                                        {"stars", "results"},
-                                                        {"stars", "loop-points"},
-                                                        {"stars", "waiting-sight"},
+       std::vector<std::pair<std::string, std::string>>{{"tangential", "points"},
+                                                        {"tangential", "links"},
+                                                        {"tangential", "seats"},
+                                                        {"tangential", "results"},
+                                                        {"tangential", "loop-points"},
+                                                        {"tangential", "waiting-sight"},
                                                         {"paper", "strengths"}}) {
     INFO(file << ", --method " << method);
     const Run run(method);
@@ -67,7 +67,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
 }
 
 TEST_CASE("a killed run leaves an empty workspace") {
-  const Run run("stars");
+  const Run run("tangential");
   const ProgramResult result = test::run_program_beside(run.arguments, [](pid_t program) {
     if (test::has_open(program, "links")) kill(program, SIGKILL);
   });

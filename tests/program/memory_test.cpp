@@ -50,7 +50,7 @@ std::string write_scan(const test::ScratchFolder& scratch, const Cloud& cloud) {
 void check_limit(const Cloud& cloud) {
   const test::ScratchFolder scratch;
   const std::string scan = write_scan(scratch, cloud);
-  for (const char* method : {"stars", "paper"}) {
+  for (const char* method : {"tangential", "paper"}) {
     const test::ProgramResult result =
         test::run_program({"detect", scan, "--out", (scratch / method).string(), "--quiet", "--points",
                            "--method", method, "--threads", "2", "--memory-limit", "64MiB"});

@@ -1,6 +1,7 @@
 #include "tests/support/golden.hpp"
 
 #include "io/file_scan.hpp"
+#include "tests/support/skip.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ std::optional<std::filesystem::path> shared_folder() {
       named ? std::filesystem::path(named)
             : std::filesystem::path(LACUNA_SOURCE_DIR).parent_path() / "shared";
   if (!std::filesystem::is_directory(folder)) {
-    WARN("no shared folder: skipped");
+    test::skip(folder.string() + " is not there");
     return std::nullopt;
   }
   return folder;

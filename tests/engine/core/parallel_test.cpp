@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <stdexcept>
@@ -16,7 +17,27 @@
 namespace lacuna {
 namespace {
 
-using namespace std::chrono_literals;
+// A latch with a bound, which only keeps a failing test from hanging.
+class BoundedLatch {
+ public:
+  // Returns when `count` threads have arrived; false where they have not within a minute.
+  bool arrive_and_wait(int count) {
+    std::unique_lock lock(mutex_);
+    ++arrived_;
+    changed_.notify_all();
+    return changed_.wait_for(lock, std::chrono::minutes(1), [&] { return arrived_ >= count; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int arrived_ = 0;
+};
+
+// Takes as much work on every machine, however busy it is with other things.
+void work(int steps) {
+  for (int i = 0; i < steps; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);  // keeps the loop
+}
 
 TEST_CASE("every index is visited once, with any number of threads") {
   for (const std::size_t threads : {1, 2, 8}) {
@@ -33,16 +54,11 @@ TEST_CASE("every index is visited once, with any number of threads") {
 TEST_CASE("eight threads are eight, even on two cores") {
   const Crew crew(8);
   CHECK(crew.threads() == 8);
-  std::atomic<int> inside = 0, most = 0;
-  const auto deadline = std::chrono::steady_clock::now() + 10s;
-  crew.for_each_within(std::vector<std::uint64_t>(8, 1), 8, [&](std::size_t) {
-    most = std::max<int>(most, ++inside);
-    while (most < 8 && std::chrono::steady_clock::now() < deadline) {
-      most = std::max<int>(most, inside);
-      std::this_thread::sleep_for(1ms);
-    }
-  });
-  CHECK(most == 8);
+  BoundedLatch latch;
+  std::atomic<int> together = 0;
+  crew.for_each_within(std::vector<std::uint64_t>(8, 1), 8,
+                       [&](std::size_t) { together += latch.arrive_and_wait(8); });
+  CHECK(together == 8);
 }
 
 TEST_CASE("one thread runs one body at a time, in ascending order") {
@@ -57,28 +73,31 @@ TEST_CASE("bodies that run together never need more than the budget, save one al
   const Crew crew(8);
   Random random(1);
   constexpr std::uint64_t kBudget = 100;
-  std::vector<std::uint64_t> needs;
+  std::vector<std::uint64_t> needs = {50, 50};  // these two run together
   for (int i = 0; i < 300; ++i)
     needs.push_back(std::uint64_t(random.chance(0.05) ? 250 : random.whole(0, 60)));
+  BoundedLatch first_two;
+  std::atomic<int> together = 0;
   std::mutex mutex;
-  std::uint64_t used = 0, running = 0, most_running = 0;
+  std::uint64_t used = 0, running = 0;
   std::size_t over = 0;
   std::vector<std::size_t> started;
   crew.for_each_within(needs, kBudget, [&](std::size_t i) {
     {
       const std::lock_guard lock(mutex);
       used += needs[i];
-      most_running = std::max(most_running, ++running);
+      ++running;
       over += used > kBudget && running > 1;
       started.push_back(i);
     }
-    std::this_thread::sleep_for(200us);
+    if (i < 2) together += first_two.arrive_and_wait(2);
+    work(5'000);
     const std::lock_guard lock(mutex);
     used -= needs[i];
     --running;
   });
   CHECK(over == 0);
-  CHECK(most_running > 1);
+  CHECK(together == 2);
   CHECK(started.size() == needs.size());
 }
 
@@ -114,7 +133,7 @@ TEST_CASE("a body may itself use the crew") {
 }
 
 // It could wait for the memory of the one that is on its own stack: for ever. Threads that help are slow, so
-// that there is something to wait for.
+// that the thread has to wait for them.
 TEST_CASE("a thread that waits within a body starts no other body meanwhile") {
   static thread_local int bodies_here = 0;
   std::atomic<int> entangled = 0;
@@ -123,9 +142,7 @@ TEST_CASE("a thread that waits within a body starts no other body meanwhile") {
     crew.for_each_within(std::vector<std::uint64_t>(3, 1), 3, [&](std::size_t) {
       entangled += bodies_here++ > 0;
       const auto here = std::this_thread::get_id();
-      crew.for_each(4, [&](std::size_t) {
-        std::this_thread::sleep_for(std::this_thread::get_id() == here ? 100us : 1000us);
-      });
+      crew.for_each(4, [&](std::size_t) { work(std::this_thread::get_id() == here ? 50'000 : 2'000'000); });
       --bodies_here;
     });
   }
@@ -146,7 +163,7 @@ TEST_CASE("a pipeline consumes in the order produced, and no slot is used again 
           return true;
         },
         [&](std::size_t s) {
-          if (slot[s] % 7 == 0) std::this_thread::sleep_for(300us);
+          if (slot[s] % 7 == 0) work(20'000);
           slot[s] *= 2;
         },
         [&](std::size_t s) {

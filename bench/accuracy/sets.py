@@ -1,0 +1,195 @@
+"""The scans whose holes are known, group by group: how each is made, or where it lies. See README.md."""
+
+import itertools
+import json
+import random
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from mesh import cut_balls, read_mesh, write_mesh
+from range_map import SCENES, range_map
+from thin import overlap, thin
+
+SYNTH_KINDS = ["plane", "waves", "cylinder", "torus", "sphere-cap"]
+CLOSED_KINDS = ["torus", "sphere", "cube"]
+NOISES = [0, 0.25, 0.5]  # spacings
+RANGE_NOISES = [0, 0.1, 0.3]  # steps of the grid of rays
+
+
+@dataclass
+class Set:
+    group: str
+    name: str
+    scan: Path
+    truth: Path  # of true loops, or a mesh that is the scan too
+    min_vertices: int = 8
+    make: Callable[[], None] = lambda: None
+
+    def ensure(self):
+        """Made sets are kept for the next time."""
+        if not (self.scan.exists() and self.truth.exists()):
+            self.make()
+
+
+def fail(reason):
+    raise SystemExit(f"accuracy: {reason}")
+
+
+def run(command):
+    """What a program says on stdout; ends with its own words where it fails."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        fail(f"status {done.returncode} of: {' '.join(map(str, command))}\n{done.stderr.strip()}")
+    return done.stdout
+
+
+def surface(arguments, group, name, options):
+    scan = arguments.work / "sets" / f"{name}.ply"
+    return Set(group, name, scan, scan.with_suffix(".loops.txt"), 16,
+               lambda: run([arguments.lacuna, "synth", "surface", scan, *options]))
+
+
+def from_dense(arguments, group, name, options, points, write):
+    """`write` makes the scan of a surface with half the spacing, four times the density."""
+    scan = arguments.work / "sets" / f"{name}.ply"
+
+    def make():
+        dense = arguments.work / "dense.ply"
+        run([arguments.lacuna, "synth", "surface", dense, "--spacing", 0.005, "--points", points, "--jitter", 0.5,
+             *options])
+        write(dense, dense.with_suffix(".loops.txt"), scan)
+
+    return Set(group, name, scan, scan.with_suffix(".loops.txt"), 8, make)
+
+
+def uneven_surface(arguments, group, name, options, seed, points=160_000):
+    """One in four points: sampled as if each point knew of no other."""
+    return from_dense(arguments, group, name, options, points,
+                      lambda dense, truth, scan: thin(dense, truth, 4, seed, scan))
+
+
+def overlapping_surface(arguments, group, name, options, seed, points):
+    """Two scans of it, the second 0.3 spacings too high."""
+    return from_dense(arguments, group, name, options, points,
+                      lambda dense, truth, scan: overlap(dense, truth, 4, seed, 0.003, scan))
+
+
+def synth_sets(arguments):
+    variants = {"noise0": ["--points", 40_000],
+                "noise25-random": ["--points", 40_000, "--noise", 0.25, "--order", "random"],
+                "noise50": ["--points", 40_000, "--noise", 0.5],
+                "factor4": ["--points", 40_000, "--density-factor", 4],
+                # The holes keep to the dense half, which must have room for them.
+                "step4": ["--points", 48_000, "--density-step", 4]}
+    for seed, kind in enumerate(SYNTH_KINDS, start=1):
+        for variant, options in variants.items():
+            yield surface(arguments, "synth", f"{kind}-{variant}",
+                          ["--kind", kind, "--holes", 13, "--hole-radius", 4, 12, "--seed", seed, *options])
+
+
+def uneven_sets(arguments):
+    for seed, kind in enumerate(SYNTH_KINDS, start=1):
+        for noise in NOISES:
+            yield uneven_surface(arguments, "uneven", f"uneven-{kind}-noise{round(100 * noise)}",
+                                 ["--kind", kind, "--holes", 13, "--hole-radius", 8, 24, "--seed", seed,
+                                  "--noise", 2 * noise], seed)
+
+
+def closed_sets(arguments):
+    for seed, kind in enumerate(CLOSED_KINDS, start=11):
+        for noise in NOISES:
+            options = ["--kind", kind, "--holes", 0, "--seed", seed]
+            name = f"{kind}-noise{round(100 * noise)}"
+            yield surface(arguments, "closed", f"closed-{name}", [*options, "--points", 40_000, "--noise", noise])
+            yield uneven_surface(arguments, "closed-uneven", f"closed-uneven-{name}",
+                                 [*options, "--noise", 2 * noise], seed)
+
+
+def real(arguments, name):
+    """A real scan; none where it is not there."""
+    file = arguments.data / name
+    if file.exists():
+        return file
+    print(f"accuracy: {file} is not there: its sets are skipped", file=sys.stderr)
+    return None
+
+
+def made_mesh(arguments, group, name, make):
+    """A mesh that `make` returns, scan and truth in one."""
+    file = arguments.work / "sets" / f"{name}.ply"
+    return Set(group, name, file, file, make=lambda: write_mesh(make(), file))
+
+
+def spacing_of(arguments, mesh):
+    none = arguments.work / "none.loops.txt"
+    none.write_text("# no loops\n", encoding="utf-8")
+    return json.loads(run([arguments.lacuna, "evaluate", none, mesh, "--json"]))["spacing"]
+
+
+def cut_mesh(arguments, file, seed):
+    draw = random.Random(seed)
+    radii = [draw.uniform(4, 20) for _ in range(15)]
+    return cut_balls(read_mesh(file), spacing_of(arguments, file), radii, margin=6, seed=seed)
+
+
+def mesh_sets(arguments):
+    if bunny := real(arguments, "bun_zipper.ply"):
+        yield Set("meshes", "bunny", bunny, bunny)
+        for seed in (1, 2, 3):
+            yield made_mesh(arguments, "meshes", f"bunny-cut{seed}",
+                            lambda seed=seed: cut_mesh(arguments, bunny, seed))
+
+
+def range_sets(arguments):
+    if lato := real(arguments, "lato000.ply"):
+        yield Set("range", "lato000", lato, lato)
+        yield made_mesh(arguments, "range", "lato000-no-strays", lambda: read_mesh(lato).without(set()))
+    if (scan := real(arguments, "bun000.ply")) and (truth := real(arguments, "bun000.loops.txt")):
+        yield Set("range", "bun000", scan, truth)
+
+
+def range_made_sets(arguments):
+    for number, (scene, view) in enumerate(itertools.product(SCENES, ("orthographic", "perspective"))):
+        noise = RANGE_NOISES[number % 3]
+        strays = number % 4 in (1, 2)  # so in half of the sets of each noise and of each view
+        name = f"{scene}-{view}-noise{round(100 * noise)}{'-strays' if strays else ''}"
+        yield made_mesh(arguments, "range-made", name,
+                        lambda made=(scene, view == "perspective", noise, strays, number): range_map(*made))
+
+
+def quick_sets(arguments):
+    """Small ones of every kind, for tools/check.sh."""
+    def holes(kind, *options):
+        return ["--kind", kind, "--holes", 8, "--hole-radius", 4, 10, "--seed", 21, *options]
+
+    def dense_holes(kind, *options):
+        return ["--kind", kind, "--holes", 8, "--hole-radius", 8, 20, "--seed", 22, *options]
+
+    for name, options in {
+            "jittered": holes("plane", "--points", 16_000),
+            "noise": holes("waves", "--points", 16_000, "--noise", 0.5),
+            "random-order": holes("cylinder", "--points", 16_000, "--noise", 0.25, "--order", "random"),
+            "density-factor": holes("torus", "--points", 30_000, "--density-factor", 4),
+            "density-step": holes("sphere-cap", "--points", 32_000, "--density-step", 4),
+            "far-away": holes("plane", "--points", 16_000, "--spacing", 0.002, "--double",
+                              "--translate", 500_000, 5_400_000, 300),
+            "closed": ["--kind", "sphere", "--holes", 0, "--points", 16_000, "--noise", 0.5],
+            "closed-edges": ["--kind", "cube", "--holes", 0, "--points", 16_000, "--noise", 0.25]}.items():
+        yield surface(arguments, "quick", f"quick-{name}", options)
+    for seed in (1, 2, 3):
+        for kind in ("waves", "torus"):
+            yield uneven_surface(arguments, "quick", f"quick-uneven-{kind}-{seed}",
+                                 dense_holes(kind, "--noise", 0.5), seed, 64_000)
+        yield uneven_surface(arguments, "quick", f"quick-uneven-closed-{seed}",
+                             ["--kind", "sphere", "--holes", 0, "--noise", 0.5], seed, 64_000)
+    yield overlapping_surface(arguments, "quick", "quick-overlapping", dense_holes("plane"), 1, 64_000)
+    for scene, perspective, noise, strays in (("table", False, 0, True), ("wall", True, 0.1, False)):
+        yield made_mesh(arguments, "quick", f"quick-range-{scene}",
+                        lambda made=(scene, perspective, noise, strays, 31): range_map(*made))
+
+
+# By group; a group of the table may be one of several that a function yields.
+GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets, range_made_sets, quick_sets]

@@ -1,0 +1,16 @@
+// Skipped tests. Catch2 v2 knows only passed and failed ones, so a skipped test has an exit code of its own.
+#pragma once
+
+#include <string>
+
+namespace lacuna::test {
+
+inline constexpr int kSkippedExitCode = 77;  // SKIP_RETURN_CODE in tests/CMakeLists.txt
+
+// Marks the running test case as skipped and prints why. The caller returns from the test.
+void skip(const std::string& reason);
+
+// Whether every test case that ran was skipped.
+bool all_were_skipped();
+
+}  // namespace lacuna::test
