@@ -14,7 +14,7 @@ def neighbourhood(path):
     nearest, around = neighbourhoods(points, 15)
     p = nearest_to(points, (-0.45, 0.1))
     page = Page(700, 400, "Symmetric neighbourhood at a density step")
-    panel = page.panel(20, 20, 440, 360, (0.3, 0.0), 8.2)
+    panel = page.panel(20, 20, 410, 360, (0.3, 0.0), 8.2)
     added = [q for q in around[p] if q not in nearest[p]]
     panel.dots(points, LINE, 3.4)
     panel.lines([(points[p], points[q]) for q in nearest[p]], BLUE, 1.4)
@@ -24,14 +24,14 @@ def neighbourhood(path):
     panel.dots([points[q] for q in added], ORANGE, 4.5)
     panel.dots([points[p]], INK, 6)
     panel.label(points[p], "p", -16, 5, weight="bold")
-    page.legend(478, 50, [("dot", INK, "the point p"), ("dot", BLUE, "its 15 nearest points"),
+    page.legend(448, 50, [("dot", INK, "the point p"), ("dot", BLUE, "its 15 nearest points"),
                           ("dot", ORANGE, "points that count p"), ])
-    page.text(503, 111, "among their 15 nearest")
-    page.text(478, 150, "Neighbourhood of p:")
-    page.text(478, 170, f"{len(around[p])} points, blue and orange.", weight="bold")
-    page.text(478, 205, "The 15 nearest alone reach", MUTED)
-    page.text(478, 225, "hardly beyond the step in density:", MUTED)
-    page.text(478, 245, "p would look like a boundary.", MUTED)
+    page.text(473, 111, "among their 15 nearest")
+    page.text(448, 150, "Neighbourhood of p:")
+    page.text(448, 170, f"{len(around[p])} points, blue and orange.", weight="bold")
+    page.text(448, 205, "The 15 nearest alone reach", MUTED)
+    page.text(448, 225, "hardly beyond the density step:", MUTED)
+    page.text(448, 245, "p would look like a boundary.", MUTED)
     page.write(path)
 
 
@@ -46,7 +46,7 @@ def two_points():
 
 def angle(path):
     points, around, found = two_points()
-    page = Page(700, 400, "Angle criterion: the largest gap")
+    page = Page(700, 424, "Angle criterion: the largest gap")
     for i, (name, p) in enumerate(found.items()):
         e = evaluate(points, p, around[p])
         at = points[p]
@@ -64,9 +64,10 @@ def angle(path):
         panel.dots([points[q] for q in e.gap], ORANGE, 5.5)
         panel.dots([at], INK, 6)
         page.text(20 + 340 * i, 345, name[0].upper() + name[1:], weight="bold")
-        page.text(20 + 340 * i, 366, f"{len(e.directions)} directions, largest gap {math.degrees(e.gap_angle):.0f}\u00b0,")
-        page.text(20 + 340 * i, 386, f"angle criterion {e.angle:.2f}")
-    page.legend(480, 345, [("fill", "#f5d7b0", "the largest gap"), ("dot", ORANGE, "gap neighbours of p")])
+        words = f"{len(e.directions)} directions, gap {math.degrees(e.gap_angle):.0f}\u00b0, criterion {e.angle:.2f}"
+        page.text(20 + 340 * i, 366, words)
+    page.legend(20, 402, [("fill", "#f5d7b0", "largest gap"), ("dot", ORANGE, "gap neighbours"),
+                          ("dot", BLUE, "other neighbours"), ("dot", INK, "point p")], 170)
     page.write(path)
 
 
@@ -95,7 +96,7 @@ def halfdisc(path):
 
 
 def shape(path):
-    points = patch(34, [(11.0, 11.0, 4.2), (22.0, 20.0, 3.4)], 0.5, 0.08, seed=2)
+    points = patch(34, [(11.0, 11.0, 4.2), (22.0, 20.0, 3.4)], 0.5, 0.2, seed=2)
     _, around = neighbourhoods(points, 15)
 
     def is_boundary(p):
@@ -108,7 +109,7 @@ def shape(path):
         return (shape[0] - shape[1]) / math.sqrt(2), (2 * shape[2] - shape[0] - shape[1]) / math.sqrt(6)
 
     page = Page(700, 400, "Shape criterion: normalised eigenvalues")
-    panel = page.panel(20, 20, 440, 360, (0.36, -0.185), 0.86)
+    panel = page.panel(20, 20, 410, 360, (0.345, -0.19), 1.04)
     corners = [CHARACTERISTIC[name] for name in ("corner", "interior", "line")]
     panel.path([place(c) for c in corners], MUTED, 1.4, closed=True)
     for name, color in (("boundary", ORANGE), ("interior", BLUE), ("corner", MUTED), ("line", MUTED)):
@@ -117,19 +118,19 @@ def shape(path):
     shapes = [(is_boundary(points[p]), place(evaluate(points, p, around[p]).shape)) for p in range(len(points))]
     panel.dots([s for boundary, s in shapes if not boundary], BLUE, 1.7)
     panel.dots([s for boundary, s in shapes if boundary], ORANGE, 1.9)
-    for name, dx, dy, words in (("boundary", -42, 34, "boundary"), ("interior", -6, 28, "interior"),
+    for name, dx, dy, words in (("boundary", -36, 36, "boundary"), ("interior", -8, 24, "interior"),
                                 ("corner", 12, -2, "corner, noise"), ("line", -20, 24, "line")):
         panel.dots([place(CHARACTERISTIC[name])], INK, 4.5)
         panel.label(place(CHARACTERISTIC[name]), words, dx, dy, weight="bold")
     panel.dots([place(CENTROID)], INK, 3)
     panel.label(place(CENTROID), "c", 8, 4)
-    page.legend(478, 50, [("dot", BLUE, "interior points of a scan"), ("dot", ORANGE, "its boundary points"),
+    page.legend(448, 50, [("dot", BLUE, "interior points of a scan"), ("dot", ORANGE, "its boundary points"),
                           ("dot", INK, "characteristic points")])
-    page.text(478, 130, "Circles: widths of the kernels,", MUTED)
-    page.text(478, 150, "a third of the distance to c.", MUTED)
-    page.text(478, 185, "The triangle holds all possible", MUTED)
-    page.text(478, 205, "shapes. Its lower side holds flat", MUTED)
-    page.text(478, 225, "ones, whose smallest eigenvalue is 0.", MUTED)
+    page.text(448, 130, "Circles: widths of the kernels,", MUTED)
+    page.text(448, 150, "a third of the distance to c.", MUTED)
+    page.text(448, 185, "The triangle holds all possible", MUTED)
+    page.text(448, 205, "shapes. Its lower side holds flat", MUTED)
+    page.text(448, 225, "ones: the smallest eigenvalue is 0.", MUTED)
     page.write(path)
 
 

@@ -11,8 +11,8 @@ HOLE = (9.0, 8.0, 2.9)
 LIGHT_ORANGE, LIGHT_GREEN = "#f5d7b0", "#cfe6d8"
 
 
-def surface(noise=0.12, seed=4, jitter=0.45):
-    return Surface(patch(18, [HOLE], jitter, noise, seed))
+def surface(noise=0.12, seed=4, jitter=0.45, threshold=0.5):
+    return Surface(patch(18, [HOLE], jitter, noise, seed), is_seed=lambda e: e.probability > threshold)
 
 
 def hole_curve(scan):
@@ -31,9 +31,9 @@ def consistent_triangles(scan):
 
 
 def active(path):
-    scan = surface()
+    scan = surface(0.3, threshold=0.8)
     page = Page(700, 440, "Active points around a hole")
-    panel = page.panel(20, 20, 440, 400, (9, 8), 11)
+    panel = page.panel(20, 20, 410, 400, (9, 8), 11)
     for t in sorted(consistent_triangles(scan)):
         panel.path(corners(scan, *t), "#a9c3da", 0.8, FILL, closed=True)
     bad = {tuple(sorted((p, a, b))) for p in scan.active for _, a, b in scan.stars[p].triangles()
@@ -43,20 +43,20 @@ def active(path):
     panel.dots(scan.points, MUTED, 3)
     panel.dots([scan.points[p] for p in sorted(scan.active - scan.seeds)], ORANGE, 5)
     panel.dots([scan.points[p] for p in sorted(scan.seeds)], RED, 5)
-    page.legend(478, 50, [("dot", RED, "seed: \u03a0 > threshold"), ("dot", ORANGE, "active, not a seed"),
+    page.legend(448, 50, [("dot", RED, "seed: \u03a0 > threshold, 0.8 here"), ("dot", ORANGE, "active, not a seed"),
                           ("dot", MUTED, "not active"), ("fill", FILL, "consistent triangle"),
                           ("dash", RED, "inconsistent, in bound")])
-    page.text(478, 180, "Triangles over the bound are", MUTED)
-    page.text(478, 200, "inconsistent, too; they fill the", MUTED)
-    page.text(478, 220, "hole and are not drawn.", MUTED)
-    page.text(478, 255, "Activity passes from an active", MUTED)
-    page.text(478, 275, "point to the vertices of the", MUTED)
-    page.text(478, 295, "inconsistent triangles around it.", MUTED)
+    page.text(448, 180, "Triangles over the bound are", MUTED)
+    page.text(448, 200, "inconsistent, too; they fill the", MUTED)
+    page.text(448, 220, "hole and are not drawn.", MUTED)
+    page.text(448, 255, "Activity passes from an active", MUTED)
+    page.text(448, 275, "point to the vertices of the", MUTED)
+    page.text(448, 295, "inconsistent triangles around it.", MUTED)
     page.write(path)
 
 
 def star(path):
-    scan = surface(0.0)
+    scan = surface(0.0, jitter=0.3)
     p = nearest_to(scan.points, (4, 12))
     s, at = scan.stars[p], scan.points[p]
     page = Page(700, 430, "Star of a point, and its dual")
@@ -70,7 +70,7 @@ def star(path):
     left.dots(link, BLUE, 5)
     left.dots([at], INK, 6)
     left.label(at, "p", 9, 4, weight="bold")
-    right = page.panel(360, 20, 320, 320, (0, 0), 3.1)
+    right = page.panel(360, 20, 320, 320, (0, 0), 2.3 * max(math.hypot(x, y) for x, y in s.inverted))
     right.path(s.inverted, BLUE, 1.6, FILL, closed=True)
     right.dots([(x, y) for x, y, q in s.seen if q not in s.link], MUTED, 4)
     right.dots(s.inverted, BLUE, 5)
@@ -98,7 +98,7 @@ def bound(path):
     p = min(curve, key=lambda q: (math.dist(scan.points[q][:2], (HOLE[0] - HOLE[2], HOLE[1])), q))
     s, at = scan.stars[p], scan.points[p]
     page = Page(700, 400, "Circumradii of a star and their bound")
-    panel = page.panel(20, 20, 440, 360, (at[0] + 0.9, at[1]), 7.6)
+    panel = page.panel(20, 20, 410, 360, (at[0] + 0.9, at[1]), 7.6)
     panel.dots(scan.points, LINE, 3.4)
     n = len(s.link)
     for i in range(n):
@@ -109,17 +109,17 @@ def bound(path):
         panel.circle((at[0] + s.centre[i][0], at[1] + s.centre[i][1]), s.radius[i], color, 0.9, dash=not inside)
     panel.dots([scan.points[q] for q in s.link], BLUE, 4.5)
     panel.dots([at], INK, 6)
-    page.legend(478, 50, [("dot", INK, "a point at a hole"), ("dot", BLUE, "its link vertices"),
+    page.legend(448, 50, [("dot", INK, "a point at a hole"), ("dot", BLUE, "its link vertices"),
                           ("fill", FILL, "triangles within the bound"), ("dash", RED, "beyond it, with circle")])
-    page.text(478, 155, f"Median radius M = {s.median:.2f},", INK)
-    page.text(478, 175, f"radius spread S = {s.spread:.2f}:", INK)
-    page.text(478, 195, f"bound R = 1.5 M + S = {s.bound:.2f}.", INK, weight="bold")
+    page.text(448, 155, f"Median radius M = {s.median:.2f},", INK)
+    page.text(448, 175, f"radius spread S = {s.spread:.2f}:", INK)
+    page.text(448, 195, f"bound R = 1.5 M + S = {s.bound:.2f}.", INK, weight="bold")
     y = 230
-    page.text(478, y, "Circumradii of the star:", MUTED)
+    page.text(448, y, "Circumradii of the star:", MUTED)
     for i in range(n):
         y += 20
         words = f"{s.radius[i]:.2f}" + (f"   excess radius {s.excess(i):.1f}" if s.radius[i] > s.bound else "")
-        page.text(490, y, words, RED if s.radius[i] > s.bound else BLUE)
+        page.text(460, y, words, RED if s.radius[i] > s.bound else BLUE)
     page.write(path)
 
 
@@ -158,7 +158,7 @@ def wedges(path):
     scan = surface()
     curve = hole_curve(scan)
     page = Page(700, 440, "Boundary wedges chained to a curve")
-    panel = page.panel(20, 20, 440, 400, HOLE[:2], 10)
+    panel = page.panel(20, 20, 410, 400, HOLE[:2], 10)
     for t in sorted(consistent_triangles(scan)):
         panel.path(corners(scan, *t), "#a9c3da", 0.8, FILL, closed=True)
     on_curve = {p for p, _ in curve}
@@ -173,13 +173,13 @@ def wedges(path):
     panel.path([scan.points[p] for p, _ in curve], RED, 2.8, closed=True)
     panel.dots(scan.points, MUTED, 3)
     panel.dots([scan.points[p] for p, _ in curve], INK, 4.5)
-    page.legend(478, 50, [("fill", FILL, "consistent triangle"), ("fill", LIGHT_ORANGE, "boundary wedge"),
+    page.legend(448, 50, [("fill", FILL, "consistent triangle"), ("fill", LIGHT_ORANGE, "boundary wedge"),
                           ("line", RED, "boundary curve"), ("dot", INK, "its points")])
-    page.text(478, 160, "A wedge ends at two boundary", MUTED)
-    page.text(478, 180, "edges. Each edge ends one wedge", MUTED)
-    page.text(478, 200, "at either of its points, so the", MUTED)
-    page.text(478, 220, "wedges chain to a closed curve:", MUTED)
-    page.text(478, 240, f"here {len(curve)} points.", MUTED)
+    page.text(448, 160, "A wedge ends at two boundary", MUTED)
+    page.text(448, 180, "edges. Each edge ends one wedge", MUTED)
+    page.text(448, 200, "at either of its points, so the", MUTED)
+    page.text(448, 220, "wedges chain to a closed curve:", MUTED)
+    page.text(448, 240, f"here {len(curve)} points.", MUTED)
     page.write(path)
 
 
@@ -191,18 +191,18 @@ def msg(path):
     loops = paper_loops(graph)
     loop = min(loops, key=lambda l: max(math.dist(scan.points[p][:2], HOLE[:2]) for p in l))
     page = Page(700, 440, "Minimum spanning graph and its loop")
-    panel = page.panel(20, 20, 440, 400, HOLE[:2], 10)
+    panel = page.panel(20, 20, 410, 400, HOLE[:2], 10)
     panel.lines([(scan.points[p], scan.points[q]) for _, p, q in edges], LINE, 1)
     panel.lines([(scan.points[p], scan.points[q]) for p in range(len(graph)) for q in sorted(graph[p]) if p < q], BLUE, 1.8)
     panel.path([scan.points[p] for p in loop], RED, 3, closed=True)
     panel.dots(scan.points, MUTED, 3)
     panel.dots([scan.points[p] for p in sorted(scan.seeds)], ORANGE, 4.5)
     panel.dots([scan.points[loop[0]]], INK, 6)
-    page.legend(478, 50, [("dot", ORANGE, "candidate: \u03a0 > threshold"), ("line", LINE, "eligible edge"),
+    page.legend(448, 50, [("dot", ORANGE, "candidate: \u03a0 > threshold"), ("line", LINE, "eligible edge"),
                           ("line", BLUE, "edge of the spanning graph"), ("line", RED, f"loop of {len(loop)} edges"),
                           ("dot", INK, "origin of the search")])
-    page.text(478, 180, f"An edge that closes a loop needs", MUTED)
-    page.text(478, 200, f"more than e = {e} edges on it.", MUTED)
+    page.text(448, 180, "An edge that closes a loop needs", MUTED)
+    page.text(448, 200, f"more than e = {e} edges on it.", MUTED)
     page.write(path)
 
 

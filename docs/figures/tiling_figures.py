@@ -8,7 +8,7 @@ from svg import BLUE, FILL, INK, LINE, MUTED, ORANGE, RED, Page
 
 CELL = 2.0
 K = 6
-LIMIT = 110  # points per tile
+LIMIT = 60  # points per tile
 
 
 def scan():
@@ -27,10 +27,9 @@ def split(cells, limit):
     sides = [max(c[i] for c in cells) - min(c[i] for c in cells) for i in range(2)]
     axis = 0 if sides[0] >= sides[1] else 1
     ordered = sorted(cells, key=lambda c: (c[axis], c[1 - axis]))
-    total, count = sum(len(cells[c]) for c in ordered), 0
+    total = sum(len(cells[c]) for c in ordered)
     planes = sorted({c[axis] for c in ordered})[1:]
     best = min(planes, key=lambda at: abs(total / 2 - sum(len(cells[c]) for c in ordered if c[axis] < at)))
-    del count
     return (split({c: cells[c] for c in ordered if c[axis] < best}, limit) +
             split({c: cells[c] for c in ordered if c[axis] >= best}, limit))
 
@@ -64,7 +63,7 @@ def tiles(path):
     halo = sorted({q for _, q in crossing})
 
     page = Page(700, 440, "Tiles, halo, and the bound of a cell")
-    panel = page.panel(20, 20, 440, 400, (11, 9), 23)
+    panel = page.panel(20, 20, 410, 400, (11, 9), 23)
     panel.lines([((i * CELL, 0), (i * CELL, 18)) for i in range(12)] + [((0, j * CELL), (22, j * CELL)) for j in range(10)],
                 "#e4e7ea", 0.8)
     for t, part in enumerate(parts):
@@ -79,23 +78,23 @@ def tiles(path):
     panel.dots(points, MUTED, 2.2)
     panel.dots([points[p] for p in own], BLUE, 3)
     panel.dots([points[q] for q in halo], ORANGE, 3.6)
-    # The cell of the tile with the widest bound: a rounded box around it.
-    cell = max(parts[middle], key=lambda c: (bound(cells, c), c))
+    # A cell of the tile, and a rounded box around it.
+    cell = sorted(parts[middle])[len(parts[middle]) // 2]
     reach, (x, y) = bound(cells, cell), (cell[0] * CELL, cell[1] * CELL)
     panel.path([(x, y), (x + CELL, y), (x + CELL, y + CELL), (x, y + CELL)], RED, 2.2, closed=True)
     around_box = [(cx + reach * math.cos(a), cy + reach * math.sin(a))
                   for (cx, cy), start in (((x + CELL, y + CELL), 0), ((x, y + CELL), 90), ((x, y), 180), ((x + CELL, y), 270))
                   for a in (math.radians(start + 90 * j / 12) for j in range(13))]
     panel.path(around_box, RED, 1.8, closed=True, dash=True)
-    page.legend(478, 50, [("line", MUTED, "border of a tile"), ("dot", BLUE, f"the tile's {len(own)} points"),
+    page.legend(448, 50, [("line", MUTED, "border of a tile"), ("dot", BLUE, f"the tile's {len(own)} points"),
                           ("dot", ORANGE, f"its halo: {len(halo)} points"),
                           ("line", ORANGE, "neighbours across borders"),
                           ("line", RED, "a cell of the tile"), ("dash", RED, "within its bound: the"), ])
-    page.text(503, 176, f"{K} nearest of its points")
-    page.text(478, 215, "The halo has no fixed width. It", MUTED)
-    page.text(478, 235, "holds the foreign points that", MUTED)
-    page.text(478, 255, "are neighbours of the tile's", MUTED)
-    page.text(478, 275, "points, in either direction.", MUTED)
+    page.text(473, 176, f"{K} nearest of its points")
+    page.text(448, 215, "The halo has no fixed width. It", MUTED)
+    page.text(448, 235, "holds the foreign points that", MUTED)
+    page.text(448, 255, "are neighbours of the tile's", MUTED)
+    page.text(448, 275, "points, in either direction.", MUTED)
     page.write(path)
 
 
