@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The documentation: figures are those that the script draws, links lead somewhere, sentences are short.
+# The documentation: figures are those that the script draws, the method behind them finds the program's loops, links
+# lead somewhere, sentences are short.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -15,6 +16,10 @@ done
 for figure in docs/figures/*.svg; do
   [[ -e $scratch/$(basename "$figure") ]] || { echo "$figure: no script draws it"; failed=1; }
 done
+
+if [[ -n ${LACUNA_PROGRAM:-} ]]; then
+  python3 "$scratch/compare.py" "$LACUNA_PROGRAM" || failed=1
+fi
 
 python3 tools/check_prose.py README.md docs/*.md || failed=1
 
