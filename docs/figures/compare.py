@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares the loops of the program with those of the plain method beside this file, both methods, on made scans. So
-what docs/method.md states, what the figures show and what the program does are the same.
+"""Compares the loops of the program, and their confidence, with those of the plain method in this folder, on made
+scans, for both methods. So what docs/method.md states, what the figures show and what the program does are the same.
 
     docs/figures/compare.py build/lacuna
 
@@ -39,14 +39,20 @@ def found_by(program, folder, method, weights, threshold):
         options += ["--min-confidence", 0]
     subprocess.run([str(word) for word in [program, "detect", folder / "scan.ply", *options]], check=True)
     report = json.loads((folder / method / "holes.json").read_text(encoding="utf-8"))
-    return sorted(sorted(loop["points"]) for loop in report["loops"])
+    return sorted((sorted(loop["points"]), round(loop["confidence"], 5)) for loop in report["loops"])
+
+
+def confidence(curve):
+    """C.6"""
+    clear, wide = (sum(excess >= least for _, excess in curve) for least in (1.5, 2.5))
+    return round(min(clear, wide / 0.8, len(curve) + 5) / (len(curve) + 5), 5)
 
 
 def expected(scan):
-    curves = [[p for p, _ in curve] for curve in scan.curves if len(curve) >= 8]
+    curves = [(sorted(p for p, _ in curve), confidence(curve)) for curve in scan.curves if len(curve) >= 8]
     e = round(2 * math.sqrt(math.pi * sum(map(len, scan.around)) / len(scan.points)))
     graph = spanning_graph(len(scan.points), eligible_edges(scan.points, scan.around, scan.evaluations), e)
-    return {"tangential": sorted(map(sorted, curves)), "paper": sorted(map(sorted, paper_loops(graph)))}
+    return {"tangential": sorted(curves), "paper": sorted((sorted(loop), 1) for loop in paper_loops(graph))}
 
 
 def main():

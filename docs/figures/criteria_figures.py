@@ -4,7 +4,7 @@ import math
 
 from common import CENTROID, CHARACTERISTIC, evaluate, kernel_width, neighbourhoods
 from scans import density_step, nearest_to, patch
-from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
+from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 
 HOLE = (8.0, 8.0, 3.2)
 

@@ -4,7 +4,7 @@ import math
 
 from paper import eligible_edges, paper_loops, spanning_graph
 from scans import nearest_to, patch
-from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, PAPER, RED, Page
+from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 from tangential import Surface
 
 HOLE = (9.0, 8.0, 2.9)

@@ -4,7 +4,7 @@ import math
 import random
 
 from common import neighbourhoods
-from svg import BLUE, FILL, INK, LINE, MUTED, ORANGE, RED, Page
+from svg import BLUE, FILL, MUTED, ORANGE, RED, Page
 
 CELL = 2.0
 K = 6
