@@ -36,7 +36,7 @@ struct Run {
 
   explicit Run(const std::string& method) {
     const std::string scan =
-        folder.write("scan.txt", as_text(plane(250).punched({120, 120}, 10).jittered(0.2, 1)));
+        folder.write("scan.txt", as_text(plane(420).punched({120, 120}, 10).jittered(0.2, 1)));
     arguments = {"detect",        scan,  "--out",          out.string(), "--method", method, "--quiet",
                  "--tile-points", "300", "--memory-limit", "64MiB",      "--points"};
   }

@@ -77,7 +77,7 @@ bool are_closed(const std::vector<NamedGap>& gaps) {
 
 void check_tilings(const Cloud& cloud) {
   const Found whole = gaps_of(cloud, 1'000'000);
-  CHECK(whole.tiles <= 1);
+  CHECK(whole.tiles <= 2);  // points far from all others are set aside
   CHECK(are_closed(whole.gaps));
   for (const std::int64_t tile_points : {1, 30, 250}) {
     INFO(tile_points << " points a tile");

@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""Draws the figures of docs/method.md, as SVG, into this folder. Each is computed from a small made scan with the method
+itself, so that a figure cannot contradict the text. Needs Python 3 and no package.
+
+    docs/figures/make.py                # all
+    docs/figures/make.py star wedges    # these
+"""
+
+import sys
+from pathlib import Path
+
+import criteria_figures
+import surface_figures
+import tiling_figures
+
+FIGURES = criteria_figures.FIGURES | surface_figures.FIGURES | tiling_figures.FIGURES
+
+
+def main():
+    names = sys.argv[1:] or list(FIGURES)
+    for name in names:
+        if name not in FIGURES:
+            raise SystemExit(f"make.py: no figure {name!r}; there are {', '.join(FIGURES)}")
+        FIGURES[name](Path(__file__).resolve().parent / f"{name}.svg")
+
+
+if __name__ == "__main__":
+    main()

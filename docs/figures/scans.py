@@ -1,0 +1,36 @@
+"""Small made scans: same seed, same points."""
+
+import math
+import random
+
+
+def patch(size, holes=(), jitter=0.3, noise=0.0, seed=1, height=lambda x, y: 0.0):
+    """A square of size x size points, one unit apart, without those in the holes (x, y, radius)."""
+    rng = random.Random(seed)
+    points = []
+    for j in range(size):
+        for i in range(size):
+            x, y = i + rng.uniform(-jitter, jitter), j + rng.uniform(-jitter, jitter)
+            z = height(x, y) + (rng.gauss(0, noise) if noise else 0.0)
+            if all(math.hypot(x - hx, y - hy) > radius for hx, hy, radius in holes):
+                points.append((x, y, z))
+    return points
+
+
+def density_step(seed=3):
+    """Points half a unit apart on the left, one and a half on the right."""
+    rng = random.Random(seed)
+    points = []
+    for step, first, last in ((0.5, -5.0, 0.0), (1.5, 0.6, 7.5)):
+        x = first
+        while x < last:
+            y = -5.0
+            while y < 5.0:
+                points.append((x + rng.uniform(-0.2, 0.2) * step, y + rng.uniform(-0.2, 0.2) * step, 0.0))
+                y += step
+            x += step
+    return points
+
+
+def nearest_to(points, place):
+    return min(range(len(points)), key=lambda p: math.dist(points[p][:2], place))

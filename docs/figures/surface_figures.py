@@ -1,0 +1,209 @@
+"""Figures of parts B and C: graph and loop of method `paper`, stars, triangles, wedges of method `tangential`."""
+
+import math
+
+from paper import eligible_edges, paper_loops, spanning_graph
+from scans import nearest_to, patch
+from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
+from tangential import Surface
+
+HOLE = (9.0, 8.0, 2.9)
+LIGHT_ORANGE, LIGHT_GREEN = "#f5d7b0", "#cfe6d8"
+
+
+def surface(noise=0.12, seed=4, jitter=0.45, threshold=0.5):
+    return Surface(patch(18, [HOLE], jitter, noise, seed), is_seed=lambda e: e.probability > threshold)
+
+
+def hole_curve(scan):
+    """The boundary curve around the hole."""
+    return min((c for c in scan.curves if len(c) >= 8),
+               key=lambda c: max(math.dist(scan.points[p][:2], HOLE[:2]) for p, _ in c))
+
+
+def corners(scan, *ids):
+    return [scan.points[p] for p in ids]
+
+
+def consistent_triangles(scan):
+    return {tuple(sorted((p, a, b))) for p in scan.active for _, a, b in scan.stars[p].triangles()
+            if scan.is_consistent(p, a, b, scan.active)}
+
+
+def active(path):
+    scan = surface(0.3, threshold=0.8)
+    page = Page(700, 440, "Active points around a hole")
+    panel = page.panel(20, 20, 410, 400, (9, 8), 11)
+    for t in sorted(consistent_triangles(scan)):
+        panel.path(corners(scan, *t), "#a9c3da", 0.8, FILL, closed=True)
+    bad = {tuple(sorted((p, a, b))) for p in scan.active for _, a, b in scan.stars[p].triangles()
+           if not scan.is_consistent(p, a, b, scan.active)}
+    for t in sorted(bad):
+        panel.path(corners(scan, *t), RED, 1.2, closed=True, dash=True)
+    panel.dots(scan.points, MUTED, 3)
+    panel.dots([scan.points[p] for p in sorted(scan.active - scan.seeds)], ORANGE, 5)
+    panel.dots([scan.points[p] for p in sorted(scan.seeds)], RED, 5)
+    page.legend(448, 50, [("dot", RED, "seed: \u03a0 > threshold, 0.8 here"), ("dot", ORANGE, "active, not a seed"),
+                          ("dot", MUTED, "not active"), ("fill", FILL, "consistent triangle"),
+                          ("dash", RED, "inconsistent, in bound")])
+    page.text(448, 180, "Triangles over the bound are", MUTED)
+    page.text(448, 200, "inconsistent, too; they fill the", MUTED)
+    page.text(448, 220, "hole and are not drawn.", MUTED)
+    page.text(448, 255, "Activity passes from an active", MUTED)
+    page.text(448, 275, "point to the vertices of the", MUTED)
+    page.text(448, 295, "inconsistent triangles around it.", MUTED)
+    page.write(path)
+
+
+def star(path):
+    scan = surface(0.0, jitter=0.3)
+    p = nearest_to(scan.points, (4, 12))
+    s, at = scan.stars[p], scan.points[p]
+    page = Page(700, 430, "Star of a point, and its dual")
+    left = page.panel(20, 20, 320, 320, at, 4.6)
+    link = [scan.points[q] for q in s.link]
+    for i, q in enumerate(link):
+        left.path([at, q, link[(i + 1) % len(link)]], BLUE, 1.3, FILL, closed=True)
+    cell = [(at[0] + x, at[1] + y) for x, y in s.centre]
+    left.path(cell, ORANGE, 2.2, closed=True)
+    left.dots([scan.points[q] for q in scan.around[p]], MUTED, 4)
+    left.dots(link, BLUE, 5)
+    left.dots([at], INK, 6)
+    left.label(at, "p", 9, 4, weight="bold")
+    right = page.panel(360, 20, 320, 320, (0, 0), 2.3 * max(math.hypot(x, y) for x, y in s.inverted))
+    right.path(s.inverted, BLUE, 1.6, FILL, closed=True)
+    right.dots([(x, y) for x, y, q in s.seen if q not in s.link], MUTED, 4)
+    right.dots(s.inverted, BLUE, 5)
+    i = max(range(len(s.link)), key=lambda i: s.radius[i])
+    (x, y), (x2, y2) = s.inverted[i], s.inverted[(i + 1) % len(s.link)]
+    t = -(x * (x2 - x) + y * (y2 - y)) / ((x2 - x) ** 2 + (y2 - y) ** 2)
+    foot = (x + t * (x2 - x), y + t * (y2 - y))
+    right.path([(0, 0), foot], RED, 2)
+    right.label((foot[0] / 2, foot[1] / 2), "h", 6, -4, RED, weight="bold")
+    left.path([at, (at[0] + s.centre[i][0], at[1] + s.centre[i][1])], RED, 2)
+    right.dots([(0, 0)], INK, 6)
+    right.label((0, 0), "p", -16, 4, weight="bold")
+    page.text(20, 362, "In the tangent plane of p", weight="bold")
+    page.text(360, 362, "Inverted: q at proj(d) / |d|\u00b2", weight="bold")
+    page.legend(20, 388, [("fill", FILL, "triangles of the star"), ("line", ORANGE, "Voronoi cell of p")], 170)
+    page.legend(20, 412, [("dot", BLUE, "link vertices"), ("dot", MUTED, "other neighbours")], 170)
+    page.legend(360, 388, [("line", BLUE, "convex hull: its vertices are the link")])
+    page.legend(360, 412, [("line", RED, "left: circumradius 1 / (2h); right: h")])
+    page.write(path)
+
+
+def bound(path):
+    scan = surface()
+    curve = [p for p, _ in hole_curve(scan)]
+    p = min(curve, key=lambda q: (math.dist(scan.points[q][:2], (HOLE[0] - HOLE[2], HOLE[1])), q))
+    s, at = scan.stars[p], scan.points[p]
+    page = Page(700, 400, "Circumradii of a star and their bound")
+    panel = page.panel(20, 20, 410, 360, (at[0] + 0.9, at[1]), 7.6)
+    panel.dots(scan.points, LINE, 3.4)
+    n = len(s.link)
+    for i in range(n):
+        inside = s.radius[i] <= s.bound
+        color = BLUE if inside else RED
+        triangle = [at, scan.points[s.link[i]], scan.points[s.link[(i + 1) % n]]]
+        panel.path(triangle, color, 1.3, FILL if inside else "none", closed=True, dash=not inside)
+        panel.circle((at[0] + s.centre[i][0], at[1] + s.centre[i][1]), s.radius[i], color, 0.9, dash=not inside)
+    panel.dots([scan.points[q] for q in s.link], BLUE, 4.5)
+    panel.dots([at], INK, 6)
+    page.legend(448, 50, [("dot", INK, "a point at a hole"), ("dot", BLUE, "its link vertices"),
+                          ("fill", FILL, "triangles within the bound"), ("dash", RED, "beyond it, with circle")])
+    page.text(448, 155, f"Median radius M = {s.median:.2f},", INK)
+    page.text(448, 175, f"radius spread S = {s.spread:.2f}:", INK)
+    page.text(448, 195, f"bound R = 1.5 M + S = {s.bound:.2f}.", INK, weight="bold")
+    y = 230
+    page.text(448, y, "Circumradii of the star:", MUTED)
+    for i in range(n):
+        y += 20
+        words = f"{s.radius[i]:.2f}" + (f"   excess radius {s.excess(i):.1f}" if s.radius[i] > s.bound else "")
+        page.text(460, y, words, RED if s.radius[i] > s.bound else BLUE)
+    page.write(path)
+
+
+def consistency(path):
+    scan = surface(0.4, 9)
+    # An active pair near the hole, of which one star has a triangle within the bound that the other lacks.
+    found = [(math.dist(scan.points[p][:2], HOLE[:2]), p, a, b) for p in sorted(scan.active)
+             for _, a, b in scan.stars[p].triangles() if a in scan.active
+             and frozenset((p, b)) not in scan.kept[a] and frozenset((a, b)) in scan.kept[p]]
+    _, p, a, b = min(found)
+    page = Page(700, 420, "A consistent and an inconsistent triangle")
+    shared = sorted(c for _, x, y in scan.stars[p].triangles() for c in (x, y)
+                    if a in (x, y) and c != a and frozenset((p, c)) in scan.kept[a])
+    centre = [(scan.points[p][i] + scan.points[a][i]) / 2 for i in range(2)]
+    for i, (q, name) in enumerate(((p, "p"), (a, "q"))):
+        panel = page.panel(20 + 340 * i, 20, 320, 320, centre, 5.0)
+        panel.dots(scan.points, LINE, 3.4)
+        for _, x, y in scan.stars[q].triangles():
+            kind = {q, x, y}
+            fill = LIGHT_GREEN if shared and kind == {p, a, shared[0]} else LIGHT_ORANGE if kind == {p, a, b} else FILL
+            panel.path(corners(scan, q, x, y), BLUE, 1.3, fill, closed=True)
+        panel.path(corners(scan, p, a, b), ORANGE, 2.4, closed=True, dash=i == 1)
+        if shared:
+            panel.path(corners(scan, p, a, shared[0]), GREEN, 2.4, closed=True)
+        panel.dots([scan.points[x] for x in scan.stars[q].link], BLUE, 4)
+        panel.dots([scan.points[p], scan.points[a]], INK, 6)
+        panel.label(scan.points[p], "p", -18, 5, weight="bold")
+        panel.label(scan.points[a], "q", 10, 5, weight="bold")
+        page.text(20 + 340 * i, 364, f"The star of {name}, within the bound", weight="bold")
+    page.legend(20, 394, [("fill", LIGHT_GREEN, "consistent: in both stars"),
+                          ("fill", LIGHT_ORANGE, "inconsistent: in the star of p only")], 250)
+    page.write(path)
+
+
+def wedges(path):
+    scan = surface()
+    curve = hole_curve(scan)
+    page = Page(700, 440, "Boundary wedges chained to a curve")
+    panel = page.panel(20, 20, 410, 400, HOLE[:2], 10)
+    for t in sorted(consistent_triangles(scan)):
+        panel.path(corners(scan, *t), "#a9c3da", 0.8, FILL, closed=True)
+    on_curve = {p for p, _ in curve}
+    for p, first, last, _ in scan.wedges:
+        if p not in on_curve:
+            continue
+        at = scan.points[p]
+        start = math.atan2(scan.points[first][1] - at[1], scan.points[first][0] - at[0])
+        angle = (math.atan2(scan.points[last][1] - at[1], scan.points[last][0] - at[0]) - start) % (2 * math.pi)
+        arc = [(at[0] + 0.42 * math.cos(start + angle * j / 16), at[1] + 0.42 * math.sin(start + angle * j / 16)) for j in range(17)]
+        panel.path([at, *arc], ORANGE, 1, LIGHT_ORANGE, closed=True)
+    panel.path([scan.points[p] for p, _ in curve], RED, 2.8, closed=True)
+    panel.dots(scan.points, MUTED, 3)
+    panel.dots([scan.points[p] for p, _ in curve], INK, 4.5)
+    page.legend(448, 50, [("fill", FILL, "consistent triangle"), ("fill", LIGHT_ORANGE, "boundary wedge"),
+                          ("line", RED, "boundary curve"), ("dot", INK, "its points")])
+    page.text(448, 160, "A wedge ends at two boundary", MUTED)
+    page.text(448, 180, "edges. Each edge ends one wedge", MUTED)
+    page.text(448, 200, "at either of its points, so the", MUTED)
+    page.text(448, 220, "wedges chain to a closed curve:", MUTED)
+    page.text(448, 240, f"here {len(curve)} points.", MUTED)
+    page.write(path)
+
+
+def msg(path):
+    scan = Surface(patch(18, [HOLE], 0.3, 0.0, 4))
+    edges = eligible_edges(scan.points, scan.around, scan.evaluations)
+    e = round(2 * math.sqrt(math.pi * sum(map(len, scan.around)) / len(scan.points)))
+    graph = spanning_graph(len(scan.points), edges, e)
+    loops = paper_loops(graph)
+    loop = min(loops, key=lambda l: max(math.dist(scan.points[p][:2], HOLE[:2]) for p in l))
+    page = Page(700, 440, "Minimum spanning graph and its loop")
+    panel = page.panel(20, 20, 410, 400, HOLE[:2], 10)
+    panel.lines([(scan.points[p], scan.points[q]) for _, p, q in edges], LINE, 1)
+    panel.lines([(scan.points[p], scan.points[q]) for p in range(len(graph)) for q in sorted(graph[p]) if p < q], BLUE, 1.8)
+    panel.path([scan.points[p] for p in loop], RED, 3, closed=True)
+    panel.dots(scan.points, MUTED, 3)
+    panel.dots([scan.points[p] for p in sorted(scan.seeds)], ORANGE, 4.5)
+    panel.dots([scan.points[loop[0]]], INK, 6)
+    page.legend(448, 50, [("dot", ORANGE, "candidate: \u03a0 > threshold"), ("line", LINE, "eligible edge"),
+                          ("line", BLUE, "edge of the spanning graph"), ("line", RED, f"loop of {len(loop)} edges"),
+                          ("dot", INK, "origin of the search")])
+    page.text(448, 180, "An edge that closes a loop needs", MUTED)
+    page.text(448, 200, f"more than e = {e} edges on it.", MUTED)
+    page.write(path)
+
+
+FIGURES = {"msg": msg, "active": active, "star": star, "bound": bound, "consistency": consistency, "wedges": wedges}
