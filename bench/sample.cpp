@@ -1,9 +1,9 @@
 #include "bench/sample.hpp"
 
-#include "engine/core/cell_index.hpp"
-#include "engine/stages/order_tile.hpp"
-#include "engine/stages/split.hpp"
-#include "engine/stages/survey.hpp"
+#include "engine/bucket/cell_index.hpp"
+#include "engine/bucket/order_tile.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/survey/survey.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/random.hpp"
 

@@ -1,8 +1,8 @@
 // A scan in memory for the kernel benchmarks: a wavy surface with holes, all of it in one tile.
 #pragma once
 
-#include "engine/data/neighbourhoods.hpp"
-#include "engine/data/points.hpp"
+#include "engine/model/neighbourhoods.hpp"
+#include "engine/model/points.hpp"
 
 #include <cstdint>
 

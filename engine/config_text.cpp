@@ -1,6 +1,6 @@
 #include "engine/config_text.hpp"
 
-#include "engine/core/utf8.hpp"
+#include "engine/run/utf8.hpp"
 
 #include <algorithm>
 

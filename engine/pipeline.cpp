@@ -4,12 +4,13 @@
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/loops/measure_loops.hpp"
-#include "engine/passes/balls.hpp"
-#include "engine/passes/bucket.hpp"
-#include "engine/passes/links.hpp"
+#include "engine/halo/eps_balls.hpp"
+#include "engine/bucket/bucket_scan.hpp"
+#include "engine/survey/survey_scan.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/orientation_graph.hpp"
-#include "engine/stages/split.hpp"
+#include "engine/bucket/split.hpp"
 
 #include <cmath>
 #include <memory>
@@ -36,7 +37,7 @@ Summary summarise(const SurveyedScan& survey, std::uint64_t tiles, std::uint64_t
   summary.bounds = survey.bounds;
   summary.tiles = tiles;
   summary.tile_points = tile_points;
-  summary.threads = job.crew.threads();
+  summary.threads = job.arena.threads();
   summary.memory_limit = job.memory.limit;
   return summary;
 }
@@ -80,7 +81,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer keeps
   // what it needs of an evaluated tile.
   refuse_balls(store.tiling(), eps, job);
-  AppendLists<Link> halo = link_tiles(store, job);
+  AppendLists<HaloEdge> halo = exchange_halo(store, job);
   Candidates candidates(store, job);
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
   std::optional<PointResults> points;
@@ -123,7 +124,7 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
       config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
   const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
-  // What tiles tell each other, links, seats and waiting stars, is of points along their borders: measured on
+  // What tiles tell each other, links, sites and waiting stars, is of points along their borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.
   const auto told = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
   estimate.workspace_bytes = points * (stored + told + normals + orientation + results);

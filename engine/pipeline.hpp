@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/core/progress.hpp"
-#include "engine/data/detection.hpp"
-#include "engine/data/points.hpp"
+#include "engine/run/progress.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/model/points.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -1,7 +1,7 @@
 // Several scan files as one registered scan: the engine's view of the input.
 #pragma once
 
-#include "engine/data/points.hpp"
+#include "engine/model/points.hpp"
 #include "io/file_state.hpp"
 #include "io/scan_reader.hpp"
 

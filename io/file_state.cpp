@@ -1,6 +1,6 @@
 #include "io/file_state.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <cerrno>
 #include <cstring>

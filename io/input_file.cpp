@@ -1,7 +1,7 @@
 #include "io/input_file.hpp"
 
-#include "engine/core/error.hpp"
-#include "engine/core/utf8.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/utf8.hpp"
 
 #include <algorithm>
 #include <cerrno>

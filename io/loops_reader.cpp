@@ -1,6 +1,6 @@
 #include "io/loops_reader.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "io/input_file.hpp"
 #include "io/number.hpp"
 #include "io/ply_reader.hpp"

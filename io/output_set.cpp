@@ -1,6 +1,6 @@
 #include "io/output_set.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "io/ply_writer.hpp"
 #include "io/results.hpp"
 #include "io/scalar.hpp"

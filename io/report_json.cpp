@@ -70,7 +70,7 @@ Json counts(const Counts& counts, const std::vector<LoopMeasures>& loops) {
           {"raw_loops", counts.raw_loops},
           {"loops", loops.size()},
           {"holes", holes},
-          {"rims", loops.size() - holes},
+          {"outer", loops.size() - holes},
           {"undefined_normals", counts.undefined_normals}};
 }
 
@@ -128,7 +128,7 @@ Json record(const ReportedLoop& loop) {
   const LoopMeasures& measures = loop.measures;
   Json ids = Json::array();
   for (const LoopPoint& point : loop.points) ids.push_back(value(point.id));
-  return {{"kind", measures.kind == LoopKind::kHole ? "hole" : "rim"},
+  return {{"kind", measures.kind == LoopKind::kHole ? "hole" : "outer"},
           {"points", std::move(ids)},
           {"perimeter", measures.perimeter},
           {"area", measures.area},

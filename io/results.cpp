@@ -1,7 +1,7 @@
 #include "io/results.hpp"
 
-#include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
 #include "io/ply_writer.hpp"
 
 #include <algorithm>
@@ -75,8 +75,8 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results) files.push_back(&set.add(folder / result.name, result.mark));
   if (!config.output.points) set.drop(folder / kPoints.name, kPoints.mark);
-  const Crew crew(static_cast<std::size_t>(config.run.threads));
-  crew.for_each(results.size(), [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
+  const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+  arena.for_each(results.size(), [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
   scan.check_unchanged();
   set.commit();
 }

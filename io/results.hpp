@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/data/detection.hpp"
+#include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/output_set.hpp"
 #include "io/ply_header.hpp"

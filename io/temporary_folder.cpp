@@ -1,6 +1,6 @@
 #include "io/temporary_folder.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <cerrno>

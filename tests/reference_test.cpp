@@ -1,6 +1,6 @@
 #include "tests/support/reference.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/golden.hpp"
 

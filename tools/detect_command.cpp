@@ -1,7 +1,7 @@
 #include "tools/detect_command.hpp"
 
 #include "engine/config.hpp"
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
 #include "io/results.hpp"

@@ -35,15 +35,15 @@ struct EvaluateArguments {
   bool json = false;
 };
 
-const char* name_of(Verdict verdict) {
+const char* name_of(EdgeDecision verdict) {
   switch (verdict) {
-    case Verdict::kFound:
+    case EdgeDecision::kFound:
       return "found";
-    case Verdict::kRepeated:
+    case EdgeDecision::kRepeated:
       return "repeated";
-    case Verdict::kShort:
+    case EdgeDecision::kShort:
       return "short";
-    case Verdict::kFalse:
+    case EdgeDecision::kFalse:
       break;
   }
   return "false";

@@ -1,6 +1,6 @@
 #include "tools/parameter_options.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <filesystem>

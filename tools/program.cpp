@@ -1,6 +1,6 @@
 #include "tools/program.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"

@@ -1,6 +1,6 @@
 #include "tools/signals.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/terminal.hpp"
 

@@ -88,7 +88,7 @@ std::string print_loops(const Detection& detection) {
       {"kind", "points", "perimeter", "area", "diameter", "planarity", "confidence", "centroid", "first id"}};
   for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
     const LoopMeasures& loop = loops[order[i]];
-    rows.push_back({loop.kind == LoopKind::kHole ? "hole" : "rim", print_count(loop.points),
+    rows.push_back({loop.kind == LoopKind::kHole ? "hole" : "outer", print_count(loop.points),
                     print_measure(loop.perimeter), print_measure(loop.area), print_measure(loop.diameter),
                     print_share(loop.planarity), print_share(loop.confidence), print_position(loop.centroid),
                     std::to_string(value(detection.read_loop(order[i]).points.front().id))});
@@ -115,7 +115,7 @@ std::string print_summary(const Detection& detection, const std::vector<std::fil
   text += print_times(summary, times);
   text += "  peak memory " + print_size(peak_memory()) + " of " + print_size(summary.memory_limit) + ", " +
           counted(summary.threads, "thread") + "\n\n";
-  text += counted(holes, "hole") + ", " + counted(loops.size() - holes, "outer rim") + "\n";
+  text += counted(holes, "hole") + ", " + counted(loops.size() - holes, "outer boundary") + "\n";
   if (!loops.empty()) text += print_loops(detection);
   return text + "\n";
 }

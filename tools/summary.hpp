@@ -1,7 +1,7 @@
 // What a person reads after a run.
 #pragma once
 
-#include "engine/data/detection.hpp"
+#include "engine/model/detection.hpp"
 
 #include <cstdint>
 #include <filesystem>

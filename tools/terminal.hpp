@@ -2,7 +2,7 @@
 // place, so that a log line never tears the progress bar.
 #pragma once
 
-#include "engine/core/progress.hpp"
+#include "engine/run/progress.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "tools/visible_text.hpp"
 
-#include "engine/core/utf8.hpp"
+#include "engine/run/utf8.hpp"
 
 #include <algorithm>
 #include <iostream>

@@ -1,6 +1,6 @@
 #include "tools/workspace.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <cerrno>
 #include <cstring>

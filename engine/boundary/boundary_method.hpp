@@ -7,7 +7,7 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/loops/loop_points.hpp"
 #include "engine/loops/raw_loops.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #include "engine/boundary/candidates.hpp"
 
-#include "engine/passes/rounds.hpp"
+#include "engine/run/rounds.hpp"
 
 #include <algorithm>
 
@@ -48,12 +48,12 @@ RowSet Candidates::coherent(Job& job) const {
   const std::size_t tiles = tiling_.tiles.size();
   Phase phase(job, "coherence", tiling_.points());
   RowSet boundary(tiling_.row_count());
-  job.crew.for_each(tiles, [&](std::size_t t) {
+  job.arena.for_each(tiles, [&](std::size_t t) {
     for (const StoredCandidate& c : lists_.read(t)) boundary.insert(c.candidate.row);
     phase.advance(tiling_.tiles[t].points);
   });
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
-    job.crew.for_each(rounds.tiles().size(), [&](std::size_t i) {
+    job.arena.for_each(rounds.tiles().size(), [&](std::size_t i) {
       const TileIndex t = rounds.tiles()[i];
       if (remove_incoherent(without_points(lists_.read(t)), boundary)) rounds.request(dependents_[t]);
     });
@@ -66,7 +66,7 @@ RowSet Candidates::beside(const RawLoops& loops, Job& job) const {
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (const Vertex& v : loops.read(i)) on_loop.insert(v.row);
   }
-  job.crew.for_each(tiling_.tiles.size(), [&](std::size_t t) {
+  job.arena.for_each(tiling_.tiles.size(), [&](std::size_t t) {
     for (const StoredCandidate& c : lists_.read(t)) {
       if (on_loop.contains(c.candidate.gap_near) && on_loop.contains(c.candidate.gap_far))
         beside.insert(c.candidate.row);

@@ -8,7 +8,7 @@
 #include "engine/store/tile_store.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/loops/raw_loops.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 #include <mutex>
 #include <vector>

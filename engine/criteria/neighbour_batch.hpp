@@ -1,7 +1,7 @@
 // The neighbourhoods of eight points side by side: what the criteria of a batch are computed from.
 #pragma once
 
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 #include "engine/simd/batch.hpp"
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
 #include "engine/simd/vectorised.hpp"
-#include "engine/passes/balls.hpp"
-#include "engine/stages/evaluate.hpp"
-#include "engine/stages/neighbourhoods.hpp"
-#include "engine/stages/reach.hpp"
+#include "engine/halo/eps_balls.hpp"
+#include "engine/evaluate/evaluate.hpp"
+#include "engine/neighbours/neighbourhoods.hpp"
+#include "engine/halo/distance_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,13 +44,13 @@ struct Sight {
   }
 };
 
-Sight foreign_sight(const TileStore& store, std::span<const Link> links,
+Sight foreign_sight(const TileStore& store, std::span<const HaloEdge> links,
                     std::span<const std::uint32_t> halo) {
   Sight sight;
   store.read_cells(halo, sight.points, sight.rows);
   std::vector<std::pair<Row, StoredPoint>> seen;
   for (std::size_t i = 0; i < sight.rows.size(); ++i) seen.emplace_back(sight.rows[i], sight.points[i]);
-  for (const Link& link : links) seen.emplace_back(link.row, link.foreign);
+  for (const HaloEdge& link : links) seen.emplace_back(link.row, link.foreign);
   std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   seen.erase(
       std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
@@ -65,7 +65,7 @@ Sight foreign_sight(const TileStore& store, std::span<const Link> links,
 }
 
 // `links` get sorted.
-TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& links,
+TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>& links,
                   std::span<const std::uint32_t> halo) {
   const Tile& tile = store.tiling().tiles[index];
   const Sight sight = foreign_sight(store, links, halo);
@@ -83,7 +83,7 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<Link>& li
   for (LocalIndex i = 0; i < tile.points; ++i) points.rows.push_back(tile.row(i));
   points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
 
-  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+  std::sort(links.begin(), links.end(), [](const HaloEdge& a, const HaloEdge& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
   });
   points.linked.offsets.reserve(tile.points + 1);
@@ -161,27 +161,27 @@ double Totals::mean_edge_length() const {
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
 }
 
-Totals evaluate_tiles(const TileStore& store, AppendLists<Link> halo, double eps, double extent,
+Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
                       std::span<TileConsumer* const> consumers, Job& job) {
   const Tiling& tiling = store.tiling();
   Totals totals{.length_unit = length_unit(extent)};
   Phase phase(job, "evaluate", tiling.points());
 
   std::vector<std::uint64_t> needs(tiling.tiles.size());
-  job.crew.for_each(needs.size(), [&](std::size_t t) {
+  job.arena.for_each(needs.size(), [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     std::uint64_t foreign = halo.count(t);
     for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
     needs[t] = job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
   std::mutex mutex;
-  job.crew.for_each_within(needs, job.memory.tiles, [&](std::size_t t) {
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
     const auto index = static_cast<TileIndex>(t);
     const Tile& tile = tiling.tiles[t];
-    std::vector<Link> inbox = halo.read(t);
+    std::vector<HaloEdge> inbox = halo.read(t);
     halo.drop(t);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
-    std::vector<Link>().swap(inbox);
+    std::vector<HaloEdge>().swap(inbox);
     const Rows neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
     const std::vector<Evaluation> evaluations =

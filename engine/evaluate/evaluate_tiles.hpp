@@ -4,8 +4,8 @@
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/passes/job.hpp"
-#include "engine/passes/links.hpp"
+#include "engine/run/job.hpp"
+#include "engine/halo/halo.hpp"
 
 #include <cstdint>
 #include <span>
@@ -28,7 +28,7 @@ struct Totals {
 };
 
 // Consumes the halo. `eps`: a length, 0: off. `extent`: the largest distance between points.
-Totals evaluate_tiles(const TileStore& store, AppendLists<Link> halo, double eps, double extent,
+Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
                       std::span<TileConsumer* const> consumers, Job& job);
 
 }  // namespace lacuna

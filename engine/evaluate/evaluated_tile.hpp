@@ -4,10 +4,10 @@
 
 #include "engine/store/column.hpp"
 #include "engine/store/point_column.hpp"
-#include "engine/data/component.hpp"
-#include "engine/data/evaluation.hpp"
-#include "engine/data/neighbourhoods.hpp"
-#include "engine/data/tiling.hpp"
+#include "engine/model/boundary_graph.hpp"
+#include "engine/criteria/evaluation.hpp"
+#include "engine/model/neighbourhoods.hpp"
+#include "engine/model/tiling.hpp"
 
 #include <algorithm>
 #include <cstdint>

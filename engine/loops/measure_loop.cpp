@@ -125,7 +125,7 @@ LoopKind kind(std::span<const LoopPoint> loop, const Eigen::Vector3d& normal) {
   }
   // The end of a tube is neither inside nor outside of its surface: something to be filled all the same.
   constexpr double kUndecided = 0.1;
-  return growth < -kUndecided * most ? LoopKind::kRim : LoopKind::kHole;
+  return growth < -kUndecided * most ? LoopKind::kOuter : LoopKind::kHole;
 }
 
 std::uint64_t lattice_cubes(std::span<const LoopPoint> loop, double edge) {

@@ -1,7 +1,7 @@
 // measure_loop: what a user sorts and filters loops by.
 #pragma once
 
-#include "engine/data/loop.hpp"
+#include "engine/model/loop.hpp"
 
 #include <cstdint>
 #include <span>

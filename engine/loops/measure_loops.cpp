@@ -75,11 +75,11 @@ MeasuredLoops measure_loops(const RawLoops& loops, const LoopPointLists& lists, 
     const std::uint64_t first = measured.offsets[begin];
     const auto memory = std::make_unique_for_overwrite<StoredLoopPoint[]>(count);
     const std::span<StoredLoopPoint> points(memory.get(), count);
-    job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
       gather(std::move(wanted[t]), lists, tiling, static_cast<TileIndex>(t), points);
     });
     measured.points.write(first, points);
-    job.crew.for_each(end - begin, [&](std::size_t i) {
+    job.arena.for_each(end - begin, [&](std::size_t i) {
       const std::uint64_t from = measured.offsets[begin + i] - first;
       const Loop loop = to_loop(points.subspan(from, loops.points(begin + i)));
       measured.measures[begin + i] = measure_loop(loop, edge);
@@ -97,7 +97,7 @@ std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, co
     const bool too_short = loop.perimeter < config.min_perimeter;
     const bool too_long = config.max_perimeter > 0 && loop.perimeter > config.max_perimeter;
     const bool too_few = loop.points < static_cast<std::uint64_t>(config.min_points);
-    const bool unwanted = config.holes_only && loop.kind == LoopKind::kRim;
+    const bool unwanted = config.holes_only && loop.kind == LoopKind::kOuter;
     if (!too_short && !too_long && !too_few && !unwanted) selected.push_back(i);
   }
   return selected;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "engine/store/tile_store.hpp"
-#include "engine/data/loop.hpp"
+#include "engine/model/loop.hpp"
 #include "engine/loops/loop_points.hpp"
 #include "engine/loops/raw_loops.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Loops as they are found, by either method.
 #pragma once
 
-#include "engine/data/component.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/store/column.hpp"
 
 #include <cstdint>

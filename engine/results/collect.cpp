@@ -1,7 +1,7 @@
 #include "engine/results/collect.hpp"
 
 #include "engine/store/sorted_runs.hpp"
-#include "engine/passes/letters.hpp"
+#include "engine/store/outbox.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -130,7 +130,7 @@ class WorkspaceDetection final : public Detection {
 // Every point on a loop, to its tile.
 void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
                 AppendLists<Mark>& marks) {
-  Letters<Mark> letters(marks);
+  Outbox<Mark> outbox(marks);
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
     const bool reported = next_selected < selected.size() && selected[next_selected] == i;
@@ -139,10 +139,10 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
          loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = tiling.tiles[t].local(p.row);
-      letters.add(t, {owned, name, p.probability, kBoundary, p.point});
+      outbox.add(t, {owned, name, p.probability, kBoundary, p.point});
     }
   }
-  letters.send();
+  outbox.send();
 }
 
 // A tile's points that are coherent or belong to the boundary, each once.
@@ -190,7 +190,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
     mark_loops(loops, selected, tiling, marks);
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;
-    job.crew.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
       const Tile& tile = tiling.tiles[t];
       const std::vector<Mark> tile_marks =
           marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t), marks);

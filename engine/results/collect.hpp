@@ -4,9 +4,9 @@
 #include "engine/boundary/candidates.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
-#include "engine/data/detection.hpp"
+#include "engine/model/detection.hpp"
 #include "engine/loops/measure_loops.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 #include "engine/results/point_results.hpp"
 
 #include <memory>

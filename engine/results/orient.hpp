@@ -1,7 +1,7 @@
 // orient: consistent orientation of normals by a minimum spanning tree of G (Hoppe et al. 1992).
 #pragma once
 
-#include "engine/data/orientation.hpp"
+#include "engine/model/orientation.hpp"
 
 #include <vector>
 

@@ -4,9 +4,9 @@
 #include "engine/store/row_set.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
-#include "engine/data/orientation.hpp"
+#include "engine/model/orientation.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 namespace lacuna {
 

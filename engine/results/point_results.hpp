@@ -5,7 +5,7 @@
 #include "engine/store/tile_store.hpp"
 #include "engine/criteria/criterion.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 #include <cstdint>
 #include <vector>

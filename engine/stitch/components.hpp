@@ -4,8 +4,8 @@
 
 #include "engine/store/scratch.hpp"
 #include "engine/store/append_lists.hpp"
-#include "engine/data/tiling.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/model/tiling.hpp"
+#include "engine/run/job.hpp"
 #include "engine/stitch/union_find.hpp"
 
 #include <atomic>

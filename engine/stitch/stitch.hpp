@@ -65,13 +65,13 @@ class Stitch {
     Scratch scratch(job_.workspace, job_.memory.global / 3);
     const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
     const Components::Batches batches =
-        components_.join(std::max<std::uint64_t>(fits / job_.crew.threads(), 1), scratch);
+        components_.join(std::max<std::uint64_t>(fits / job_.arena.threads(), 1), scratch);
     AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
-    job_.crew.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
+    job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
 
     std::vector<std::uint64_t> needs;
     for (const std::uint64_t records : batches.records) needs.push_back(records > fits ? 0 : records * record_bytes_);
-    job_.crew.for_each_within(needs, job_.memory.global / 2, [&](std::size_t b) {
+    job_.arena.for_each_within_budget(needs, job_.memory.global / 2, [&](std::size_t b) {
       if (batches.records[b] <= fits) visit_batch(lists.read(b), in_memory);
     });
     for (std::size_t b = 0; b < batches.records.size(); ++b) {

@@ -1,7 +1,7 @@
 // Disjoint sets over [0, n): union by index, so that a set's root is its smallest element.
 #pragma once
 
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 
 #include <span>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "engine/store/append_lists.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <cstring>
 

@@ -1,6 +1,6 @@
 #include "engine/store/point_column.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // The points of the tile store on disk: one per row, in half of the bytes where nothing is lost by it.
 #pragma once
 
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 #include "engine/store/column.hpp"
 
 #include <cstdint>

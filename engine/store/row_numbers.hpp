@@ -1,7 +1,7 @@
 // Numbers for some of the rows: 0, 1, 2, ... in ascending order of rows.
 #pragma once
 
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // Some of the rows: a bitmap over all.
 #pragma once
 
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 
 #include <atomic>
 #include <cstdint>

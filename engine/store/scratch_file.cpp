@@ -1,6 +1,6 @@
 #include "engine/store/scratch_file.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "engine/store/tile_store.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,7 @@
 // the cells around it are a few.
 #pragma once
 
-#include "engine/data/tiling.hpp"
+#include "engine/model/tiling.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/column_filler.hpp"

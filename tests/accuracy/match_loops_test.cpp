@@ -28,9 +28,9 @@ TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
   const LoopIds beside = drawing.ring(36, 0.3, 0);
   const LoopIds far = drawing.ring(40, 100, 0);
   const LoopAccuracy result = match(drawing, {beside, ring, ring}, {far, ring});
-  CHECK(result.loops[0].verdict == Verdict::kFound);
-  CHECK(result.loops[1].verdict == Verdict::kRepeated);
-  CHECK(result.loops[2].verdict == Verdict::kRepeated);
+  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(result.loops[1].verdict == EdgeDecision::kRepeated);
+  CHECK(result.loops[2].verdict == EdgeDecision::kRepeated);
   CHECK(result.loops[0].true_loop == 1u);
   CHECK(result.loops[0].on == 1);
   CHECK(result.loops[0].covered == 1);
@@ -48,7 +48,7 @@ TEST_CASE("a loop that covers less than 70 percent of a true one is false") {
   const LoopIds ring = drawing.ring(100, 0, 0);
   // The vertices within the tolerance beyond both ends are covered, too.
   const LoopAccuracy less = match(drawing, {and_back(part(ring, 0.60))}, {ring}, {.tolerance = 1.5});
-  CHECK(less.loops[0].verdict == Verdict::kFalse);
+  CHECK(less.loops[0].verdict == EdgeDecision::kFalse);
   CHECK(less.loops[0].true_loop == 0u);
   CHECK(less.loops[0].on == 1);
   CHECK(less.loops[0].covered == Approx(0.62));
@@ -56,7 +56,7 @@ TEST_CASE("a loop that covers less than 70 percent of a true one is false") {
   CHECK(less.scores.precision == 0);
   const LoopAccuracy more = match(drawing, {and_back(part(ring, 0.68))}, {ring}, {.tolerance = 1.5});
   CHECK(more.loops[0].covered == Approx(0.70));
-  CHECK(more.loops[0].verdict == Verdict::kFound);
+  CHECK(more.loops[0].verdict == EdgeDecision::kFound);
 }
 
 TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
@@ -64,10 +64,10 @@ TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
   const LoopIds ring = drawing.ring(40, 0, 0);
   LoopIds away = ring;
   for (int i = 0; i < 18; ++i) away.push_back(drawing.point(30 + i, 0));
-  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == Verdict::kFalse);
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFalse);
   CHECK(match(drawing, {away}, {ring}).loops[0].on == Approx(40.0 / 58));
   away.pop_back();
-  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == Verdict::kFound);
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFound);
 }
 
 TEST_CASE("a loop that is near nothing has no true loop") {
@@ -75,7 +75,7 @@ TEST_CASE("a loop that is near nothing has no true loop") {
   const LoopIds ring = drawing.ring(40, 0, 0);
   const LoopIds far = drawing.ring(40, 100, 0);
   const LoopAccuracy result = match(drawing, {far}, {ring});
-  CHECK(result.loops[0].verdict == Verdict::kFalse);
+  CHECK(result.loops[0].verdict == EdgeDecision::kFalse);
   CHECK_FALSE(result.loops[0].true_loop);
   CHECK(result.scores.false_loops == 1);
 }
@@ -86,8 +86,8 @@ TEST_CASE("short true loops count neither as found nor as missed, and loops on t
   const LoopIds missed = drawing.ring(7, 50, 0);
   const LoopIds large = drawing.ring(8, 100, 0);
   const LoopAccuracy result = match(drawing, {small, small}, {small, missed, large});
-  CHECK(result.loops[0].verdict == Verdict::kShort);
-  CHECK(result.loops[1].verdict == Verdict::kShort);
+  CHECK(result.loops[0].verdict == EdgeDecision::kShort);
+  CHECK(result.loops[1].verdict == EdgeDecision::kShort);
   CHECK_FALSE(result.true_loops[0].counts);
   CHECK(result.true_loops[0].found_by == 0u);
   const LoopScores& scores = result.scores;
@@ -101,7 +101,7 @@ TEST_CASE("a loop on a short true loop beside a long one goes to the long one") 
   const LoopIds ring = drawing.ring(20, 0, 0);
   const LoopIds sparse = {ring[0], ring[4], ring[8], ring[12], ring[16]};
   const LoopAccuracy result = match(drawing, {ring}, {sparse, ring});
-  CHECK(result.loops[0].verdict == Verdict::kFound);
+  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
   CHECK(result.loops[0].true_loop == 1u);
 }
 
@@ -142,12 +142,12 @@ TEST_CASE("points that are not finite are near nothing") {
 }
 
 TEST_CASE("the area under the ROC curve is the share of pairs in the right order") {
-  const auto area = [](std::vector<Verdict> verdicts, std::vector<double> confidence) {
+  const auto area = [](std::vector<EdgeDecision> verdicts, std::vector<double> confidence) {
     std::vector<LoopMatch> loops;
-    for (const Verdict verdict : verdicts) loops.push_back({.verdict = verdict});
+    for (const EdgeDecision verdict : verdicts) loops.push_back({.verdict = verdict});
     return area_under_roc(loops, confidence);
   };
-  using enum Verdict;
+  using enum EdgeDecision;
   CHECK(area({kFound, kRepeated, kFalse, kFalse}, {0.9, 0.8, 0.2, 0.1}) == 1);
   CHECK(area({kFound, kFound, kFalse, kFalse}, {0.9, 0.15, 0.2, 0.1}) == 0.75);
   CHECK(area({kFound, kFalse}, {0.5, 0.5}) == 0.5);

@@ -1,6 +1,6 @@
 #include "engine/config.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <limits>
@@ -75,7 +75,7 @@ TEST_CASE("text that the TOML library cannot take is an error with its line") {
   }
 }
 
-TEST_CASE("comments and strings of a config file hold letters of any language") {
+TEST_CASE("comments and strings of a config file hold outbox of any language") {
   const ScratchFolder scratch;
   Config config;
   read_config(scratch.write("c.toml",

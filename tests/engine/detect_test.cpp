@@ -1,5 +1,5 @@
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"
@@ -158,7 +158,7 @@ TEST_CASE("a punched plane has its hole and its rim, as in the plain method") {
   const Detected engine = run_engine(cloud, tiled({}, 300));
   check_equal(engine, plain);
   REQUIRE(engine.loops.size() == 2);
-  CHECK(engine.loops[0].measures.kind == LoopKind::kRim);
+  CHECK(engine.loops[0].measures.kind == LoopKind::kOuter);
   CHECK(engine.loops[1].measures.kind == LoopKind::kHole);
 }
 
@@ -350,7 +350,7 @@ TEST_CASE("a step of the density to a quarter has no loop along it, only the rim
   for (const std::int64_t tile_points : {50, 10'000}) {
     const Detected detected = run_engine(cloud, tiled({}, tile_points));
     REQUIRE(detected.loops.size() == 1);
-    CHECK(detected.loops[0].measures.kind == LoopKind::kRim);
+    CHECK(detected.loops[0].measures.kind == LoopKind::kOuter);
     for (const LoopPoint& p : detected.loops[0].points) {
       const double edge =
           std::min({p.position.x(), p.position.y(), n - 1 - p.position.x(), n - 1 - p.position.y()});

@@ -2,8 +2,8 @@
 // another program (../shared/golden).
 #include "tests/support/golden.hpp"
 
-#include "engine/stages/evaluate.hpp"
-#include "engine/stages/neighbourhoods.hpp"
+#include "engine/evaluate/evaluate.hpp"
+#include "engine/neighbours/neighbourhoods.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/made_golden.hpp"
 #include "tests/support/tile.hpp"
@@ -121,7 +121,7 @@ TEST_CASE("the engine finds the paper's figures: the bunny's five holes, the ran
   const Detected range_map = run_engine(read_cloud(*shared / "data/bun000.ply"), config);
   REQUIRE(range_map.loops.size() == 1);
   CHECK(range_map.loops[0].points.size() == 844);
-  CHECK(range_map.loops[0].measures.kind == LoopKind::kRim);
+  CHECK(range_map.loops[0].measures.kind == LoopKind::kOuter);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The vocabulary of the tests of io/: files drawn as bytes, rows as numbers.
 #pragma once
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "io/scalar.hpp"
 #include "io/scan_reader.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -103,7 +103,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
   FakeDetection detection;
-  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   detection.numbers.counts.points = 10;
   detection.numbers.counts.candidates = 7;
   detection.numbers.bounds = {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(3, 4, 5)};
@@ -125,12 +125,12 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("counts").at("candidates") == 7);
   CHECK(json.at("counts").at("loops") == 2);
   CHECK(json.at("counts").at("holes") == 1);
-  CHECK(json.at("counts").at("rims") == 1);
+  CHECK(json.at("counts").at("outer") == 1);
   CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
   CHECK(json.at("phases")[0].at("points_per_second") == 5);
   CHECK(json.at("total_seconds") == 5);
   CHECK(json.at("loops")[0].at("points") == nlohmann::json{1, 5, 3});
-  CHECK(json.at("loops")[1].at("kind") == "rim");
+  CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
   CHECK(
       read_file(folder / "holes.json")
@@ -143,7 +143,7 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   FakeDetection detection;
-  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kRim);
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   write_results(detection, scan, Config{}, folder.path());
   const Table table = read_table(folder / "loops.ply");
   CHECK(table.names == Names{"x", "y", "z", "id", "loop"});

@@ -45,11 +45,11 @@ struct Run {
 TEST_CASE("a file of the workspace that is cut short during the run ends it with one line that names it") {
   for (const auto& [method, file] :
        std::vector<std::pair<std::string, std::string>>{{"tangential", "points"},
-                                                        {"tangential", "links"},
-                                                        {"tangential", "seats"},
+                                                        {"tangential", "halo"},
+                                                        {"tangential", "sites"},
                                                         {"tangential", "results"},
                                                         {"tangential", "loop-points"},
-                                                        {"tangential", "waiting-sight"},
+                                                        {"tangential", "waiting-nearby"},
                                                         {"paper", "strengths"}}) {
     INFO(file << ", --method " << method);
     const Run run(method);
@@ -69,7 +69,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
 TEST_CASE("a killed run leaves an empty workspace") {
   const Run run("tangential");
   const ProgramResult result = test::run_program_beside(run.arguments, [](pid_t program) {
-    if (test::has_open(program, "links")) kill(program, SIGKILL);
+    if (test::has_open(program, "halo")) kill(program, SIGKILL);
   });
   REQUIRE(result.exit_code == 128 + SIGKILL);
   std::size_t folders = 0, files = 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 #include "tests/support/clouds.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // A cloud in memory as the engine's input.
 #pragma once
 
-#include "engine/data/points.hpp"
+#include "engine/model/points.hpp"
 #include "tests/support/clouds.hpp"
 
 namespace lacuna {

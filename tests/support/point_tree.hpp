@@ -2,7 +2,7 @@
 // search in blocks, for more points than a look at each allows.
 #pragma once
 
-#include "engine/data/neighbourhoods.hpp"
+#include "engine/model/neighbourhoods.hpp"
 
 #include <memory>
 #include <span>

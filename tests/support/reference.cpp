@@ -1,6 +1,6 @@
 #include "tests/support/reference.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "engine/simd/maths.hpp"
 
 #include <algorithm>
@@ -781,19 +781,19 @@ std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars
   return gaps;
 }
 
-struct RimPoint {
+struct CurvePoint {
   PointId point;
   double room;
 };
 
 // Of all ways to write a closed curve, the one whose points come first.
-std::vector<RimPoint> first_way(std::vector<RimPoint> rim) {
-  const auto ids = [](const std::vector<RimPoint>& way) {
+std::vector<CurvePoint> first_way(std::vector<CurvePoint> rim) {
+  const auto ids = [](const std::vector<CurvePoint>& way) {
     std::vector<PointId> ids;
-    for (const RimPoint& p : way) ids.push_back(p.point);
+    for (const CurvePoint& p : way) ids.push_back(p.point);
     return ids;
   };
-  std::vector<RimPoint> best = rim;
+  std::vector<CurvePoint> best = rim;
   for (const bool turned : {false, true}) {
     if (turned) std::reverse(rim.begin(), rim.end());
     for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -805,8 +805,8 @@ std::vector<RimPoint> first_way(std::vector<RimPoint> rim) {
 }
 
 // Cuts off what lies between two passes of a point, until no point is passed twice.
-std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
-  std::vector<std::vector<RimPoint>> curves;
+std::vector<std::vector<CurvePoint>> simple_curves(std::vector<CurvePoint> rim) {
+  std::vector<std::vector<CurvePoint>> curves;
   for (std::size_t end = 0; end < rim.size(); ++end) {
     for (std::size_t begin = 0; begin < end; ++begin) {
       if (rim[begin].point != rim[end].point) continue;
@@ -819,9 +819,9 @@ std::vector<std::vector<RimPoint>> simple_curves(std::vector<RimPoint> rim) {
   return curves;
 }
 
-double confidence(const std::vector<RimPoint>& rim, const TangentialConfig& config) {
+double confidence(const std::vector<CurvePoint>& rim, const TangentialConfig& config) {
   double sum = 0;
-  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  for (const CurvePoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
   return sum / (static_cast<double>(rim.size()) + config.doubt);
 }
 
@@ -843,7 +843,7 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
     if (is_done[start]) continue;
-    std::vector<RimPoint> rim;
+    std::vector<CurvePoint> rim;
     std::size_t g = start;
     do {
       const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
@@ -853,10 +853,10 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
       g = at.at({next, rim.back().point});  // rims are closed
     } while (g != start);
     if (rim.size() < least) continue;
-    for (const std::vector<RimPoint>& curve : simple_curves(first_way(rim))) {
+    for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {
       if (curve.size() < least) continue;
       std::vector<PointId> loop;
-      for (const RimPoint& p : first_way(curve)) loop.push_back(p.point);
+      for (const CurvePoint& p : first_way(curve)) loop.push_back(p.point);
       rims.emplace_back(loop, confidence(first_way(curve), config.tangential));
     }
   }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/data/ids.hpp"
+#include "engine/model/ids.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // A cloud as a tile sees it, for tests of single stages.
 #pragma once
 
-#include "engine/data/neighbourhoods.hpp"
+#include "engine/model/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "tests/support/tiled_scan.hpp"
 
-#include "engine/stages/split.hpp"
+#include "engine/bucket/split.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <memory>
@@ -28,7 +28,7 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
 
 Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
   const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
-  return evaluate_tiles(store, link_tiles(store, job), config.neighbourhood.eps, extent, consumers, job);
+  return evaluate_tiles(store, exchange_halo(store, job), config.neighbourhood.eps, extent, consumers, job);
 }
 
 std::map<PointId, Row> TiledScan::rows() const {

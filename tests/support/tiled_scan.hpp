@@ -3,7 +3,8 @@
 
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/passes/bucket.hpp"
+#include "engine/bucket/bucket_scan.hpp"
+#include "engine/survey/survey_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 

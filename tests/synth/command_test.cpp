@@ -1,4 +1,4 @@
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/synth/made.hpp"
 #include "tools/synth_command.hpp"
 

@@ -1,7 +1,7 @@
 // Made scans, read back: the vocabulary of the tests of `lacuna synth`.
 #pragma once
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"

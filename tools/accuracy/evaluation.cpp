@@ -1,6 +1,6 @@
 #include "tools/accuracy/evaluation.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
 #include "io/input_file.hpp"
 #include "io/loops_reader.hpp"

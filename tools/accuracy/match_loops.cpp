@@ -74,10 +74,10 @@ LoopMatch best_match(const std::map<std::size_t, Shares>& overlaps, std::span<co
   for (const auto& [hit, shares] : overlaps) {
     if (best.true_loop && rank(hit, shares) <= highest) continue;
     highest = rank(hit, shares);
-    best = {.verdict = Verdict::kFalse, .true_loop = hit, .on = shares.on, .covered = shares.covered};
+    best = {.verdict = EdgeDecision::kFalse, .true_loop = hit, .on = shares.on, .covered = shares.covered};
   }
   if (best.true_loop && matches({best.on, best.covered}, rule)) {
-    best.verdict = truth[*best.true_loop].counts ? Verdict::kFound : Verdict::kShort;
+    best.verdict = truth[*best.true_loop].counts ? EdgeDecision::kFound : EdgeDecision::kShort;
   }
   return best;
 }
@@ -90,8 +90,8 @@ LoopScores count(std::span<const LoopMatch> loops, std::span<const TrueMatch> tr
   }
   scores.loops = loops.size();
   for (const LoopMatch& loop : loops) {
-    scores.false_loops += loop.verdict == Verdict::kFalse;
-    scores.repeated += loop.verdict == Verdict::kRepeated;
+    scores.false_loops += loop.verdict == EdgeDecision::kFalse;
+    scores.repeated += loop.verdict == EdgeDecision::kRepeated;
   }
   const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
     if (whole == 0) return std::nullopt;
@@ -117,8 +117,8 @@ LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoo
       if (matches(shares, rule) && !result.true_loops[hit].found_by) result.true_loops[hit].found_by = loop;
     }
     LoopMatch match = best_match(overlaps[loop], result.true_loops, rule);
-    if (match.verdict == Verdict::kFound) {
-      if (taken[*match.true_loop]) match.verdict = Verdict::kRepeated;
+    if (match.verdict == EdgeDecision::kFound) {
+      if (taken[*match.true_loop]) match.verdict = EdgeDecision::kRepeated;
       taken[*match.true_loop] = true;
     }
     result.loops.push_back(match);
@@ -135,8 +135,8 @@ std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span
   };
   std::vector<Judged> judged;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i].verdict == Verdict::kShort || std::isnan(confidence[i])) continue;
-    judged.push_back({confidence[i], loops[i].verdict != Verdict::kFalse});
+    if (loops[i].verdict == EdgeDecision::kShort || std::isnan(confidence[i])) continue;
+    judged.push_back({confidence[i], loops[i].verdict != EdgeDecision::kFalse});
   }
   std::sort(judged.begin(), judged.end(),
             [](const Judged& a, const Judged& b) { return a.confidence < b.confidence; });

@@ -18,7 +18,7 @@ struct MatchRule {
   std::size_t min_vertices = 8;  // true loops with fewer do not count
 };
 
-enum class Verdict {
+enum class EdgeDecision {
   kFound,     // the first loop that matches its true loop
   kRepeated,  // a later one
   kShort,     // matches only a true loop that does not count: neither right nor wrong
@@ -26,7 +26,7 @@ enum class Verdict {
 };
 
 struct LoopMatch {
-  Verdict verdict = Verdict::kFalse;
+  EdgeDecision verdict = EdgeDecision::kFalse;
   // Of the true loops that it matches the best one: counting before short, then by the smaller share, then by
   // both, then the first; of a false loop the best of all that it comes near to. None: it is near none.
   std::optional<std::size_t> true_loop;

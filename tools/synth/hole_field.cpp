@@ -1,6 +1,6 @@
 #include "tools/synth/hole_field.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tools/synth/trig.hpp"
 
 #include <array>

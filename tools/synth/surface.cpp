@@ -1,6 +1,6 @@
 #include "tools/synth/surface.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tools/synth/hole_field.hpp"
 #include "tools/synth/surface_shape.hpp"
 #include "tools/synth/truth_loops.hpp"

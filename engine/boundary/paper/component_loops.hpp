@@ -4,9 +4,9 @@
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
 #include "engine/store/scratch.hpp"
-#include "engine/data/component.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/loops/raw_loops.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 #include "engine/stitch/stitch.hpp"
 
 #include <cstdint>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/data/component.hpp"
-#include "engine/data/evaluation.hpp"
-#include "engine/data/neighbourhoods.hpp"
+#include "engine/model/boundary_graph.hpp"
+#include "engine/criteria/evaluation.hpp"
+#include "engine/model/neighbourhoods.hpp"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "engine/boundary/paper/order_edges.hpp"
 
-#include "engine/stages/evaluate.hpp"
+#include "engine/evaluate/evaluate.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // order_edges: the order in which the spanning graph takes its edges (paper, 5.1).
 #pragma once
 
-#include "engine/data/component.hpp"
+#include "engine/model/boundary_graph.hpp"
 
 #include <span>
 #include <vector>

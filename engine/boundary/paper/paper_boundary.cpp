@@ -1,7 +1,7 @@
 #include "engine/boundary/paper/paper_boundary.hpp"
 
 #include "engine/boundary/paper/component_loops.hpp"
-#include "engine/boundary/paper/settle_part.hpp"
+#include "engine/boundary/paper/partial_spanning.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -130,7 +130,7 @@ void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>&
       edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
 
   Scratch scratch(job.workspace, job.memory.limit);
-  const SettledPart settled = settle_part(vertices.part(), std::move(edges), e, scratch);
+  const PartialSpanning settled = span_partially(vertices.part(), std::move(edges), e, scratch);
   find_loops_of(
       settled.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, found.loops);
   GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = settled.links};
@@ -148,7 +148,7 @@ FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
   FoundLoops found{.loops = RawLoops(job.file("raw-loops")), .minimum_loop = e};
   Phase phase(job, "loops", 0);
   const std::size_t tiles = tiling_.tiles.size();
-  job.crew.for_each(tiles, [&](std::size_t t) { decide_crossings(static_cast<TileIndex>(t)); });
+  job.arena.for_each(tiles, [&](std::size_t t) { decide_crossings(static_cast<TileIndex>(t)); });
 
   Stitch<BoundaryEdge> stitch(tiles, kBytesPerEdge, job);
   std::vector<std::uint64_t> needs(tiles);
@@ -156,7 +156,7 @@ FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
     needs[t] = (inside_.count(t) + crossings_.count(t)) * kBytesPerEdge +
                loop_points_.count(t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
   }
-  job.crew.for_each_within(needs, job.memory.global, [&](std::size_t t) {
+  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t t) {
     span_tile(static_cast<TileIndex>(t), e, stitch, found, job);
   });
   stitch.for_each_component(

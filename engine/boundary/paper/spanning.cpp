@@ -27,14 +27,14 @@ Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratc
   for (const LocalIndex v : open) approach(v, horizon_ - kToUnknown);
 }
 
-Verdict Spanning::add(LocalEdge edge) {
+EdgeDecision Spanning::add(LocalEdge edge) {
   scratch_.trim();
   const auto [a, b] = edge;
-  if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return Verdict::left_out;
+  if (trees_.find(a) == trees_.find(b) && connects(a, b, e_ - 1)) return EdgeDecision::left_out;
   if (may_connect_outside(a, b)) {
     approach(a, horizon_ - kToUnknown);
     approach(b, horizon_ - kToUnknown);
-    return Verdict::undecided;
+    return EdgeDecision::undecided;
   }
   trees_.unite(a, b);
   link(a, b);
@@ -43,7 +43,7 @@ Verdict Spanning::add(LocalEdge edge) {
     approach(a, std::int64_t{nearness_[b]} - 2);
     approach(b, std::int64_t{nearness_[a]} - 2);
   }
-  return Verdict::taken;
+  return EdgeDecision::taken;
 }
 
 // Can there be a path of fewer than e edges by way of what is not known?

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/store/scratch.hpp"
-#include "engine/data/component.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/stitch/union_find.hpp"
 
 #include <array>
@@ -25,7 +25,7 @@ struct SpanningGraph {
   }
 };
 
-enum class Verdict : std::uint8_t { taken, left_out, undecided };
+enum class EdgeDecision : std::uint8_t { taken, left_out, undecided };
 
 // Built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two trees joins
 // them; one within a tree is taken only if the loop that it closes has more than e edges: no path of fewer
@@ -40,7 +40,7 @@ class Spanning {
   Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,
            std::span<const LocalIndex> open = {});
 
-  Verdict add(LocalEdge edge);
+  EdgeDecision add(LocalEdge edge);
   // An edge may be missing at v, or be undecided.
   bool is_open(LocalIndex v) const;
   SpanningGraph finish();

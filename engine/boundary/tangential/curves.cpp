@@ -18,13 +18,13 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 
 }  // namespace
 
-std::vector<WedgePartners> partners_of(std::span<const Gap> wedges) {
+std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   RowNumbers points;
   points.collect(wedges.size(), [&](auto&& add) {
-    for (const Gap& wedge : wedges) add(wedge.point.row);
+    for (const Wedge& wedge : wedges) add(wedge.point.row);
   });
   std::vector<LocalIndex> begins(points.size() + 1);  // of each point's wedges
-  for (const Gap& wedge : wedges) ++begins[points.number(wedge.point.row) + 1];
+  for (const Wedge& wedge : wedges) ++begins[points.number(wedge.point.row) + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
   // The wedge at `point` with an edge to `neighbour`: there is at most one.
@@ -38,21 +38,21 @@ std::vector<WedgePartners> partners_of(std::span<const Gap> wedges) {
   };
   std::vector<WedgePartners> partners;
   partners.reserve(wedges.size());
-  for (const Gap& wedge : wedges)
+  for (const Wedge& wedge : wedges)
     partners.push_back({find(wedge.from, wedge.point.row), find(wedge.to, wedge.point.row)});
   return partners;
 }
 
-void follow_curves(std::span<const Gap> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
-                   const std::function<void(std::vector<RimPoint>&)>& visit) {
+void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
+                   const std::function<void(std::vector<CurvePoint>&)>& visit) {
   std::vector<bool>& is_done = left_out;
-  std::vector<RimPoint> curve;
+  std::vector<CurvePoint> curve;
   for (LocalIndex start = 0; start < wedges.size(); ++start) {
     if (is_done[start]) continue;
     curve.clear();
     std::size_t side = wedges[start].from < wedges[start].to ? 1 : 0;  // where the curve goes on
     for (LocalIndex at = start; !is_done[at];) {
-      const Gap& wedge = wedges[at];
+      const Wedge& wedge = wedges[at];
       is_done[at] = true;
       curve.push_back({wedge.point, wedge.room});
       at = partners[at][side];
@@ -63,7 +63,7 @@ void follow_curves(std::span<const Gap> wedges, std::span<const WedgePartners> p
   }
 }
 
-void normalise(std::vector<RimPoint>& rim) {
+void normalise(std::vector<CurvePoint>& rim) {
   struct Way {
     std::size_t start;
     bool forwards;
@@ -79,7 +79,7 @@ void normalise(std::vector<RimPoint>& rim) {
     return false;
   };
   PointId least = rim.front().vertex.id;
-  for (const RimPoint& p : rim) least = std::min(least, p.vertex.id);
+  for (const CurvePoint& p : rim) least = std::min(least, p.vertex.id);
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
     if (rim[start].vertex.id != least) continue;
@@ -88,40 +88,40 @@ void normalise(std::vector<RimPoint>& rim) {
       if (!best || comes_first(way, *best)) best = way;
     }
   }
-  std::vector<RimPoint> turned;
+  std::vector<CurvePoint> turned;
   turned.reserve(count);
   for (std::size_t i = 0; i < count; ++i) turned.push_back(rim[place(best->start, i, best->forwards, count)]);
   rim = std::move(turned);
 }
 
-std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
+std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> rim) {
   std::vector<Row> rows;  // then: those that are passed again
-  for (const RimPoint& p : rim) rows.push_back(p.vertex.row);
+  for (const CurvePoint& p : rim) rows.push_back(p.vertex.row);
   std::sort(rows.begin(), rows.end());
   std::size_t count = 0;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
     if (rows[i] == rows[i + 1] && (count == 0 || rows[count - 1] != rows[i])) rows[count++] = rows[i];
   }
   rows.resize(count);
-  std::vector<std::vector<RimPoint>> curves;
+  std::vector<std::vector<CurvePoint>> curves;
   if (rows.empty()) {
     curves.push_back(std::move(rim));
     return curves;
   }
   constexpr std::size_t kNone = SIZE_MAX;
   std::vector<std::size_t> places(rows.size(), kNone);  // on the way
-  const auto place_of = [&](const RimPoint& p) -> std::size_t* {
+  const auto place_of = [&](const CurvePoint& p) -> std::size_t* {
     const auto at = std::lower_bound(rows.begin(), rows.end(), p.vertex.row);
     return at != rows.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - rows.begin())]
                                                    : nullptr;
   };
-  std::vector<RimPoint> way;
-  for (const RimPoint& p : rim) {
+  std::vector<CurvePoint> way;
+  for (const CurvePoint& p : rim) {
     std::size_t* const place = place_of(p);
     if (place != nullptr && *place != kNone) {
       const auto back = way.begin() + static_cast<std::ptrdiff_t>(*place);
       curves.emplace_back(back, way.end());
-      for (const RimPoint& left : curves.back()) {
+      for (const CurvePoint& left : curves.back()) {
         if (std::size_t* const of_left = place_of(left); of_left != nullptr) *of_left = kNone;
       }
       way.erase(back, way.end());
@@ -130,13 +130,13 @@ std::vector<std::vector<RimPoint>> split_at_pinches(std::vector<RimPoint> rim) {
     way.push_back(p);
   }
   curves.push_back(std::move(way));
-  for (std::vector<RimPoint>& curve : curves) normalise(curve);
+  for (std::vector<CurvePoint>& curve : curves) normalise(curve);
   return curves;
 }
 
-double confidence(std::span<const RimPoint> rim, const TangentialConfig& config) {
+double confidence(std::span<const CurvePoint> rim, const TangentialConfig& config) {
   double sum = 0;
-  for (const RimPoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
+  for (const CurvePoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
   return sum / (static_cast<double>(rim.size()) + config.doubt);
 }
 

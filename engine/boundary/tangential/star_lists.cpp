@@ -31,20 +31,20 @@ void StarSpill::drop(TileIndex tile) {
 StarLists::StarLists(const TileStore& store, const Job& job)
     : waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
       waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
-      waiting_sight(job.file("waiting-sight"), store.tiling().tiles.size(), job.memory.spills / 16),
+      waiting_nearby(job.file("waiting-nearby"), store.tiling().tiles.size(), job.memory.spills / 16),
       around(store.tiling().tiles.size()),
-      seats(job.file("seats")),
-      rough(store.tiling().row_count()),
+      sites(job.file("sites")),
+      active(store.tiling().row_count()),
       unmeasured(store.tiling().row_count()),
       found(job, "found", store.tiling().tiles.size(), job.memory.spills / 16),
       open(job, "open", store.tiling().tiles.size(), job.memory.spills / 8),
-      gaps(job.file("gaps"), store.tiling().tiles.size(), job.memory.spills / 8),
-      open_gaps(job.file("open-gaps"), store.tiling().tiles.size(), job.memory.spills / 16) {}
+      wedges(job.file("wedges"), store.tiling().tiles.size(), job.memory.spills / 8),
+      open_wedges(job.file("open-wedges"), store.tiling().tiles.size(), job.memory.spills / 16) {}
 
 void StarLists::drop_waiting(TileIndex tile) {
   waiting.drop(tile);
   waiting_neighbours.drop(tile);
-  waiting_sight.drop(tile);
+  waiting_nearby.drop(tile);
   found.drop(tile);
   open.drop(tile);
 }

@@ -5,9 +5,9 @@
 #include "engine/store/row_set.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
-#include "engine/data/stored_stars.hpp"
+#include "engine/boundary/tangential/stored_stars.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/passes/job.hpp"
+#include "engine/run/job.hpp"
 
 #include <cstdint>
 #include <string>
@@ -15,17 +15,17 @@
 
 namespace lacuna {
 
-// A point with neighbours in other tiles, whose star waits for their seats, or one beside such, whose star
+// A point with neighbours in other tiles, whose star waits for their sites, or one beside such, whose star
 // waits to be measured.
 struct WaitingPoint {
   LocalIndex place;  // in sight
   std::uint32_t neighbours;
-  Standing standing;
+  PointState state;
   double normal[3];
 };
 
 // A point that a waiting one sees.
-struct SeenPoint {
+struct NearbyPoint {
   Vertex vertex;
   Sampling sampling;  // none of border points: theirs come later
 };
@@ -41,26 +41,26 @@ class StarSpill {
 
  private:
   AppendLists<StoredStar> stars_;
-  AppendLists<StoredCorner> corners_;
+  AppendLists<StoredLinkVertex> corners_;
 };
 
 // What the default method keeps of the tiles; lists are by tile unless said otherwise.
 struct StarLists {
   StarLists(const TileStore& store, const Job& job);
 
-  void drop_waiting(TileIndex tile);  // all but the gaps
+  void drop_waiting(TileIndex tile);  // all but the wedges
 
   AppendLists<WaitingPoint> waiting;                 // in ascending owned index
   AppendLists<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
-  AppendLists<SeenPoint> waiting_sight;              // these points and their neighbours, in ascending row
+  AppendLists<NearbyPoint> waiting_nearby;              // these points and their neighbours, in ascending row
   std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
-  Column<Seat> seats;                          // by row, of border points and their neighbours
-  RowSet rough;
+  Column<Site> sites;                          // by row, of border points and their neighbours
+  RowSet active;
   RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
   StarSpill found;       // stars of waiting points as they are found
   StarSpill open;        // measured stars
-  AppendLists<Gap> gaps;       // of settled ones
-  AppendLists<Gap> open_gaps;  // of the others (passes/seams)
+  AppendLists<Wedge> wedges;       // of settled ones
+  AppendLists<Wedge> open_wedges;  // of the others (passes/seams)
 };
 
 }  // namespace lacuna

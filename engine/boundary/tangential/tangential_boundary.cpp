@@ -3,7 +3,7 @@
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
 #include "engine/store/merge_runs.hpp"
-#include "engine/passes/seams.hpp"
+#include "engine/boundary/tangential/border_exchange.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -15,37 +15,37 @@ namespace {
 // Measured: a wedge, its curve, and the curve turned and parted.
 constexpr std::uint64_t kBytesPerWedge = 160;
 
-bool by_row(const Gap& a, const Gap& b) {
+bool by_row(const Wedge& a, const Wedge& b) {
   return a.point.row < b.point.row;
 }
 
 // The loops along a closed curve.
-void add_loops(std::vector<RimPoint>& curve, const TangentialConfig& config, RawLoops& loops) {
+void add_loops(std::vector<CurvePoint>& curve, const TangentialConfig& config, RawLoops& loops) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   if (curve.size() < least) return;
   normalise(curve);
-  for (const std::vector<RimPoint>& simple : split_at_pinches(std::move(curve))) {
+  for (const std::vector<CurvePoint>& simple : split_at_pinches(std::move(curve))) {
     if (simple.size() < least) continue;
     std::vector<Vertex> loop;
     loop.reserve(simple.size());
-    for (const RimPoint& p : simple) loop.push_back(p.vertex);
+    for (const CurvePoint& p : simple) loop.push_back(p.vertex);
     loops.add(loop, confidence(simple, config));
   }
 }
 
 // Of a whole component.
-void add_component_loops(std::vector<Gap> wedges, const TangentialConfig& config, RawLoops& loops) {
+void add_component_loops(std::vector<Wedge> wedges, const TangentialConfig& config, RawLoops& loops) {
   std::sort(wedges.begin(), wedges.end(), by_row);
   follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
-                [&](std::vector<RimPoint>& curve) { add_loops(curve, config, loops); });
+                [&](std::vector<CurvePoint>& curve) { add_loops(curve, config, loops); });
 }
 
 // A tile's part of the boundary graph. Its vertices are the wedges; those of one point are connected.
-GraphPart<Gap> part_of(std::span<const Gap> wedges, std::span<const WedgePartners> partners,
+GraphPart<Wedge> part_of(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
                        std::vector<LocalIndex>& links) {
   links.assign(wedges.size(), 0);
   UnionFind connected(links);
-  GraphPart<Gap> part{.vertices = static_cast<LocalIndex>(wedges.size()), .links = links};
+  GraphPart<Wedge> part{.vertices = static_cast<LocalIndex>(wedges.size()), .links = links};
   for (LocalIndex i = 0; i < wedges.size(); ++i) {
     if (i > 0 && wedges[i].point == wedges[i - 1].point) connected.unite(i - 1, i);
     for (const std::size_t side : {0, 1}) {
@@ -60,7 +60,7 @@ GraphPart<Gap> part_of(std::span<const Gap> wedges, std::span<const WedgePartner
 }
 
 // Adds the wedges of open components, those that leave the tile, to the records of the part. Returns which they are.
-std::vector<bool> add_open_wedges(std::span<const Gap> wedges, GraphPart<Gap>& part) {
+std::vector<bool> add_open_wedges(std::span<const Wedge> wedges, GraphPart<Wedge>& part) {
   UnionFind connected(part.links);
   std::vector<bool> has_crossing(wedges.size()), is_open(wedges.size());
   for (const CrossingEdge& crossing : part.crossings) has_crossing[connected.find(crossing.vertex)] = true;
@@ -86,11 +86,11 @@ void TangentialBoundary::take(const EvaluatedTile& tile) {
   add_loop_points(loop_points_, tile, take_stars(tile, tiling_, config_, stars_));
 }
 
-std::vector<Gap> TangentialBoundary::wedges_of(TileIndex t) {
-  std::vector<Gap> wedges = stars_.gaps.read(t);
-  stars_.gaps.drop(t);
-  const std::vector<Gap> open = stars_.open_gaps.read(t);
-  stars_.open_gaps.drop(t);
+std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
+  std::vector<Wedge> wedges = stars_.wedges.read(t);
+  stars_.wedges.drop(t);
+  const std::vector<Wedge> open = stars_.open_wedges.read(t);
+  stars_.open_wedges.drop(t);
   wedges.insert(wedges.end(), open.begin(), open.end());
   merge_runs(wedges, by_row);
   return wedges;
@@ -99,28 +99,28 @@ std::vector<Gap> TangentialBoundary::wedges_of(TileIndex t) {
 FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   FoundLoops found{.loops = RawLoops(job.file("raw-loops"), job.config.selection.min_confidence)};
   Phase phase(job, "loops", 0);
-  settle_seams(stars_, tiling_, job);
+  exchange_borders(stars_, tiling_, job);
 
   const std::size_t tiles = tiling_.tiles.size();
   const TangentialConfig& config = config_.tangential;
-  Stitch<Gap> stitch(tiles, kBytesPerWedge, job);
-  job.crew.for_each(tiles, [&](std::size_t t) {
-    const std::vector<Gap> wedges = wedges_of(static_cast<TileIndex>(t));
+  Stitch<Wedge> stitch(tiles, kBytesPerWedge, job);
+  job.arena.for_each(tiles, [&](std::size_t t) {
+    const std::vector<Wedge> wedges = wedges_of(static_cast<TileIndex>(t));
     const std::vector<WedgePartners> partners = partners_of(wedges);
     std::atomic_ref(found.edges) += wedges.size();  // each wedge ends at two edges, each edge at two wedges
     std::vector<LocalIndex> links;
-    GraphPart<Gap> part = part_of(wedges, partners, links);
+    GraphPart<Wedge> part = part_of(wedges, partners, links);
     std::vector<bool> is_open = add_open_wedges(wedges, part);
     stitch.add(static_cast<TileIndex>(t), part);
     follow_curves(wedges, partners, std::move(is_open),
-                  [&](std::vector<RimPoint>& curve) { add_loops(curve, config, found.loops); });
+                  [&](std::vector<CurvePoint>& curve) { add_loops(curve, config, found.loops); });
   });
   stitch.for_each_component(
-      [&](std::span<const Gap> wedges) { add_component_loops({wedges.begin(), wedges.end()}, config, found.loops); },
+      [&](std::span<const Wedge> wedges) { add_component_loops({wedges.begin(), wedges.end()}, config, found.loops); },
       [&](const auto& for_each_wedge, std::uint64_t count) {
-        std::vector<Gap> wedges;
+        std::vector<Wedge> wedges;
         wedges.reserve(count);
-        for_each_wedge([&](const Gap& wedge) { wedges.push_back(wedge); });
+        for_each_wedge([&](const Wedge& wedge) { wedges.push_back(wedge); });
         add_component_loops(std::move(wedges), config, found.loops);
       });
   found.components = stitch.components();

@@ -15,7 +15,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
   void take(const EvaluatedTile& tile) override;
-  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves gaps by itself.
+  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges by itself.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes through.
   RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
@@ -24,7 +24,7 @@ class TangentialBoundary final : public BoundaryMethod {
   }
 
  private:
-  std::vector<Gap> wedges_of(TileIndex tile);
+  std::vector<Wedge> wedges_of(TileIndex tile);
 
   const Tiling& tiling_;
   StarLists stars_;

@@ -66,7 +66,7 @@ TEST_CASE("the surface outside makes a hole, inside a rim, whatever the directio
         std::reverse(rim.begin(), rim.end());
       }
       CHECK(measure_loop(hole, 1).kind == LoopKind::kHole);
-      CHECK(measure_loop(rim, 1).kind == LoopKind::kRim);
+      CHECK(measure_loop(rim, 1).kind == LoopKind::kOuter);
       CHECK(measure_loop(hole, 1).normal.z() == Approx(reversed ? -1 : 1));
     }
   }
@@ -76,7 +76,7 @@ TEST_CASE("the rim of a dented outline is a rim though parts of it bend inwards"
   Loop star = circle(100, 3, -1);
   for (std::size_t i = 0; i < star.size(); ++i)
     star[i].position *= 1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i));
-  CHECK(measure_loop(star, 1).kind == LoopKind::kRim);
+  CHECK(measure_loop(star, 1).kind == LoopKind::kOuter);
 }
 
 TEST_CASE("a fine circle has the measures of a circle") {
@@ -92,7 +92,7 @@ TEST_CASE("measures do not suffer from coordinates in the millions") {
   Loop far = circle(200, 0.01, -1);
   move(far, {1e6, -1e6, 2e6});
   const LoopMeasures near = measure_loop(circle(200, 0.01, -1), 1), m = measure_loop(far, 1);
-  CHECK(m.kind == LoopKind::kRim);
+  CHECK(m.kind == LoopKind::kOuter);
   CHECK(m.perimeter == Approx(near.perimeter).epsilon(1e-6));
   CHECK(m.area == Approx(near.area).epsilon(1e-6));
   CHECK(m.planarity == Approx(1).margin(1e-6));

@@ -75,7 +75,7 @@ TEST_CASE("no loops: nothing is measured") {
 }
 
 TEST_CASE("loops are selected by points, perimeter and kind, limits included") {
-  const std::vector<LoopMeasures> loops = {{.kind = LoopKind::kRim, .points = 100, .perimeter = 50},
+  const std::vector<LoopMeasures> loops = {{.kind = LoopKind::kOuter, .points = 100, .perimeter = 50},
                                            {.kind = LoopKind::kHole, .points = 9, .perimeter = 5},
                                            {.kind = LoopKind::kHole, .points = 10, .perimeter = 4},
                                            {.kind = LoopKind::kHole, .points = 30, .perimeter = 20}};

@@ -73,7 +73,7 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
     const std::lock_guard lock(mutex);
     CHECK(result.components.insert(component).second);
   };
-  job.crew.for_each(tiles, [&](std::size_t t) {
+  job.arena.for_each(tiles, [&](std::size_t t) {
     std::vector<LocalIndex> links;
     stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
   });

@@ -1,7 +1,7 @@
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,8 +1,8 @@
 // Rows on disk: what was written, holes, and files cut short.
 #include "engine/store/column.hpp"
 
-#include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -73,7 +73,7 @@ TEST_CASE("several threads may append to a column: each piece stays together") {
   const ScratchFolder folder;
   Column<std::uint64_t> column(folder / "numbers");
   std::vector<std::uint64_t> rows(500);
-  Crew(4).for_each(rows.size(), [&](std::size_t i) { rows[i] = column.append(numbers(1000 * i, i)); });
+  TaskArena(4).for_each(rows.size(), [&](std::size_t i) { rows[i] = column.append(numbers(1000 * i, i)); });
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) wrong += column.read(rows[i], i) != numbers(1000 * i, i);
   CHECK(wrong == 0);

@@ -1,8 +1,8 @@
 // Points on disk come back as they were, in either precision.
 #include "engine/store/point_column.hpp"
 
-#include "engine/core/error.hpp"
-#include "engine/stages/survey.hpp"
+#include "engine/run/error.hpp"
+#include "engine/survey/survey.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 

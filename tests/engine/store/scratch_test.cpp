@@ -1,7 +1,7 @@
 // Arrays in memory, or mapped from files.
 #include "engine/store/scratch.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,7 +1,7 @@
 // Sorting more than fits in memory.
 #include "engine/store/sorted_runs.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"

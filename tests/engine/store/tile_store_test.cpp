@@ -1,7 +1,7 @@
 // Points on their way into the rows of their tiles, and back.
 #include "engine/store/tile_store.hpp"
 
-#include "engine/core/error.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,7 +1,7 @@
 #include "engine/boundary/paper/eligible_edges.hpp"
 
-#include "engine/stages/evaluate.hpp"
-#include "engine/stages/neighbourhoods.hpp"
+#include "engine/evaluate/evaluate.hpp"
+#include "engine/neighbours/neighbourhoods.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
 

@@ -138,7 +138,7 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
 }
 
 // The verdicts on the edges that are known here, those of which one end is below `owned`.
-std::vector<Verdict> judge(LocalIndex vertices, LocalIndex owned, const Edges& edges, std::int64_t e) {
+std::vector<EdgeDecision> judge(LocalIndex vertices, LocalIndex owned, const Edges& edges, std::int64_t e) {
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", kInMemory);
   std::vector<PointId> ids;
@@ -148,7 +148,7 @@ std::vector<Verdict> judge(LocalIndex vertices, LocalIndex owned, const Edges& e
     if (v >= owned) open.push_back(v);
   }
   Spanning spanning(ids, e, scratch, open);
-  std::vector<Verdict> verdicts;
+  std::vector<EdgeDecision> verdicts;
   for (const auto& [a, b] : edges) {
     if (std::min(a, b) < owned) verdicts.push_back(spanning.add({a, b}));
   }
@@ -158,7 +158,7 @@ std::vector<Verdict> judge(LocalIndex vertices, LocalIndex owned, const Edges& e
 TEST_CASE("an edge is undecided where a short enough way may lead through the unknown") {
   // 3 and 4 are elsewhere; the ends 0 and 2 are a step away from them: the way may be of 3 edges.
   const Edges edges = {{0, 3}, {2, 4}, {0, 1}, {1, 2}, {0, 2}};
-  const auto t = Verdict::taken, l = Verdict::left_out, u = Verdict::undecided;
+  const auto t = EdgeDecision::taken, l = EdgeDecision::left_out, u = EdgeDecision::undecided;
   CHECK(judge(5, 3, edges, 2) == std::vector{t, t, t, t, t});
   CHECK(judge(5, 3, edges, 3) == std::vector{t, t, t, t, l});
   CHECK(judge(5, 3, {{0, 3}, {2, 4}, {0, 2}}, 3) == std::vector{t, t, t});
@@ -182,13 +182,13 @@ TEST_CASE("verdicts on a part of a random graph are those on the whole, whatever
     const std::int64_t e = random.whole(1, 12);
     INFO("seed " << seed << ", e = " << e);
     const Edges taken = span_plainly(vertices, edges, e);
-    const std::vector<Verdict> verdicts = judge(vertices, owned, edges, e);
+    const std::vector<EdgeDecision> verdicts = judge(vertices, owned, edges, e);
     auto verdict = verdicts.begin();
     for (const auto& edge : edges) {
       if (edge.first >= owned) continue;
       const bool is_taken = std::binary_search(taken.begin(), taken.end(), edge);
-      if (*verdict != Verdict::undecided) CHECK((*verdict == Verdict::taken) == is_taken);
-      decided += *verdict++ != Verdict::undecided;
+      if (*verdict != EdgeDecision::undecided) CHECK((*verdict == EdgeDecision::taken) == is_taken);
+      decided += *verdict++ != EdgeDecision::undecided;
       ++all;
     }
   }

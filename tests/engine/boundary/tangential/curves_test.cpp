@@ -12,45 +12,45 @@ Vertex vertex(std::uint64_t row) {
   return {PointId{1000 - row}, Row{row}};
 }
 
-// The gaps of a closed rim, every second one written against its direction.
-std::vector<Gap> ring(const std::vector<std::uint64_t>& rows) {
-  std::vector<Gap> gaps;
+// The wedges of a closed rim, every second one written against its direction.
+std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
+  std::vector<Wedge> wedges;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
     if (i % 2 == 1) std::swap(from, to);
-    gaps.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
+    wedges.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
   }
-  return gaps;
+  return wedges;
 }
 
-std::vector<std::vector<RimPoint>> follow(std::vector<Gap> wedges) {
-  std::vector<std::vector<RimPoint>> curves;
+std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
+  std::vector<std::vector<CurvePoint>> curves;
   std::stable_sort(wedges.begin(), wedges.end(),
-                   [](const Gap& a, const Gap& b) { return a.point.row < b.point.row; });
-  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()), [&](std::vector<RimPoint>& curve) { curves.push_back(curve); });
+                   [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
+  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()), [&](std::vector<CurvePoint>& curve) { curves.push_back(curve); });
   return curves;
 }
 
-std::vector<RimPoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
-  std::vector<RimPoint> rim;
+std::vector<CurvePoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
+  std::vector<CurvePoint> rim;
   for (std::size_t i = 0; i < ids.size(); ++i)
     rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i]});
   return rim;
 }
 
-std::vector<std::uint64_t> ids(const std::vector<RimPoint>& rim) {
+std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& rim) {
   std::vector<std::uint64_t> ids;
-  for (const RimPoint& p : rim) ids.push_back(value(p.vertex.id));
+  for (const CurvePoint& p : rim) ids.push_back(value(p.vertex.id));
   return ids;
 }
 
 }  // namespace
 
 TEST_CASE("wedges chain to one closed curve, through a point that it passes twice too") {
-  const std::vector<std::vector<RimPoint>> one = follow(ring({3, 9, 4, 8, 1, 7}));
+  const std::vector<std::vector<CurvePoint>> one = follow(ring({3, 9, 4, 8, 1, 7}));
   REQUIRE(one.size() == 1);
   std::vector<std::uint64_t> found;
-  for (const RimPoint& p : one[0]) {
+  for (const CurvePoint& p : one[0]) {
     found.push_back(value(p.vertex.row));
     CHECK(p.room == static_cast<float>(value(p.vertex.row)));
   }
@@ -63,17 +63,17 @@ TEST_CASE("wedges chain to one closed curve, through a point that it passes twic
 }
 
 TEST_CASE("curves that touch in a point stay apart") {
-  std::vector<Gap> wedges = ring({3, 9, 4, 8, 1, 7});
-  const std::vector<Gap> other = ring({9, 10, 11});
+  std::vector<Wedge> wedges = ring({3, 9, 4, 8, 1, 7});
+  const std::vector<Wedge> other = ring({9, 10, 11});
   wedges.insert(wedges.end(), other.begin(), other.end());
-  const std::vector<std::vector<RimPoint>> curves = follow(wedges);
+  const std::vector<std::vector<CurvePoint>> curves = follow(wedges);
   REQUIRE(curves.size() == 2);
   CHECK(std::minmax({curves[0].size(), curves[1].size()}) == std::pair<std::size_t, std::size_t>(3, 6));
 }
 
 TEST_CASE("wedges that are left out have no curve, and a wedge whose neighbour is elsewhere no partner there") {
-  std::vector<Gap> wedges = ring({1, 2, 3, 4});
-  const std::vector<Gap> other = ring({20, 21, 22});
+  std::vector<Wedge> wedges = ring({1, 2, 3, 4});
+  const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
   wedges.insert(wedges.end(), other.begin(), other.end());
   const std::vector<WedgePartners> partners = partners_of(wedges);
@@ -82,7 +82,7 @@ TEST_CASE("wedges that are left out have no curve, and a wedge whose neighbour i
   CHECK(std::count(partners[2].begin(), partners[2].end(), kNoIndex) == 1);
   std::vector<std::size_t> sizes;
   follow_curves(wedges, partners, {true, true, true, false, false, false},
-                [&](std::vector<RimPoint>& curve) { sizes.push_back(curve.size()); });
+                [&](std::vector<CurvePoint>& curve) { sizes.push_back(curve.size()); });
   CHECK(sizes == std::vector<std::size_t>{3});
 }
 
@@ -93,11 +93,11 @@ TEST_CASE("no wedges: no curve") {
 TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour") {
   for (const std::vector<std::uint64_t>& way :
        {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
-    std::vector<RimPoint> rim = rim_of(way);
+    std::vector<CurvePoint> rim = rim_of(way);
     normalise(rim);
     CHECK(ids(rim) == std::vector<std::uint64_t>{2, 5, 7, 9});
   }
-  std::vector<RimPoint> twice = rim_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
+  std::vector<CurvePoint> twice = rim_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
   normalise(twice);
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }

@@ -1,0 +1,43 @@
+#include "engine/boundary/paper/partial_spanning.hpp"
+
+#include "engine/boundary/paper/cycles.hpp"
+#include "engine/boundary/paper/order_edges.hpp"
+#include "engine/stitch/union_find.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lacuna {
+
+PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
+                        Scratch& scratch) {
+  std::vector<LocalIndex> foreign(vertices.size() - vertices.owned);
+  std::iota(foreign.begin(), foreign.end(), vertices.owned);
+  order_edges(edges, vertices.ids);
+  Spanning spanning(vertices.ids, e, scratch, foreign);
+  std::vector<WeightedEdge> undecided;
+  std::vector<std::uint8_t> is_open(vertices.size());
+  std::erase_if(edges, [&](const WeightedEdge& edge) {
+    const EdgeDecision verdict = spanning.add({edge.a, edge.b});
+    if (verdict == EdgeDecision::undecided) undecided.push_back(edge);
+    // The other part may tell of it, not knowing the path that speaks against it: that has to go on too.
+    if (verdict == EdgeDecision::left_out && !vertices.tells(edge)) is_open[edge.a] = 1;
+    return verdict != EdgeDecision::taken;
+  });
+  edges.insert(edges.end(), undecided.begin(), undecided.end());
+  const std::span<LocalIndex> links = scratch.array<LocalIndex>(vertices.size());
+  UnionFind connected(links);
+  for (const WeightedEdge& edge : edges) connected.unite(edge.a, edge.b);
+
+  std::vector<LocalIndex> open;
+  for (LocalIndex v = 0; v < vertices.size(); ++v) {
+    if (is_open[v] || spanning.is_open(v)) open.push_back(v);
+  }
+  const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
+  std::erase_if(edges, [&](const WeightedEdge& edge) {
+    return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.tells(edge);
+  });
+  return {cycles.settled, std::move(edges), links};
+}
+
+}  // namespace lacuna

@@ -1,0 +1,51 @@
+// Formulas of the stars, for the points of a batch and for one point in the exact fallback.
+#if defined(LACUNA_STAGES_STAR_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LACUNA_STAGES_STAR_INL
+#undef LACUNA_STAGES_STAR_INL
+#else
+#define LACUNA_STAGES_STAR_INL
+#endif
+
+#include "engine/simd/vector-inl.hpp"
+#include "engine/boundary/tangential/star_batch.hpp"
+
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace lacuna::HWY_NAMESPACE {
+
+// Where a point sees a neighbour in its tangent plane, inverted; or from there to another. NaN: not at all.
+template <class V>
+struct View {
+  V x, y;
+};
+
+// The weights make it a ball orthogonal to small balls around the points: any two views of four points on one
+// circle then agree on how it falls into triangles.
+template <class V>
+HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
+  const V power = dot(offset, offset) + weight;
+  const V undefined = all<V>(std::numeric_limits<double>::quiet_NaN());
+  const V inverse = hn::IfThenElse(power > all<V>(0), all<V>(1) / power, undefined);
+  return {dot(offset, frame.u) * inverse, dot(offset, frame.v) * inverse};
+}
+
+// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one
+// of them, inverted; (dx, dy): from there to where it sees the other.
+template <class V>
+HWY_INLINE auto ball_at(V x, V y, V dx, V dy, V distance) {
+  // Both without a unit. From here on in single precision, which is what is kept: roots and quotients take a
+  // quarter of the time.
+  const hn::Rebind<float, TagOf<V>> single;
+  const V unit = distance * distance;
+  const auto squared_length = hn::DemoteTo(single, (dx * dx + dy * dy) * unit);
+  const auto height = hn::DemoteTo(single, (x * dy - y * dx) * (all<V>(2) * unit));  // times the length
+  const auto largest = hn::Set(single, static_cast<float>(kLargestBall));
+  const auto ball = hn::Sqrt(squared_length) / height;
+  return hn::IfThenElse(height > hn::Zero(single), hn::Min(ball, largest), largest);
+}
+
+}  // namespace lacuna::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,147 @@
+#include "engine/boundary/tangential/stars.hpp"
+
+#include "engine/boundary/tangential/star-inl.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna {
+namespace {
+
+// In units of r^2: far above rounding, far below what a scanner can tell.
+constexpr double kWeights = 1e-4;
+
+// A number in [0, 1) that looks random.
+double random_share(PointId id) {
+  std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
+  mixed ^= mixed >> 29;
+  mixed *= 0xbf58476d1ce4e5b9;
+  return static_cast<double>(mixed >> 40) * 0x1p-24;
+}
+
+// The kernel's formulas, for one point.
+namespace formulas = HWY_NAMESPACE;
+using One = formulas::hn::Vec<formulas::hn::CappedTag<double, 1>>;
+
+One one(double number) {
+  return formulas::all<One>(number);
+}
+template <class Components>
+formulas::Vector<One> vector(const Components& components) {
+  return {one(components[0]), one(components[1]), one(components[2])};
+}
+template <class V>
+auto number(V one) {
+  return formulas::hn::GetLane(one);
+}
+
+// Where a point sees a neighbour, inverted.
+struct View {
+  double x, y;
+  LocalIndex neighbour;
+};
+
+struct Views {
+  std::vector<View> all;
+  double distance;  // `Sampling::distance`
+};
+
+Views look_around(std::span<const Site> sites, const StarQuery& query) {
+  const Site& at = sites[query.point];
+  const auto frame = formulas::frame_of(vector(query.normal));
+  Views views;
+  double sum = at.closeness;
+  for (LocalIndex i = 0; i < query.neighbours.size(); ++i) {
+    const Site& q = sites[query.neighbours[i]];
+    sum += q.closeness;
+    const auto offset = (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
+    const auto seen = formulas::view_of(offset, one(at.weight - q.weight), frame);
+    const View view{number(seen.x), number(seen.y), i};
+    if (std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
+  }
+  views.distance = static_cast<double>(query.neighbours.size() + 1) / sum;
+  return views;
+}
+
+// The convex hull, by Andrew's monotone chain; the last is the first again.
+std::vector<View> hull_of(std::vector<View> views) {
+  std::sort(views.begin(), views.end(), [](const View& a, const View& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.neighbour < b.neighbour;
+  });
+  const auto turns_left = [](const View& a, const View& b, const View& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+  };
+  std::vector<View> hull;
+  const auto add = [&](const View& next, std::size_t least) {
+    while (hull.size() > least && !turns_left(hull[hull.size() - 2], hull.back(), next)) hull.pop_back();
+    hull.push_back(next);
+  };
+  for (const View& next : views) add(next, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t i = views.size(); i-- > 1;) add(views[i - 1], lower);
+  return hull;
+}
+
+}  // namespace
+
+Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation) {
+  const double r = evaluation.mean_distance;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  if (evaluation.normal.allFinite())
+    shift = evaluation.normal * evaluation.normal.dot(evaluation.mean_offset);
+  return {{position.x(), position.y(), position.z()},
+          {shift.x(), shift.y(), shift.z()},
+          1 / r,
+          kWeights * random_share(id) * r * r};
+}
+
+ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query) {
+  ExactStar star;
+  if (!query.normal.allFinite()) return star;
+  Views views = look_around(sites, query);
+  star.distance = views.distance;
+  if (views.all.size() < 3) return star;
+  std::vector<View> hull = hull_of(std::move(views.all));
+  if (hull.size() < 4) return star;
+  hull.pop_back();
+  const auto nearer = [](const View& a, const View& b) {
+    const double squared_a = a.x * a.x + a.y * a.y, squared_b = b.x * b.x + b.y * b.y;
+    return squared_a != squared_b ? squared_a < squared_b : a.neighbour > b.neighbour;
+  };
+  std::rotate(hull.begin(), std::max_element(hull.begin(), hull.end(), nearer), hull.end());
+  double x = hull[0].x, y = hull[0].y;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
+    const double dx = next.x - x, dy = next.y - y;
+    const auto ball = formulas::ball_at(one(x), one(y), one(dx), one(dy), one(views.distance));
+    star.corners.push_back({hull[i].neighbour, number(ball)});
+    x += dx;  // rounded as in a batch
+    y += dy;
+  }
+  return star;
+}
+
+void StarFinder::find() {
+  StarBatch batch{.sites = sites_.data()};
+  for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
+    const StarQuery& query = queries_[std::min(lane, queries_.size() - 1)];
+    const bool fits = lane < queries_.size() && query.neighbours.size() <= kMostSeen;
+    batch.points[lane] = query.point;
+    batch.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
+    batch.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
+    for (int axis = 0; axis < 3; ++axis) batch.normals[axis][lane] = query.normal[axis];
+  }
+  find_batch_stars(batch, batch_stars_);
+
+  for (std::size_t lane = 0; lane < queries_.size(); ++lane) {
+    const std::uint32_t size = batch_stars_.sizes[lane];
+    if (queries_[lane].neighbours.size() > kMostSeen || size == BatchStars::kAmbiguous) {
+      exact_[lane] = find_star_exactly(sites_, queries_[lane]);
+      stars_[lane] = {exact_[lane].corners.data(), 1, exact_[lane].corners.size(), exact_[lane].distance};
+    } else {
+      stars_[lane] = {&batch_stars_.corners[0][lane], kBatchSize, size, batch_stars_.distances[lane]};
+    }
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,190 @@
+#include "engine/bucket/bucket_scan.hpp"
+
+#include "engine/bucket/cell_index.hpp"
+#include "engine/run/error.hpp"
+#include "engine/bucket/index_file.hpp"
+#include "engine/bucket/set_aside.hpp"
+#include "engine/bucket/order_tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatches = 4;  // in flight
+
+// Where the points of every cell go: a tile, or, from `aside` on, a group of those that are set aside.
+struct Destinations {
+  explicit Destinations(const TilePlan& plan)
+      : index(plan.grid, plan.cells, plan.aside),
+        of_cell(plan.cells.size() + plan.aside.size()),
+        aside(static_cast<std::uint32_t>(plan.tiles.size())),
+        end(aside + static_cast<std::uint32_t>(plan.groups())) {
+    for (std::uint32_t t = 0; t < aside; ++t) {
+      const Tile& tile = plan.tiles[t];
+      std::fill(of_cell.begin() + tile.first_cell, of_cell.begin() + tile.last_cell, t);
+    }
+    for (std::size_t cell = 0; cell < plan.aside.size(); ++cell)
+      of_cell[plan.cells.size() + cell] = aside + static_cast<std::uint32_t>(plan.group_of(cell));
+  }
+
+  CellIndex index;
+  std::vector<std::uint32_t> of_cell;
+  std::uint32_t aside, end;
+};
+
+// The finite points of one batch, sorted by destination.
+struct Scattered {
+  PointBatch batch;
+  std::vector<StoredPoint> points;
+  std::vector<StoredNormal> normals;
+  std::vector<std::uint32_t> ends;  // of each destination's points
+
+  void scatter(const Destinations& to);
+
+ private:
+  std::vector<std::uint32_t> destinations;  // of each point of the batch; its cell at first
+};
+
+// A counting sort. What is not finite goes behind the last destination, and then away.
+void Scattered::scatter(const Destinations& to) {
+  destinations.resize(batch.size());
+  to.index.find(batch.positions, destinations);
+  ends.assign(to.end + 2, 0);
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::uint32_t cell = destinations[i];
+    const bool finite = batch.positions[i].allFinite();
+    if (finite && cell == CellIndex::kNoCell) fail_changed("a point lies where none was counted");
+    destinations[i] = finite ? to.of_cell[cell] : to.end;
+    ++ends[destinations[i] + 1];
+  }
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  const std::uint32_t finite = ends[to.end];
+  points.resize(batch.size());
+  normals.resize(batch.normals.size());
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::uint32_t at = ends[destinations[i]]++;
+    const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
+    points[at] = {p.x(), p.y(), p.z(), PointId{value(batch.first) + i}};
+    if (!normals.empty()) normals[at] = {batch.normals[i].x(), batch.normals[i].y(), batch.normals[i].z()};
+  }
+  points.resize(finite);
+  normals.resize(batch.normals.empty() ? 0 : finite);
+  ends.resize(to.end);
+}
+
+void append(const Scattered& batch, std::uint32_t tiles, TileStore::Filler& filler) {
+  std::uint32_t begin = 0;
+  for (TileIndex tile = 0; tile < tiles; ++tile) {
+    const std::uint32_t count = batch.ends[tile] - begin;
+    if (count > 0) {
+      filler.append(tile, std::span(batch.points).subspan(begin, count),
+                    batch.normals.empty() ? std::span<const StoredNormal>()
+                                          : std::span(batch.normals).subspan(begin, count));
+    }
+    begin += count;
+  }
+}
+
+void set_aside(const Scattered& batch, const Destinations& to, SetAside& aside) {
+  std::uint32_t at = to.aside == 0 ? 0 : batch.ends[to.aside - 1];
+  for (std::uint32_t group = to.aside; group < to.end; ++group) {
+    for (; at < batch.ends[group]; ++at)
+      aside.add(group - to.aside, batch.points[at],
+                batch.normals.empty() ? StoredNormal{} : batch.normals[at]);
+  }
+}
+
+template <class Record>
+std::vector<Record> pick(const std::vector<Record>& records, std::span<const std::uint32_t> order) {
+  std::vector<Record> picked;
+  picked.reserve(order.size());
+  for (const std::uint32_t i : order) picked.push_back(records[i]);
+  return picked;
+}
+
+// Cells of a tile's points, counted from its first cell.
+std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index,
+                                    const Tile& tile) {
+  std::vector<std::uint32_t> cells(points.size());
+  std::array<Eigen::Vector3d, 256> positions;
+  for (std::size_t first = 0; first < points.size(); first += positions.size()) {
+    const std::size_t count = std::min(positions.size(), points.size() - first);
+    for (std::size_t i = 0; i < count; ++i) positions[i] = points[first + i].position();
+    index.find(std::span(positions).first(count), std::span(cells).subspan(first, count));
+  }
+  for (std::uint32_t& cell : cells) cell -= tile.first_cell;
+  return cells;
+}
+
+// Streams the scan: every finite point into its tile, or aside.
+void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinations& to, Job& job,
+          Phase& phase) {
+  TileStore::Filler filler(store, job.memory.tiles / 2);
+  std::vector<Scattered> batches(kBatches);
+  scan.rewind();
+  job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
+                    [&](std::size_t slot) {
+                      batches[slot].scatter(to);
+                      append(batches[slot], to.aside, filler);
+                    },
+                    [&](std::size_t slot) {
+                      set_aside(batches[slot], to, aside);
+                      phase.advance(batches[slot].points.size());
+                    },
+                    kBatches);
+  filler.finish();
+}
+
+void save_index(const TilePlan& plan, const std::filesystem::path& file) {
+  std::vector<IndexedCell> cells;
+  const auto add = [&](const CountedCell& cell, std::int32_t tile) {
+    cells.push_back({cell.coord, static_cast<std::int32_t>(cell.points), tile});
+  };
+  for (std::size_t t = 0; t < plan.tiles.size(); ++t) {
+    for (std::uint32_t cell = plan.tiles[t].first_cell; cell < plan.tiles[t].last_cell; ++cell)
+      add(plan.cells[cell], static_cast<std::int32_t>(t));
+  }
+  for (const CountedCell& cell : plan.aside) add(cell, -1);
+  save_index(plan.grid, cells, file);
+}
+
+}  // namespace
+
+TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
+                      Precision precision, Job& job) {
+  std::uint64_t points = 0;
+  for (const CountedCell& cell : plan.cells) points += cell.points;
+  for (const CountedCell& cell : plan.aside) points += cell.points;
+  Phase phase(job, "bucket", 2 * points);
+  const std::uint64_t cell_points = job.cell_points(points);
+  TileStore store(job.workspace, plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
+                  job.memory.spills / 8);
+  SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
+  const Destinations to(plan);
+  fill(store, aside, scan, to, job, phase);
+  aside.store(store, cell_points);
+
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : plan.tiles) needs.push_back(tile.raw * 120);
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+    const auto number = static_cast<TileIndex>(t);
+    const Tile& tile = plan.tiles[t];
+    const std::vector<StoredPoint> raw = store.raw_points(number);
+    const std::vector<StoredNormal> normals = store.raw_normals(number);
+    OrderedTile ordered = order_tile(raw, cells_of(raw, to.index, tile), tile.last_cell - tile.first_cell,
+                                     plan.grid, cell_points);
+    store.put(number, pick(raw, ordered.order), store.has_normals() ? pick(normals, ordered.order) : normals,
+              std::move(ordered.cells));
+    store.add_duplicates(number, ordered.duplicates);
+    phase.advance(raw.size());
+  });
+  store.seal();
+  if (job.config.run.keep_index) save_index(plan, job.file("index.vdb"));
+  return store;
+}
+
+}  // namespace lacuna

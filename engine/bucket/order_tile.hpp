@@ -1,0 +1,27 @@
+// order_tile: a tile's points in store order, without exact copies, and the cells that they form.
+#pragma once
+
+#include "engine/model/cell_grid.hpp"
+#include "engine/model/tiling.hpp"
+#include "engine/store/tile_store.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+struct OrderedTile {
+  std::vector<std::uint32_t> order;  // of each distinct point, its place in the input
+  std::vector<Cell> cells;           // of these, one after the other; without rows
+  std::vector<Duplicate> duplicates;
+};
+
+// `cells`: the counted cell of each point, from the tile's first; `cell_count`: of the tile. Points come by
+// counted cell, then along a Z curve through it. A counted cell with more than four times `cell_points`
+// points becomes several cells of at most `cell_points`, however its points are spread. Of points at the same
+// coordinates the lowest id is kept and stands for all. Cost: n log(points per counted cell).
+OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std::uint32_t> cells,
+                       std::size_t cell_count, const CellGrid& grid, std::uint64_t cell_points);
+
+}  // namespace lacuna

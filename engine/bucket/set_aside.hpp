@@ -1,0 +1,49 @@
+// Points of cells that hold more than a tile may, and of cells without end: far denser, or far farther away,
+// than the survey's cells are made for.
+#pragma once
+
+#include "engine/store/sorted_runs.hpp"
+#include "engine/store/tile_store.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/bucket/z_curve.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace lacuna {
+
+// They are sorted on disk, group by group and along a Z curve through each group, which takes any density and
+// any extent in one go. Copies of a point follow each other, so they merge as they stream. Runs of the curve
+// become tiles and cells. Memory: that of the sort, and one tile.
+class SetAside {
+ public:
+  // `bounds`: of all points. The plan must outlive this.
+  SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std::filesystem::path file,
+           std::uint64_t memory);
+
+  // A point of a cell of that group of the plan. By one thread at a time.
+  void add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal);
+
+  // All are there: appends their tiles to the store. Throws `Error` where a cell got other points than were
+  // counted.
+  void store(TileStore& store, std::uint64_t cell_points);
+
+ private:
+  struct Record {
+    StoredPoint point;
+    StoredNormal normal;
+    ZPlace place;
+    std::uint64_t group;
+  };
+  struct Before {
+    bool operator()(const Record& a, const Record& b) const;
+  };
+
+  const TilePlan& plan_;
+  std::vector<ZCurve> curves_;         // of each group
+  std::vector<std::uint64_t> counts_;  // points that came
+  SortedRuns<Record, Before> sort_;
+};
+
+}  // namespace lacuna

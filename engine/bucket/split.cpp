@@ -1,0 +1,168 @@
+#include "engine/bucket/split.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+
+namespace lacuna {
+namespace {
+
+// Below, the order of cells does not matter.
+constexpr std::uint32_t kFewCells = 4;
+
+class Splitter {
+ public:
+  explicit Splitter(TilePlan& plan) : plan_(plan) {}
+
+  // `in_tile`: a part that holds these cells is a tile already.
+  void split(std::uint32_t first, std::uint32_t last, bool in_tile) {
+    const Part part = bound(first, last);
+    if (!in_tile && part.points <= plan_.tile_points) {
+      plan_.tiles.push_back({.first_cell = first, .last_cell = last, .raw = part.points});
+      in_tile = true;
+    }
+    if (in_tile && last - first <= kFewCells) return;
+    const std::uint32_t middle = halve(part);
+    split(first, middle, in_tile);
+    split(middle, last, in_tile);
+  }
+
+ private:
+  struct Part {
+    CellCoord low{}, high{};  // tight bounds of its cells
+    std::uint32_t first = 0, last = 0;
+    std::uint64_t points = 0;
+  };
+
+  Part bound(std::uint32_t first, std::uint32_t last) const {
+    Part part{
+        .low = plan_.cells[first].coord, .high = plan_.cells[first].coord, .first = first, .last = last};
+    for (std::uint32_t i = first; i < last; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        part.low[axis] = std::min(part.low[axis], plan_.cells[i].coord[axis]);
+        part.high[axis] = std::max(part.high[axis], plan_.cells[i].coord[axis]);
+      }
+      part.points += plan_.cells[i].points;
+    }
+    return part;
+  }
+
+  // Parts the cells across the longest side, half of the points before and half behind; returns the
+  // first cell of the second half.
+  std::uint32_t halve(const Part& node) {
+    const auto side = [&](int axis) { return std::int64_t{node.high[axis]} - node.low[axis]; };
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis) {
+      if (side(axis) > side(longest)) longest = axis;
+    }
+    // A histogram across finds the slab of cells that holds the half-way point; only that is ordered.
+    const auto begin = plan_.cells.begin() + node.first, end = plan_.cells.begin() + node.last;
+    const auto most_slabs = std::max<std::uint64_t>(node.last - node.first, 2);
+    const auto width = std::bit_width(static_cast<std::uint64_t>(side(longest)) / most_slabs);
+    const auto slab_of = [&](const CountedCell& cell) {
+      return static_cast<std::size_t>((std::int64_t{cell.coord[longest]} - node.low[longest]) >> width);
+    };
+    slabs_.assign(static_cast<std::size_t>(side(longest) >> width) + 1, 0);
+    for (auto cell = begin; cell != end; ++cell) slabs_[slab_of(*cell)] += cell->points;
+    std::uint64_t before = 0;
+    std::size_t half_way = 0;
+    while (before + slabs_[half_way] <= node.points / 2) before += slabs_[half_way++];
+    const auto slab_begin =
+        std::partition(begin, end, [&](const auto& cell) { return slab_of(cell) < half_way; });
+    const auto slab_end =
+        std::partition(slab_begin, end, [&](const auto& cell) { return slab_of(cell) == half_way; });
+
+    const auto across = [&](const CountedCell& a, const CountedCell& b) {
+      if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
+      return a.coord < b.coord;
+    };
+    // The half-way point lies in [first, last): halved until that is one cell.
+    auto first = slab_begin, last = slab_end;
+    while (last - first > 1) {
+      const auto middle = first + (last - first) / 2;
+      std::nth_element(first, middle, last, across);
+      const std::uint64_t points =
+          std::accumulate(first, middle, before,
+                          [](std::uint64_t sum, const CountedCell& cell) { return sum + cell.points; });
+      if (points <= node.points / 2) {
+        before = points;
+        first = middle;
+      } else {
+        last = middle;
+      }
+    }
+    const auto half = static_cast<std::uint32_t>(first - plan_.cells.begin());
+    return std::clamp(half, node.first + 1, node.last - 1);
+  }
+
+  TilePlan& plan_;
+  std::vector<std::uint64_t> slabs_;  // points of each
+};
+
+// Counts points per region of 64^3 cells; a surface that passes through one has tens of thousands there.
+class Regions {
+ public:
+  explicit Regions(std::span<const CountedCell> cells) {
+    std::uint64_t points = 0;
+    for (const CountedCell& cell : cells) {
+      points_[key(cell.coord)] += cell.points;
+      points += cell.points;
+    }
+    few_ = std::min<std::uint64_t>(256, points / 1024);
+  }
+
+  bool are_few_near(const CellCoord& cell) const { return points_.at(key(cell)) < few_; }
+
+ private:
+  // Regions with the same key count as one: then neither is far.
+  static std::uint64_t key(const CellCoord& cell) {
+    const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[std::size_t(axis)] >> 6); };
+    return part(0) * 0x9e3779b97f4a7c15 + part(1) * 0xc2b2ae3d27d4eb4f + part(2) * 0x165667b19e3779f9;
+  }
+
+  std::unordered_map<std::uint64_t, std::uint64_t> points_;
+  std::uint64_t few_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t TilePlan::group_points(std::size_t group) const {
+  if (group < heavy) return aside[group].points;
+  std::uint64_t points = 0;
+  for (std::size_t cell = heavy; cell < aside.size(); ++cell) points += aside[cell].points;
+  return points;
+}
+
+std::uint64_t TilePlan::most_tiles() const {
+  std::uint64_t most = tiles.size();
+  for (std::size_t group = 0; group < groups(); ++group)
+    most += (group_points(group) + tile_points - 1) / tile_points;
+  return most;
+}
+
+TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points) {
+  TilePlan plan{.grid = grid, .cells = std::move(cells), .tile_points = tile_points};
+  const Regions regions(plan.cells);
+  const auto is_far = [&](const CountedCell& cell) {
+    return grid.is_endless(cell.coord) || regions.are_few_near(cell.coord);
+  };
+  const auto begin = plan.cells.begin(), end = plan.cells.end();
+  const auto far = std::partition(begin, end, [&](const CountedCell& cell) { return !is_far(cell); });
+  const auto heavy =
+      std::partition(begin, far, [&](const CountedCell& cell) { return cell.points <= tile_points; });
+  plan.heavy = static_cast<std::size_t>(far - heavy);
+  plan.aside.assign(heavy, end);
+  plan.cells.erase(heavy, end);
+  if (!plan.cells.empty()) Splitter(plan).split(0, static_cast<std::uint32_t>(plan.cells.size()), false);
+  std::uint64_t row = 0;
+  for (Tile& tile : plan.tiles) {
+    tile.first_row = Row{row};
+    row = aligned_row(row + tile.raw);
+  }
+  return plan;
+}
+
+}  // namespace lacuna

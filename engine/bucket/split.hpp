@@ -1,0 +1,39 @@
+// split: orders the counted cells as a kd-tree and cuts them into tiles.
+#pragma once
+
+#include "engine/model/cell_grid.hpp"
+#include "engine/model/tiling.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lacuna {
+
+// Where points go while they are bucketed.
+struct TilePlan {
+  CellGrid grid;
+  std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
+  std::vector<Tile> tiles;         // of these cells; their rows begin where all copies would fit
+  // Cells that are no part of a tile, since their points are set aside: first those with more points than a
+  // tile may hold, each by itself, then those far from all others, together.
+  std::vector<CountedCell> aside;
+  std::size_t heavy = 0;          // how many of the first kind
+  std::uint64_t tile_points = 0;  // the most that a tile may hold
+
+  bool has_far() const { return aside.size() > heavy; }
+  std::size_t groups() const { return heavy + has_far(); }
+  std::size_t group_of(std::size_t aside_cell) const { return std::min(aside_cell, heavy); }
+  std::uint64_t group_points(std::size_t group) const;
+  // No less than the number of tiles in the end.
+  std::uint64_t most_tiles() const;
+};
+
+// Halves the cells along the longest side of their box, at the point count's median, until a part holds at
+// most `tile_points` points: a tile. Goes on below, down to few cells, so that cells near in the order are
+// near in space. Far are cells without end, and those in regions with few points: they would widen the boxes
+// of all parts. Cost: n log n in cells.
+TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points);
+
+}  // namespace lacuna

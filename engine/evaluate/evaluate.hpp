@@ -1,0 +1,23 @@
+// evaluate: normals and criteria of a tile's points (paper, 4.2 to 4.6).
+#pragma once
+
+#include "engine/criteria/evaluation.hpp"
+#include "engine/model/neighbourhoods.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// One evaluation per owned point, from its neighbourhood. `given_normals`: one per owned point, or empty;
+// a zero or non-finite one is estimated. Degenerate points get the values of the method, section 3.
+std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
+                                 std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
+                                 const CriteriaConfig& criteria);
+
+// Pi, w_density and w_total are multiples of this, so that rounding noise decides no tie and a 32-bit float
+// holds Pi exactly.
+inline constexpr double kProbabilityStep = 1.0 / (1 << 24);
+double round_to_step(double value);  // ties to even
+
+}  // namespace lacuna

@@ -1,0 +1,47 @@
+#include "engine/halo/eps_balls.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/halo/distance_bound.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <sstream>
+
+namespace lacuna {
+
+std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most) {
+  // A neighbour stands in the list of its ball and in the neighbourhood.
+  constexpr std::uint64_t kBytes = 2 * sizeof(LocalIndex);
+  std::uint64_t bytes = 0;
+  if (eps == 0) return bytes;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell && bytes <= most; ++cell) {
+    const std::uint64_t asked = tiling.cells[cell].points;
+    for_each_cell_near(tiling, tiling.cells[cell].box, eps * eps, 0, 0, [&](std::uint32_t near) {
+      bytes += kBytes * asked * tiling.cells[near].points;
+      return bytes <= most;
+    });
+  }
+  return bytes;
+}
+
+// Such a tile is alone at work, and the bound is about twice what it takes.
+std::uint64_t most_ball_bytes(const Job& job) {
+  return 2 * job.memory.tiles;
+}
+
+void refuse_balls(const Tiling& tiling, double eps, const Job& job) {
+  if (eps == 0) return;
+  const std::uint64_t most = most_ball_bytes(job);
+  std::atomic<bool> fits = true;
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    if (fits && ball_bytes(tiling, tiling.tiles[t], eps, most) > most) fits = false;
+  });
+  if (fits) return;
+  std::ostringstream message;
+  message << "eps of " << eps << ": the points within it of one tile's points may take more than "
+          << print_bytes(most) << ", which is what memory_limit " << print_bytes(job.memory.limit)
+          << " leaves for them; allowed: a smaller eps, smaller tile_points or a larger memory_limit";
+  throw Error(message.str());
+}
+
+}  // namespace lacuna

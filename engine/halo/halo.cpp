@@ -1,0 +1,314 @@
+#include "engine/halo/halo.hpp"
+
+#include "engine/store/outbox.hpp"
+#include "engine/neighbours/block_search.hpp"
+#include "engine/halo/distance_bound.hpp"
+
+#include <algorithm>
+#include <queue>
+#include <unordered_map>
+
+namespace lacuna {
+namespace {
+
+// Cells near a cell hold some hundreds of points, or, near a scanner, a multiple of what it holds itself. A
+// reach with more than both is that of an outlier.
+constexpr std::uint64_t kFarReach = 32'768, kFarShare = 64;
+
+// Border cells to be searched together, and all cells within their reach.
+struct Group {
+  std::vector<std::uint32_t> border;
+  std::vector<std::uint32_t> sight;
+
+  bool empty() const { return border.empty(); }
+};
+
+// What the plan of a tile says.
+struct Border {
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> far_cells;
+};
+
+std::uint64_t points_of(const Tiling& tiling, std::span<const std::uint32_t> cells) {
+  std::uint64_t points = 0;
+  for (const std::uint32_t cell : cells) points += tiling.cells[cell].points;
+  return points;
+}
+
+void sort_unique(std::vector<std::uint32_t>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+// Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs.
+class BorderPlan {
+ public:
+  // Groups hold at most about `group_points` points in sight.
+  BorderPlan(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points)
+      : tiling_(tiling), tile_(tile), k_(k), group_points_(group_points) {
+    if (!tiling.nodes.empty()) visit(0);
+    close_group();
+  }
+
+  const Border& border() const { return border_; }
+
+ private:
+  void visit(std::uint32_t index) {
+    const CellNode& node = tiling_.nodes[index];
+    if (node.last <= tile_.first_cell || node.first >= tile_.last_cell) return;
+    const bool inside = node.first >= tile_.first_cell && node.last <= tile_.last_cell;
+    if (inside && is_interior(node)) return;
+    if (node.left != 0) {
+      visit(node.left);
+      visit(node.right);
+      return;
+    }
+    plan_leaf(node);
+  }
+
+  // More than k points within a box have their neighbours within its diagonal.
+  bool is_interior(const CellNode& node) const {
+    if (node.points <= k_) return false;
+    const Eigen::AlignedBox3d box = node.box;
+    return !leaves_tile(box, max_squared_distance(box, box));
+  }
+
+  bool leaves_tile(const Eigen::AlignedBox3d& box, double squared_distance_bound) const {
+    bool leaves = false;
+    for_each_cell_near(tiling_, box, squared_distance_bound, tile_.first_cell, tile_.last_cell, [&](std::uint32_t) {
+      leaves = true;
+      return false;
+    });
+    return leaves;
+  }
+
+  // No less than the squared distance from any point of the cell to its k-th neighbour.
+  double reach_of(std::uint32_t cell, const CellNode& node) const {
+    const Eigen::AlignedBox3d box = tiling_.cells[cell].box;
+    if (tiling_.cells[cell].points <= k_ && node.points > k_) return max_squared_distance(box, node.box);
+    return squared_distance_bound(tiling_, cell, k_);
+  }
+
+  struct BorderCell {
+    std::uint32_t cell;
+    double squared_distance_bound;
+  };
+
+  void plan_leaf(const CellNode& node) {
+    std::vector<BorderCell> border;
+    const std::uint32_t last = std::min(node.last, tile_.last_cell);
+    for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell) {
+      const double reach = reach_of(cell, node);
+      if (leaves_tile(tiling_.cells[cell].box, reach)) border.push_back({cell, reach});
+    }
+    plan(border);
+  }
+
+  // Cells side by side: they see much the same.
+  void plan(std::span<const BorderCell> border) {
+    if (border.empty()) return;
+    Eigen::AlignedBox3d box;
+    double reach = 0;
+    std::uint64_t own = 0;
+    for (const BorderCell& b : border) {
+      box.extend(tiling_.cells[b.cell].box);
+      reach = std::max(reach, b.squared_distance_bound);
+      own += tiling_.cells[b.cell].points;
+    }
+    const std::uint64_t most = std::max(kFarReach, kFarShare * own);
+    sight_.clear();
+    std::uint64_t points = 0;
+    for_each_cell_near(tiling_, box, reach, 0, 0, [&](std::uint32_t near) {
+      sight_.push_back(near);
+      points += tiling_.cells[near].points;
+      return points <= most;
+    });
+    if (points > most) {
+      if (border.size() == 1) {
+        border_.far_cells.push_back(border.front().cell);
+      } else {
+        for (const BorderCell& b : border) plan(std::span(&b, 1));
+      }
+      return;
+    }
+    for (const BorderCell& b : border) group_.border.push_back(b.cell);
+    group_.sight.insert(group_.sight.end(), sight_.begin(), sight_.end());
+    gathered_ += points;
+    if (gathered_ > 8 * group_points_) {  // neighbours share most of their sight: count it once
+      sort_unique(group_.sight);
+      gathered_ = points_of(tiling_, group_.sight);
+      if (gathered_ > group_points_) close_group();
+    }
+  }
+
+  void close_group() {
+    if (group_.empty()) return;
+    sort_unique(group_.sight);
+    border_.groups.push_back(std::move(group_));
+    group_ = {};
+    gathered_ = 0;
+  }
+
+  const Tiling& tiling_;
+  const Tile& tile_;
+  std::size_t k_;
+  std::uint64_t group_points_;
+  Border border_;
+  Group group_;
+  std::uint64_t gathered_ = 0;
+  std::vector<std::uint32_t> sight_;
+};
+
+class HaloBuilder {
+ public:
+  HaloBuilder(const TileStore& store, std::size_t k, TileIndex tile, AppendLists<HaloEdge>& inboxes)
+      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), outbox_(inboxes) {}
+
+  void link_group(const Group& group) {
+    std::vector<StoredPoint> stored;
+    std::vector<Row> rows;
+    store_.read_cells(group.sight, stored, rows);
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<PointId> ids;
+    for (const StoredPoint& p : stored) {
+      positions.push_back(p.position());
+      ids.push_back(p.id);
+    }
+    BlockSearch search(positions, ids);
+    for (const std::uint32_t cell : group.border) {
+      const Row first = tiling_.cells[cell].first_row;
+      const auto begin =
+          static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
+      const auto end = static_cast<LocalIndex>(begin + tiling_.cells[cell].points);
+      search.nearest(begin, end, k_, [&](LocalIndex p, std::span<const LocalIndex> found) {
+        for (const LocalIndex q : found) link(stored[p], rows[p], stored[q], rows[q]);
+      });
+    }
+  }
+
+  void link_far_cell(std::uint32_t cell) {
+    const std::vector<StoredPoint> points = store_.cell(cell);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      link_far_point(points[i], Row{value(tiling_.cells[cell].first_row) + i});
+    }
+  }
+
+  void send() { outbox_.send(); }
+
+ private:
+  struct Found {
+    double squared_distance;
+    StoredPoint point;
+    Row row;
+
+    friend bool operator<(const Found& a, const Found& b) {
+      return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
+                                                      : a.point.id < b.point.id;
+    }
+  };
+  struct Place {
+    double squared_distance;
+    std::uint32_t index;
+    bool is_cell;
+
+    friend bool operator<(const Place& a, const Place& b) { return a.squared_distance > b.squared_distance; }
+  };
+
+  // Best first over the tree of cells; cells are read as they come.
+  void link_far_point(const StoredPoint& p, Row row) {
+    const Eigen::AlignedBox3d here(p.position(), p.position());
+    std::priority_queue<Place> places;
+    std::priority_queue<Found> nearest;
+    places.push({0, 0, false});
+    while (!places.empty()) {
+      const Place place = places.top();
+      places.pop();
+      if (nearest.size() == k_ && place.squared_distance > nearest.top().squared_distance) break;
+      if (place.is_cell) {
+        look_into(place.index, p, row, nearest);
+        continue;
+      }
+      const CellNode& node = tiling_.nodes[place.index];
+      if (node.left != 0) {
+        for (const std::uint32_t child : {node.left, node.right}) {
+          places.push({min_squared_distance(here, tiling_.nodes[child].box), child, false});
+        }
+      } else {
+        for (std::uint32_t c = node.first; c < node.last; ++c) {
+          places.push({min_squared_distance(here, tiling_.cells[c].box), c, true});
+        }
+      }
+    }
+    for (; !nearest.empty(); nearest.pop()) {
+      refuse_underflow(nearest.top().squared_distance, p.id, nearest.top().point.id);
+      link(p, row, nearest.top().point, nearest.top().row);
+    }
+  }
+
+  void look_into(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
+    const std::vector<StoredPoint>& points = cached(cell);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Row other{value(tiling_.cells[cell].first_row) + i};
+      const double distance = squared_distance(points[i].position(), p.position());
+      if (other == row || (nearest.size() == k_ && distance > nearest.top().squared_distance)) continue;
+      nearest.push({distance, points[i], other});
+      if (nearest.size() > k_) nearest.pop();
+    }
+  }
+
+  const std::vector<StoredPoint>& cached(std::uint32_t cell) {
+    constexpr std::uint64_t kCachedPoints = 65'536;
+    const auto [place, is_new] = cache_.try_emplace(cell);
+    if (is_new) {
+      cached_points_ += tiling_.cells[cell].points;
+      if (cached_points_ > kCachedPoints) {
+        cache_.clear();
+        cached_points_ = tiling_.cells[cell].points;
+        return cache_[cell] = store_.cell(cell);
+      }
+      place->second = store_.cell(cell);
+    }
+    return place->second;
+  }
+
+  // p has q among its k nearest.
+  void link(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
+    const Tile& here = tiling_.tiles[tile_];
+    if (here.owns(q_row)) return;
+    const TileIndex there = tiling_.tile_of_row(q_row);
+    outbox_.add(tile_, {q_row, q, here.local(p_row), 0});
+    outbox_.add(there, {p_row, p, tiling_.tiles[there].local(q_row), 1});
+  }
+
+  const TileStore& store_;
+  const Tiling& tiling_;
+  std::size_t k_;
+  TileIndex tile_;
+  Outbox<HaloEdge> outbox_;
+  std::unordered_map<std::uint32_t, std::vector<StoredPoint>> cache_;
+  std::uint64_t cached_points_ = 0;
+};
+
+}  // namespace
+
+AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job) {
+  const Tiling& tiling = store.tiling();
+  const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
+  Phase phase(job, "halo", tiling.points());
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(tile.points));
+  AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.memory.spills / 2);
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+    const Tile& tile = tiling.tiles[t];
+    const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarReach / 4);
+    const BorderPlan plan(tiling, tile, k, group_points);
+    HaloBuilder linker(store, k, static_cast<TileIndex>(t), inboxes);
+    for (const Group& group : plan.border().groups) linker.link_group(group);
+    for (const std::uint32_t cell : plan.border().far_cells) linker.link_far_cell(cell);
+    linker.send();
+    phase.advance(tile.points);
+  });
+  return inboxes;
+}
+
+}  // namespace lacuna

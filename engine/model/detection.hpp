@@ -1,0 +1,87 @@
+// What a finished run hands to the writers: numbers in memory, everything of the scan's size as streams
+// from the workspace.
+#pragma once
+
+#include "engine/model/loop.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+
+struct Counts {
+  std::uint64_t points = 0;      // rows of the input
+  std::uint64_t dropped = 0;     // with a non-finite coordinate
+  std::uint64_t duplicates = 0;  // at the coordinates of a point with a lower id
+  std::uint64_t candidates = 0;  // distinct points with Pi above the threshold
+  std::uint64_t coherent = 0;    // of these, those that are coherent (paper, 5.1)
+  std::uint64_t boundary_points = 0;  // points of the input, duplicates too
+  std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
+  std::uint64_t components = 0;       // of the boundary graph
+  std::uint64_t raw_loops = 0;        // before selection
+  std::uint64_t undefined_normals = 0;
+};
+
+struct PhaseTime {
+  std::string name;
+  double seconds = 0;
+};
+
+struct Summary {
+  Counts counts;
+  Eigen::AlignedBox3d bounds;   // of the finite points; empty without any
+  double mean_neighbours = 0;   // K
+  double mean_edge_length = 0;  // over the edges of G
+  double eps = 0;               // in effect
+  std::int64_t e = 0;           // in effect; 0: loops by stars
+  std::uint64_t tiles = 0;
+  std::uint64_t tile_points = 0;   // in effect
+  std::uint64_t threads = 0;       // in effect
+  std::uint64_t memory_limit = 0;  // bytes, in effect
+  std::vector<PhaseTime> phases;
+};
+
+// Result of one point of the input; a duplicate has those of the point that stands for it.
+struct PointResult {
+  float probability, angle, halfdisc, shape;  // from 0 to 1; NaN for a dropped point
+  // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop (tangential).
+  std::uint8_t boundary = 0;
+  std::uint8_t coherent = 0;  // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops
+  std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
+  Eigen::Vector3f normal;  // NaN where undefined
+};
+
+struct BoundaryPoint {
+  PointId id{};
+  Eigen::Vector3d position;
+  float probability = 0;
+  std::int32_t loop = -1;
+};
+
+// A reported loop: selected, in order of (first id, length, ids).
+struct ReportedLoop {
+  LoopMeasures measures;
+  Loop points;
+};
+
+// What is not in the summary is read from disk: throws `Error`. Visits come from the calling thread.
+class Detection {
+ public:
+  virtual ~Detection() = default;
+  virtual const Summary& summary() const = 0;
+  // Measures of every reported loop, in order.
+  virtual const std::vector<LoopMeasures>& loops() const = 0;
+  virtual ReportedLoop read_loop(std::size_t index) const = 0;  // index < loops().size()
+  // In ascending id.
+  virtual void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const = 0;
+  // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
+  virtual void for_each_result_block(
+      const std::function<void(PointId first, std::span<const PointResult>)>& visit) const = 0;
+};
+
+}  // namespace lacuna

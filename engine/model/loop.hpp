@@ -1,0 +1,46 @@
+// Loops: what the method returns for each hole.
+#pragma once
+
+#include "engine/model/ids.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+// A point on a loop, with all that is needed to measure and to draw it.
+struct LoopPoint {
+  PointId id{};
+  Row row{};
+  Eigen::Vector3d position{0, 0, 0};
+  Eigen::Vector3f surface{0, 0, 0};  // mu_p - p: from the point towards where its neighbours are
+  float probability = 0;
+};
+
+// Written from its smallest id towards that one's smaller neighbour; closed, the first point not repeated.
+using Loop = std::vector<LoopPoint>;
+
+enum class LoopKind : std::uint8_t {
+  kHole,  // the surface lies outside of the loop
+  kOuter,   // the surface lies inside: the outer edge of an open surface
+};
+
+// What a user sorts and filters loops by. Lengths in units of the scan.
+struct LoopMeasures {
+  LoopKind kind = LoopKind::kHole;
+  std::uint64_t points = 0;
+  double perimeter = 0;               // sum of its edges' lengths
+  double area = 0;                    // of the loop seen along its normal
+  double diameter = 0;                // largest distance between two of its points
+  Eigen::Vector3d centroid{0, 0, 0};  // of its points
+  Eigen::Vector3d normal{0, 0,
+                         0};  // unit; right hand rule about the loop's direction; 0 where it encloses nothing
+  double planarity = 0;       // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
+  double mean_probability = 0;
+  double confidence = 1;    // that it is one, [0, 1]; of the method "paper": 1
+  std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
+};
+
+}  // namespace lacuna

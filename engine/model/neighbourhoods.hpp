@@ -1,0 +1,56 @@
+// What a tile sees, and the proximity graph over it.
+#pragma once
+
+#include "engine/model/ids.hpp"
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+// Rows of indices, one after the other: row i is indices[offsets[i], offsets[i + 1]).
+struct Rows {
+  std::vector<std::uint32_t> offsets{0};
+  std::vector<LocalIndex> indices;
+
+  std::size_t size() const { return offsets.size() - 1; }
+  std::span<const LocalIndex> operator[](std::size_t row) const {
+    return {indices.data() + offsets[row], indices.data() + offsets[row + 1]};
+  }
+};
+
+// Distinct points: first those that the tile owns, in store order, then the foreign ones that it needs.
+struct TilePoints {
+  LocalIndex owned = 0;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<PointId> ids;
+  std::vector<Row> rows;
+  // The foreign points q that have the owned point p among their k nearest: one row per owned point.
+  Rows linked;
+
+  std::size_t size() const { return positions.size(); }
+  bool is_owned(LocalIndex point) const { return point < owned; }
+};
+
+// The order of neighbours: by squared distance, then by id. Each operation of the distance is rounded
+// (the project is compiled without contraction to fused multiply-add), or exact ties would break.
+inline double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double dx = a.x() - b.x(), dy = a.y() - b.y(), dz = a.z() - b.z();
+  return (dx * dx + dy * dy) + dz * dz;
+}
+
+struct Neighbour {
+  double squared_distance;
+  PointId id;
+  LocalIndex index;
+
+  friend bool operator<(const Neighbour& a, const Neighbour& b) {
+    return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance : a.id < b.id;
+  }
+};
+
+}  // namespace lacuna

@@ -1,0 +1,39 @@
+// Points on their way from the input to the tile store.
+#pragma once
+
+#include "engine/model/ids.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+// Consecutive points of the input, non-finite ones included. Point i has id `first + i`.
+struct PointBatch {
+  PointId first{};
+  std::vector<Eigen::Vector3d> positions;
+  // As given: one for each position if the source has normals, NaN where a file of it has none; else empty.
+  std::vector<Eigen::Vector3d> normals;
+
+  std::size_t size() const { return positions.size(); }
+};
+
+// One registered scan, in any unit of length, read in bounded batches, from the first point to the last and
+// as often as wanted; ids go from 0 on. Asked from one thread at a time, not always the same; several batches
+// are in memory at once. Throws `Error` naming file and place.
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+
+  virtual void rewind() = 0;
+  // Fills the batch with the next points; false, and an empty batch, at the end.
+  virtual bool next(PointBatch& batch) = 0;
+  // Number of points where the headers tell, for progress and buffer sizes; text files do not.
+  virtual std::optional<std::uint64_t> expected_points() const = 0;
+  virtual bool has_normals() const = 0;
+};
+
+}  // namespace lacuna

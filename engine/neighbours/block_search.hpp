@@ -1,0 +1,116 @@
+// block_search: the k nearest neighbours of points that stand in store order, many at a time.
+#pragma once
+
+#include "engine/model/neighbourhoods.hpp"
+#include "engine/neighbours/candidates.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a tree
+// that needs no building beyond its boxes. One walk finds the blocks around a run of queries; each query
+// takes the points within a radius, guessed from how many the query before found, and sixteen queries are
+// ranked side by side. All that in single precision, seen from the run. Few queries need more care: where the
+// guess holds too few points or too many, or where two distances are too near to each other for that. These
+// are decided by the distances themselves, one query at a time.
+//
+// Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
+class BlockSearch {
+ public:
+  // Over distinct points, which must outlive it.
+  BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids);
+  ~BlockSearch();
+
+  // For each query of [first, last), in order: visit(query, neighbours) with the first k in neighbour order,
+  // all where fewer exist. Not from several threads at once. Throws `Error` if a squared distance
+  // underflows.
+  template <class Visit>
+  void nearest(LocalIndex first, LocalIndex last, std::size_t k, Visit&& visit) {
+    const std::size_t count = neighbours_of(k);
+    found_.resize(kRun * count);
+    for (LocalIndex begin = first, end; begin < last; begin = end) {
+      end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
+      find(begin, end, k, {found_.data(), count});
+      for (LocalIndex query = begin; query < end; ++query)
+        visit(query, std::span<const LocalIndex>(found_).subspan((query - begin) * count, count));
+    }
+  }
+
+  // The same, to rows that begin so far apart.
+  struct Rows {
+    LocalIndex* first;
+    std::size_t stride;
+
+    LocalIndex* operator[](std::size_t row) const { return first + row * stride; }
+  };
+  void nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
+
+  // How many neighbours each query has.
+  std::size_t neighbours_of(std::size_t k) const { return std::min(k, positions_.size() - 1); }
+
+  // For each query of [first, last), in order: visit(query, points) with all other points whose squared
+  // distance is at most radius * radius, in neighbour order.
+  template <class Visit>
+  void within(LocalIndex first, LocalIndex last, double radius, Visit&& visit) {
+    for (LocalIndex begin = first, end; begin < last; begin = end) {
+      end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
+      list_balls(begin, end, radius);
+      for (LocalIndex query = begin; query < end; ++query) {
+        collect_ball(query, query - begin, radius * radius);
+        visit(query, std::span<const LocalIndex>(found_));
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kRun = 2 * kQueries;  // queries that are looked around together
+  struct Box;
+  struct Boxes;
+  void find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
+  void prepare(std::size_t neighbours);
+  void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
+  void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
+  void narrow(CandidateList& list);
+  void set_reach(CandidateList& list) const;
+  void list_within(LocalIndex query, double radius, double more, CandidateList& list);
+  void rank(LocalIndex first, LocalIndex last, Rows rows);
+  void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
+  void find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
+  double distance_to_last(LocalIndex query);
+  void descend(LocalIndex query, std::size_t level, std::size_t group);
+  void meet(LocalIndex query, LocalIndex other);
+  void list_balls(LocalIndex first, LocalIndex last, double radius);
+  void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
+  void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
+  void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
+  template <class Radius, class Visit>
+  void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
+  bool look_around(LocalIndex first, LocalIndex last, double radius);
+  bool set_origin(const Box& run, double radius);
+
+  std::span<const Eigen::Vector3d> positions_;
+  std::span<const PointId> ids_;
+  std::vector<Block> blocks_;
+  std::vector<Boxes> levels_;  // of blocks, of groups of eight, of groups of these, ...
+
+  double guess_ = 0;     // radius for the next query; 0: none yet
+  double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
+  Sight sight_;
+  std::array<CandidateList, kRun> lists_;  // of the queries of a run
+  std::array<Ranking, kRun / kQueries> rankings_;
+  std::size_t neighbours_ = 0;  // of each query
+  // By how many points the query before found, in units of its radius.
+  std::array<double, kMostCandidates + 1> next_guess_{};
+  std::vector<LocalIndex> found_;   // by query of the run, or in one ball
+  std::vector<Neighbour> nearest_;  // of one query, found with care
+};
+
+// Throws `Error` where two distinct points are so near that their squared distance loses digits.
+void refuse_underflow(double squared_distance, PointId a, PointId b);
+
+}  // namespace lacuna

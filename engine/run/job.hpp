@@ -1,0 +1,62 @@
+// What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/progress.hpp"
+#include "engine/model/detection.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna {
+
+// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save four bits a
+// point (what is rough, unmeasured, told and boundary).
+struct Memory {
+  std::uint64_t limit;   // all of it; where none is asked for, half of what the process may have
+  std::uint64_t cells;   // survey and index
+  std::uint64_t tiles;   // all tiles at work together
+  std::uint64_t spills;  // buffers of all lists on their way to disk
+  std::uint64_t global;  // spanning graph and loops, sorts
+
+  static Memory share(std::uint64_t limit);
+};
+
+// Sets the allocator of the whole process up for the limit, too.
+struct Job {
+  Job(const Config& config, std::filesystem::path workspace, Progress& progress);
+
+  const Config& config;
+  std::filesystem::path workspace;
+  Progress& progress;
+  TaskArena arena;
+  Memory memory;
+  std::vector<PhaseTime> phases;
+
+  // A file of the workspace.
+  std::filesystem::path file(std::string_view name) const { return workspace / name; }
+  // Points per tile: what was asked for, or enough tiles for all threads; never more than memory allows.
+  std::uint64_t tile_points(std::uint64_t points) const;
+  // Points in a cell of the index, so that all cells fit in memory.
+  std::uint64_t cell_points(std::uint64_t points) const;
+  // Bytes that a tile with so many points takes while it is evaluated.
+  std::uint64_t tile_bytes(std::uint64_t points) const;
+};
+
+// Times a phase and shows it, for as long as it lives.
+class Phase {
+ public:
+  Phase(Job& job, std::string_view name, std::uint64_t total);
+  ~Phase();
+  void advance(std::uint64_t count) { job_.progress.advance(count); }
+
+ private:
+  Job& job_;
+  double start_;
+};
+
+}  // namespace lacuna

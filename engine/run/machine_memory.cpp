@@ -1,0 +1,51 @@
+#include "engine/run/machine_memory.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t read_limit(const fs::path& file) {
+  std::ifstream in(file);
+  std::uint64_t limit = 0;
+  return in >> limit ? limit : kUnlimited;  // "max", or no such file
+}
+
+}  // namespace
+
+std::uint64_t machine_memory() {
+  const std::uint64_t physical = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return std::min(physical, group_memory("/proc/self/cgroup", "/sys/fs/cgroup"));
+}
+
+std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {
+  std::uint64_t least = kUnlimited;
+  std::ifstream in(groups);
+  for (std::string line; std::getline(in, line);) {  // number:controllers:path
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const bool is_unified = controllers.empty();
+    if (!is_unified && controllers != "memory") continue;
+    const fs::path top = is_unified ? root : root / "memory";
+    const char* const file = is_unified ? "memory.max" : "memory.limit_in_bytes";
+    // What holds for a group holds for all within it. Of a container, only the last may be there to see.
+    for (fs::path group = fs::path(line.substr(second + 1)).relative_path();; group = group.parent_path()) {
+      least = std::min(least, read_limit(top / group / file));
+      if (group.empty()) break;
+    }
+  }
+  return least;
+}
+
+}  // namespace lacuna

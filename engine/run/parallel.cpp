@@ -1,0 +1,155 @@
+#include "engine/run/parallel.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <latch>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+namespace lacuna {
+namespace {
+
+std::size_t resolve(std::size_t threads) {
+  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
+// oneTBB ends the program where a thread of its own cannot start the next one. As many are tried here, at the
+// same time, where it can still be an error.
+void require_threads(std::size_t count) {
+  std::latch tried(1);
+  std::vector<std::jthread> started;  // joined when `tried` is over
+  try {
+    while (started.size() + 1 < count) started.emplace_back([&tried] { tried.wait(); });
+  } catch (const std::system_error& error) {
+    tried.count_down();
+    throw Error("cannot start thread " + std::to_string(started.size() + 2) + " of " + std::to_string(count) +
+                ": " + error.what() + "; a lower --threads may help");
+  }
+  tried.count_down();
+}
+
+// Hands out indices in ascending order while the sum of what the running ones need stays within the budget.
+class Admission {
+ public:
+  Admission(std::span<const std::uint64_t> needs, std::uint64_t budget) : needs_(needs), budget_(budget) {}
+
+  std::optional<std::size_t> enter() {
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [&] { return done() || running_ == 0 || used_ + needs_[next_] <= budget_; });
+    if (done()) return std::nullopt;
+    used_ += needs_[next_];
+    ++running_;
+    return next_++;
+  }
+
+  void leave(std::size_t index) {
+    const std::lock_guard lock(mutex_);
+    used_ -= needs_[index];
+    --running_;
+    room_.notify_all();
+  }
+
+  void fail(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = std::move(error);
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  bool done() const { return error_ || next_ == needs_.size(); }
+
+  std::span<const std::uint64_t> needs_;
+  std::uint64_t budget_;
+  std::mutex mutex_;
+  std::condition_variable room_;
+  std::size_t next_ = 0;
+  std::size_t running_ = 0;
+  std::uint64_t used_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+// global_control alone would not allow more threads than cores, an arena alone not more than the default.
+struct TaskArena::Arena {
+  explicit Arena(std::size_t threads)
+      : control(tbb::global_control::max_allowed_parallelism, threads), arena(static_cast<int>(threads)) {}
+  tbb::global_control control;
+  mutable tbb::task_arena arena;
+};
+
+TaskArena::TaskArena(std::size_t threads) : arena_(std::make_unique<Arena>(resolve(threads))) {
+  require_threads(resolve(threads));
+}
+TaskArena::~TaskArena() = default;
+
+std::size_t TaskArena::threads() const {
+  return static_cast<std::size_t>(arena_->arena.max_concurrency());
+}
+
+// Isolated, for what a body asks of its arena: while it waits, its thread could be handed the loop that the
+// body is part of, and start another body, or wait for memory that its own body holds: for ever. Isolation of
+// the body alone is not enough, since entering the arena ends it.
+void TaskArena::in_arena(const std::function<void()>& work) const {
+  arena_->arena.execute([&] { tbb::this_task_arena::isolate(work); });
+}
+
+void TaskArena::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
+  in_arena([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
+}
+
+void TaskArena::for_each_within_budget(std::span<const std::uint64_t> needs, std::uint64_t budget,
+                           const std::function<void(std::size_t)>& body) const {
+  Admission admission(needs, budget);
+  const auto work = [&](std::size_t) {
+    while (const std::optional<std::size_t> index = admission.enter()) {
+      try {
+        body(*index);
+      } catch (...) {
+        admission.fail(std::current_exception());
+      }
+      admission.leave(*index);
+    }
+  };
+  in_arena([&] { tbb::parallel_for(std::size_t{0}, threads(), work, tbb::simple_partitioner()); });
+  admission.rethrow();
+}
+
+void TaskArena::pipeline(const std::function<bool(std::size_t)>& produce,
+                    const std::function<void(std::size_t)>& transform,
+                    const std::function<void(std::size_t)>& consume, std::size_t slots) const {
+  std::size_t next = 0;
+  const auto fetch = [&](tbb::flow_control& flow) -> std::size_t {
+    const std::size_t slot = next++ % slots;
+    if (!produce(slot)) flow.stop();
+    return slot;
+  };
+  const auto change = [&](std::size_t slot) {
+    transform(slot);
+    return slot;
+  };
+  // A slot is used again only after `consume`: the tokens in flight are fewer than the slots.
+  in_arena([&] {
+    tbb::parallel_pipeline(
+        slots, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, fetch) &
+                   tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, change) &
+                   tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, consume));
+  });
+}
+
+}  // namespace lacuna

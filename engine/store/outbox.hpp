@@ -1,0 +1,38 @@
+// Records on their way to other tiles.
+#pragma once
+
+#include "engine/model/tiling.hpp"
+#include "engine/store/append_lists.hpp"
+
+#include <map>
+#include <vector>
+
+namespace lacuna {
+
+// Gathers records by the tile that they are for: a list takes few long runs better than many short ones. Not
+// from several threads at once; several may write to the same lists. Memory: that of 16,384 records.
+template <class Record>
+class Outbox {
+ public:
+  explicit Outbox(AppendLists<Record>& lists) : lists_(lists) {}
+
+  void add(TileIndex to, const Record& record) {
+    constexpr std::size_t kMost = 1 << 14;
+    outbox_[to].push_back(record);
+    if (++gathered_ == kMost) send();
+  }
+
+  // What is gathered; at the end, the rest.
+  void send() {
+    for (const auto& [to, letter] : outbox_) lists_.append(to, letter);
+    outbox_.clear();
+    gathered_ = 0;
+  }
+
+ private:
+  AppendLists<Record>& lists_;
+  std::map<TileIndex, std::vector<Record>> outbox_;
+  std::size_t gathered_ = 0;
+};
+
+}  // namespace lacuna

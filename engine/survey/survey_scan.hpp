@@ -1,0 +1,13 @@
+// survey, over the whole scan: where the points are.
+#pragma once
+
+#include "engine/model/points.hpp"
+#include "engine/run/job.hpp"
+#include "engine/survey/survey.hpp"
+
+namespace lacuna {
+
+// Streams the scan once and counts its points per cell. Throws `Error`.
+SurveyedScan survey_scan(PointSource& scan, Job& job);
+
+}  // namespace lacuna

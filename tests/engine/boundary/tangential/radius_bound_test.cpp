@@ -1,0 +1,128 @@
+// How large balls may be, from medians by hand, beside whatever other points.
+#include "engine/boundary/tangential/radius_bound.hpp"
+
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+constexpr TangentialConfig kConfig{
+    .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .least_spread = 0.25};
+
+Sampling sampling_among(std::vector<float> balls, double distance) {
+  std::vector<LinkVertex<LocalIndex>> corners;
+  for (const float ball : balls) corners.push_back({0, ball});
+  const FoundStar star(corners.data(), 1, corners.size(), distance);
+  return samplings_of({&star, 1}, kConfig)[0];
+}
+
+double median(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+RadiusBound size_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
+  std::vector<double> circles, scatters;
+  const auto look_at = [&](LocalIndex q) {
+    if (samplings[q].circle == 0) return;
+    circles.push_back(samplings[q].circle);
+    scatters.push_back(samplings[q].scatter);
+  };
+  look_at(around.point);
+  for (const LocalIndex q : around.neighbours) look_at(q);
+  const double most = kConfig.most_radius * samplings[around.point].distance;
+  const double circle = circles.empty() ? most : std::min(median(circles), most);
+  const double scatter = circles.empty() ? most : std::min(median(scatters), most);
+  return {kConfig.max_radius * circle + scatter, kConfig.least_spread * circle + scatter};
+}
+
+}  // namespace
+
+TEST_CASE("a star tells its median ball and how far the least is below") {
+  const Sampling even = sampling_among({0.5f, 0.25f, 0.8f, 0.75f}, 10);
+  CHECK(even.distance == 10);
+  CHECK(even.circle == 7.5);
+  CHECK(even.scatter == 5);
+  CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).circle == 1);
+  CHECK(sampling_among({}, 2).distance == 0);
+  CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
+}
+
+TEST_CASE("balls that lie in a hole say nothing of the sampling") {
+  CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
+  const Sampling none = sampling_among({2, 3, 4}, 2);
+  CHECK(none.distance == 2);
+  CHECK(none.circle == 0);
+}
+
+TEST_CASE("samplings of stars side by side are those of each alone") {
+  Random random(3);
+  std::size_t wrong = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::vector<LinkVertex<LocalIndex>>> corners(std::size_t(random.whole(1, kBatchSize)));
+    std::vector<FoundStar> stars;
+    for (auto& of_one : corners) {
+      of_one.resize(std::size_t(random.chance(0.1) ? random.whole(0, 64) : random.whole(3, 9)));
+      for (auto& corner : of_one)
+        corner = {0, static_cast<float>(random.chance(0.8) ? random.uniform(0.1, 1) : 8)};
+      stars.emplace_back(of_one.data(), 1, of_one.size(), random.uniform(1, 2));
+    }
+    const auto together = samplings_of(stars, kConfig);
+    for (std::size_t i = 0; i < stars.size(); ++i) {
+      const Sampling alone = samplings_of({&stars[i], 1}, kConfig)[0];
+      wrong += together[i].distance != alone.distance || together[i].circle != alone.circle ||
+               together[i].scatter != alone.scatter;
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
+  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1) == -2);
+}
+
+TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized beside") {
+  Random random(5);
+  std::size_t wrong = 0, most = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Sampling> samplings(200);
+    for (Sampling& s : samplings) {
+      if (random.chance(0.8)) s = {random.uniform(0.5, 2), random.uniform(0.1, 2), random.uniform(0, 1)};
+      if (random.chance(0.2)) s.circle = s.scatter = 0;  // large balls only
+    }
+    std::vector<std::vector<LocalIndex>> neighbours;
+    std::vector<Surroundings> all;
+    const auto points = static_cast<std::size_t>(random.whole(1, 20));
+    for (std::size_t i = 0; i < points; ++i) {
+      auto p = static_cast<LocalIndex>(random.whole(0, 199));
+      while (samplings[p].distance == 0) p = (p + 1) % 200;
+      const auto count = static_cast<std::size_t>(random.whole(0, random.chance(0.05) ? 180 : 30));
+      neighbours.emplace_back();
+      while (neighbours.back().size() < count)
+        neighbours.back().push_back(static_cast<LocalIndex>(random.whole(0, 199)));
+      most = std::max(most, count);
+      all.push_back({p, {}});
+    }
+    for (std::size_t i = 0; i < points; ++i) all[i].neighbours = neighbours[i];
+    std::size_t sized = 0;
+    RadiusBounder(samplings, kConfig)
+        .for_each(
+            points, [&](std::size_t i) { return all[i]; },
+            [&](std::size_t i, const RadiusBound& size) {
+              const RadiusBound expected = size_by_hand(samplings, all[i]);
+              wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit;
+            });
+    CHECK(sized == points);
+  }
+  CHECK(wrong == 0);
+  CHECK(most > 128);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,211 @@
+// Stars found side by side are those of the exact fallback, from every instruction set and beside whatever
+// others.
+#include "engine/boundary/tangential/stars.hpp"
+
+#include "tests/support/clouds.hpp"
+#include "tests/support/instruction_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using Star = std::vector<LinkVertex<LocalIndex>>;
+
+// A point among some others.
+struct Neighbourhood {
+  Site at;
+  Eigen::Vector3d normal;
+  std::vector<Site> around;
+};
+
+Site drawn_seat(Random& random, double x, double y, double z) {
+  return {{x, y, z}, {0, 0, random.uniform(-0.05, 0.05)}, random.uniform(0.5, 1), random.uniform(0, 1e-4)};
+}
+
+// Noise around a plane, a half plane, a flat lattice with and without weights, points that project onto few
+// places, three neighbours or fewer, more than fit side by side, a cluster at the point, no normal.
+Neighbourhood drawn_neighbourhood(Random& random) {
+  const std::int64_t kind = random.whole(0, 9);
+  const auto count = std::size_t(kind == 5 ? random.whole(0, 3) : random.whole(3, kind == 6 ? 90 : 30));
+  Neighbourhood drawn{drawn_seat(random, 0, 0, 0), {0, 0, 1}, {}};
+  if (kind == 7) drawn.normal = random.direction();
+  if (kind == 9) drawn.normal.setConstant(std::nan(""));
+  while (drawn.around.size() < count) {
+    Eigen::Vector3d q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.3, 0.3));
+    if (kind == 1) q.x() = std::abs(q.x());
+    if (kind == 2 || kind == 3) q = {std::round(3 * q.x()), std::round(3 * q.y()), 0};
+    if (kind == 4) q = {std::round(q.x()), std::round(q.y()), q.z()};
+    if (kind == 8 && random.chance(0.2)) q *= 1e-7;
+    if (q.norm() == 0) continue;
+    drawn.around.push_back(drawn_seat(random, q.x(), q.y(), q.z()));
+    if (kind == 3) drawn.around.back().weight = drawn.at.weight;
+    if (kind == 2 || kind == 3) drawn.around.back().shift[2] = drawn.at.shift[2];
+  }
+  return drawn;
+}
+
+std::vector<Neighbourhood> drawn_neighbourhoods(Random& random) {
+  std::vector<Neighbourhood> drawn;
+  for (std::size_t i = 0; i < kBatchSize; ++i) drawn.push_back(drawn_neighbourhood(random));
+  return drawn;
+}
+
+// The sites of several neighbourhoods, and what is asked of them.
+struct Queries {
+  std::vector<Site> sites;
+  std::vector<std::vector<LocalIndex>> neighbours;
+  std::vector<StarQuery> all;
+
+  explicit Queries(const std::vector<Neighbourhood>& neighbourhoods) {
+    for (const Neighbourhood& n : neighbourhoods) {
+      const auto at = static_cast<LocalIndex>(sites.size());
+      sites.push_back(n.at);
+      std::vector<LocalIndex>& row = neighbours.emplace_back();
+      for (const Site& seat : n.around) {
+        row.push_back(static_cast<LocalIndex>(sites.size()));
+        sites.push_back(seat);
+      }
+      all.push_back({at, n.normal, {}});
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].neighbours = neighbours[i];
+  }
+};
+
+std::vector<Star> found_side_by_side(const Queries& queries) {
+  std::vector<Star> stars(queries.all.size());
+  StarFinder(queries.sites)
+      .for_each_batch(
+          queries.all.size(), [&](std::size_t i) { return queries.all[i]; },
+          [&](std::size_t first, std::span<const FoundStar> batch) {
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+              for (std::size_t c = 0; c < batch[i].size(); ++c) stars[first + i].push_back(batch[i][c]);
+            }
+          });
+  return stars;
+}
+
+bool same_bits(const Star& a, const Star& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+}
+
+StarBatch batch_of(const Queries& queries) {
+  StarBatch batch{.sites = queries.sites.data()};
+  for (std::size_t i = 0; i < kBatchSize; ++i) {
+    const StarQuery& query = queries.all[i];
+    batch.points[i] = query.point;
+    batch.neighbours[i] = query.neighbours.empty() ? &query.point : query.neighbours.data();
+    batch.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
+    for (int axis = 0; axis < 3; ++axis) batch.normals[axis][i] = query.normal[axis];
+  }
+  return batch;
+}
+
+// A point with neighbours at these places of its tangent plane, all on the unit length.
+Star star_among(const std::vector<Eigen::Vector2d>& places) {
+  Neighbourhood drawn{{{0, 0, 0}, {0, 0, 0}, 1, 0}, {0, 0, 1}, {}};
+  for (const Eigen::Vector2d& q : places) drawn.around.push_back({{q.x(), q.y(), 0}, {0, 0, 0}, 1, 0});
+  return found_side_by_side(Queries({drawn}))[0];
+}
+
+std::vector<LocalIndex> names(const Star& star) {
+  std::vector<LocalIndex> names;
+  for (const auto& corner : star) names.push_back(corner.point);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a star's corners are the neighbours that a ball can rest on, counterclockwise from the nearest") {
+  const Star star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
+  CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
+  // The circle through (0, 0), (-1.2, 0) and (0, 1.2).
+  CHECK(star[1].room == Approx(0.6 * std::sqrt(2.0)));
+}
+
+TEST_CASE("where all neighbours are on one side, the star is closed by an edge with the largest ball") {
+  const Star star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
+  CHECK(names(star).size() == 3);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& c) { return c.room == kLargestBall; }) == 1);
+}
+
+TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
+  CHECK(star_among({}).empty());
+  CHECK(star_among({{1, 0}, {0, 1}}).empty());
+  CHECK(star_among({{1, 0}, {2, 0}, {-1, 0}, {3, 0}}).empty());
+}
+
+TEST_CASE("stars found side by side are those of the exact fallback, bit for bit") {
+  Random random(21);
+  std::size_t different = 0, corners = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const Queries queries(drawn_neighbourhoods(random));
+    const std::vector<Star> found = found_side_by_side(queries);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      different += !same_bits(found[i], find_star_exactly(queries.sites, queries.all[i]).corners);
+      corners += found[i].size();
+    }
+  }
+  CHECK(different == 0);
+  CHECK(corners > 3000);
+}
+
+TEST_CASE("nearly every star is decided side by side, from every instruction set with the same bits") {
+  Random random(22);
+  std::size_t different = 0, unlike_exact = 0, plain_ones = 0, ambiguous = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const Queries queries(drawn_neighbourhoods(random));
+    const StarBatch batch = batch_of(queries);
+    BatchStars expected, found;
+    find_batch_stars(batch, expected);
+    by_each_instruction_set([&] {
+      find_batch_stars(batch, found);
+      for (std::size_t i = 0; i < kBatchSize; ++i) {
+        different += found.sizes[i] != expected.sizes[i];
+        if (found.sizes[i] == BatchStars::kAmbiguous || found.sizes[i] != expected.sizes[i]) continue;
+        for (std::uint32_t c = 0; c < found.sizes[i]; ++c)
+          different +=
+              std::memcmp(&found.corners[c][i], &expected.corners[c][i], sizeof found.corners[0][0]) != 0;
+      }
+    });
+    for (std::size_t i = 0; i < kBatchSize; ++i) {
+      if (queries.all[i].neighbours.size() > kMostSeen) continue;
+      const auto [exact, distance] = find_star_exactly(queries.sites, queries.all[i]);
+      if (expected.sizes[i] == BatchStars::kAmbiguous) {
+        ++ambiguous;
+        continue;
+      }
+      ++plain_ones;
+      Star star;
+      for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.corners[c][i]);
+      unlike_exact += !same_bits(star, exact);
+      if (!exact.empty()) unlike_exact += expected.distances[i] != distance;
+    }
+  }
+  CHECK(different == 0);
+  CHECK(unlike_exact == 0);
+  CHECK(ambiguous > 0);  // lattices without weights
+  CHECK(plain_ones > 3 * ambiguous);
+}
+
+TEST_CASE("a star is the same wherever its point is in a batch, and whatever the other points are") {
+  Random random(23);
+  std::size_t different = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Neighbourhood drawn = drawn_neighbourhood(random);
+    const Star alone = found_side_by_side(Queries({drawn}))[0];
+    for (std::size_t place = 0; place < kBatchSize; ++place) {
+      std::vector<Neighbourhood> others = drawn_neighbourhoods(random);
+      others[place] = drawn;
+      different += !same_bits(found_side_by_side(Queries(others))[place], alone);
+    }
+  }
+  CHECK(different == 0);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,379 @@
+// survey, split and reach: from points to cells, tiles, and how far neighbours may be.
+#include "engine/run/error.hpp"
+#include "engine/halo/distance_bound.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/survey/survey.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/tile.hpp"
+#include "tests/support/tiled_scan.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+SurveyedScan survey(const Cloud& cloud, std::uint64_t memory = 1 << 30, std::size_t batch = 1000,
+                    bool expected = true) {
+  Survey survey(memory, expected ? cloud.size() : 0);
+  MemoryScan scan(cloud, batch);
+  for (PointBatch points; scan.next(points);) survey.add(points);
+  return survey.finish();
+}
+
+std::map<CellCoord, std::uint64_t> counts_of(const std::vector<CountedCell>& cells) {
+  std::map<CellCoord, std::uint64_t> counts;
+  for (const CountedCell& cell : cells) counts[cell.coord] += cell.points;
+  return counts;
+}
+
+std::map<CellCoord, std::uint64_t> counted_plainly(const Cloud& cloud, const CellGrid& grid) {
+  std::map<CellCoord, std::uint64_t> counts;
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (p.allFinite()) ++counts[grid.cell_of(p)];
+  }
+  return counts;
+}
+
+void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
+  const auto counts = counts_of(scan.cells);
+  CHECK(counts.size() == scan.cells.size());
+  CHECK(counts == counted_plainly(cloud, scan.grid));
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (!p.allFinite()) continue;
+    const CellCoord cell = scan.grid.cell_of(p);
+    if (!scan.grid.box(cell, cell).contains(p)) {
+      FAIL_CHECK("a point lies outside of its cell");
+      return;
+    }
+  }
+}
+
+TilePlan plan_of(const Cloud& cloud, std::uint64_t tile_points) {
+  SurveyedScan scan = survey(cloud);
+  return split_tiles(std::move(scan.cells), scan.grid, tile_points);
+}
+
+// The index of a cloud's distinct points, and the points of each of its cells.
+struct Index {
+  Tiling tiling;
+  std::vector<std::vector<Eigen::Vector3d>> points;
+};
+
+Index index_of(const Cloud& cloud, std::int64_t tile_points) {
+  const TiledScan scan(cloud, tiled({}, tile_points));
+  Index index{scan.store.tiling(), {}};
+  for (std::uint32_t c = 0; c < index.tiling.cells.size(); ++c) {
+    auto& points = index.points.emplace_back();
+    for (const StoredPoint& p : scan.store.cell(c)) points.push_back(p.position());
+  }
+  return index;
+}
+
+Tiling tiling_of(const Cloud& cloud, std::int64_t tile_points) {
+  return index_of(cloud, tile_points).tiling;
+}
+
+TEST_CASE("a survey counts every finite point in the cell that the final grid gives it") {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    const Cloud cloud = random_cloud(4000 + seed);
+    INFO("seed " << seed);
+    const SurveyedScan scan = survey(cloud, 1 << 30, 1 + 77 * seed, seed % 2 == 0);
+    check_counts(cloud, scan);
+    CHECK(scan.points == cloud.size());
+    const auto dropped = std::count_if(cloud.positions.begin(), cloud.positions.end(),
+                                       [](const Eigen::Vector3d& p) { return !p.allFinite(); });
+    CHECK(scan.dropped == static_cast<std::uint64_t>(dropped));
+  }
+}
+
+TEST_CASE("cells merge while they need more memory than allowed, and no point is lost") {
+  const Cloud cloud = scattered(3000, 1).scaled(50).joined(lattice(8));
+  std::size_t before = 0;
+  for (const std::uint64_t memory : {1, 20'000, 40'000, 200'000}) {
+    const SurveyedScan scan = survey(cloud, memory, 100);
+    INFO(memory << " bytes allowed");
+    check_counts(cloud, scan);
+    CHECK(scan.cells.size() <= std::max<std::uint64_t>(memory / 96, 8));
+    CHECK(scan.cells.size() >= before);
+    before = scan.cells.size();
+  }
+  CHECK(before > 8);
+}
+
+TEST_CASE("cells hold about sixteen points on average, save where they cannot merge") {
+  const SurveyedScan scan = survey(scattered(20'000, 3).scaled(10));
+  CHECK(scan.cells.size() * Survey::kPointsPerCell <= 20'000);
+  CHECK(scan.cells.size() * Survey::kPointsPerCell >= 20'000 / 5);
+}
+
+TEST_CASE("outliers far from all else do not make the cells of a surface larger") {
+  const Cloud surface = plane(200);
+  const auto cells_of_surface = [&](const SurveyedScan& scan) {
+    std::set<CellCoord> cells;
+    for (const Eigen::Vector3d& p : surface.positions) cells.insert(scan.grid.cell_of(p));
+    return cells.size();
+  };
+  const std::size_t alone = cells_of_surface(survey(surface));
+  for (const int outliers : {500, 5'000}) {  // 1 and 11 in a hundred
+    for (const std::size_t batch : {1'000, 100'000}) {
+      Cloud cloud = surface.joined(scattered(outliers, 2).scaled(1e7));
+      if (batch > 1'000) cloud = cloud.shuffled(3);
+      const SurveyedScan scan = survey(cloud, 1 << 30, batch);
+      check_counts(cloud, scan);
+      INFO(outliers << " outliers, batches of " << batch);
+      CHECK(cells_of_surface(scan) * 20 >= alone);  // twice a doubling
+    }
+  }
+}
+
+TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a millimetre") {
+  const Cloud scan = plane(200).scaled(1e-3);
+  const std::size_t cells = survey(scan).cells.size();
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(5.4e6, 5.4e6, 300), Eigen::Vector3d(500'000, 5.4e6, 300),
+        Eigen::Vector3d(-2.7e6, -4.3e6, 3.85e6), Eigen::Vector3d(1e9, 0, -1e9)}) {
+    const Cloud there = scan.translated(place);
+    const SurveyedScan surveyed = survey(there);
+    check_counts(there, surveyed);
+    INFO(place.transpose());
+    CHECK(surveyed.cells.size() > cells / 2);
+    CHECK(surveyed.cells.size() < cells * 2);
+    std::uint64_t most = 0;
+    for (const CountedCell& cell : surveyed.cells) most = std::max(most, cell.points);
+    CHECK(most < 200);
+  }
+}
+
+TEST_CASE("far outliers are counted like any point") {
+  Cloud cloud = scattered(500, 1);
+  cloud.positions.insert(cloud.positions.begin(), {1e30, -1e30, 0});
+  cloud.positions.push_back({-1e150, 0, 1e100});
+  cloud.positions.push_back({1e-300, 1e12, -1e12});
+  const SurveyedScan scan = survey(cloud);
+  check_counts(cloud, scan);
+  CHECK(scan.bounds.max().x() == 1e30);
+  CHECK(scan.bounds.min().x() == -1e150);
+}
+
+TEST_CASE("a scan whose squared distances overflow is refused") {
+  Cloud cloud = line(3);
+  cloud.positions.push_back({1e155, 0, 0});
+  CHECK_THROWS_AS(survey(cloud), Error);
+}
+
+TEST_CASE("a survey of nothing, of nothing finite and of one place") {
+  CHECK(survey(Cloud{}).cells.empty());
+  CHECK(survey(Cloud{}).bounds.isEmpty());
+  const Cloud unusable = Cloud{{Eigen::Vector3d::Constant(std::nan("")), {0, INFINITY, 0}}, {}};
+  CHECK(survey(unusable).cells.empty());
+  CHECK(survey(unusable).dropped == 2);
+  for (const double at : {0.0, -1e-200, 1e6, 1e150}) {
+    const Cloud place = coincident(1000).translated({at, at, at});
+    const SurveyedScan scan = survey(place);
+    check_counts(place, scan);
+    CHECK(scan.cells.size() == 1);
+  }
+}
+
+TEST_CASE("planned tiles hold every cell once, in order, and no more points than allowed") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Cloud cloud = random_cloud(5000 + seed);
+    const auto before = counts_of(survey(cloud).cells);
+    for (const std::uint64_t limit : {1, 20, 300, 1'000'000}) {
+      const TilePlan plan = plan_of(cloud, limit);
+      INFO("seed " << seed << ", " << limit << " points a tile");
+      std::vector<CountedCell> all = plan.cells;
+      all.insert(all.end(), plan.aside.begin(), plan.aside.end());
+      CHECK(counts_of(all) == before);
+      CHECK(all.size() == before.size());
+      std::uint64_t most_tiles = plan.tiles.size();
+      std::uint64_t far = 0;
+      for (std::size_t cell = 0; cell < plan.aside.size(); ++cell) {
+        const std::uint64_t points = plan.aside[cell].points;
+        if (cell < plan.heavy) {
+          CHECK(points > limit);
+          most_tiles += (points + limit - 1) / limit;
+        } else {
+          far += points;
+        }
+      }
+      most_tiles += (far + limit - 1) / limit;
+      CHECK(plan.most_tiles() == most_tiles);
+      std::uint32_t next_cell = 0;
+      std::uint64_t next_row = 0;
+      for (const Tile& tile : plan.tiles) {
+        CHECK(tile.first_cell == next_cell);
+        REQUIRE(tile.last_cell > tile.first_cell);
+        std::uint64_t points = 0;
+        for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) points += plan.cells[c].points;
+        CHECK(points == tile.raw);
+        CHECK(points <= limit);
+        CHECK(value(tile.first_row) % kRowAlignment == 0);
+        CHECK(value(tile.first_row) >= next_row);
+        next_row = value(tile.first_row) + tile.raw;
+        next_cell = tile.last_cell;
+      }
+      CHECK(next_cell == plan.cells.size());
+    }
+  }
+}
+
+TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
+  for (const Cloud& cloud : {hard_cloud(1), plane(60), random_cloud(1).joined(coincident(3000))}) {
+    const Tiling tiling = tiling_of(cloud, 400);
+    for (const CellNode& node : tiling.nodes) {
+      Eigen::AlignedBox3d box;
+      std::uint64_t points = 0;
+      for (std::uint32_t c = node.first; c < node.last; ++c) {
+        box.extend(tiling.cells[c].box);
+        points += tiling.cells[c].points;
+      }
+      CHECK((box.min() == node.box.min() && box.max() == node.box.max() && points == node.points));
+      const bool spans_tiles = tiling.tile_of_cell(node.first) != tiling.tile_of_cell(node.last - 1);
+      if (node.left == 0) {
+        CHECK(node.last - node.first <= Tiling::kLeafCells);
+      } else {
+        const CellNode &left = tiling.nodes[node.left], &right = tiling.nodes[node.right];
+        CHECK((left.first == node.first && left.last == right.first && right.last == node.last));
+        if (spans_tiles) CHECK(tiling.tile_of_cell(left.last - 1) != tiling.tile_of_cell(right.first));
+      }
+    }
+  }
+}
+
+TEST_CASE("a tiling is found wrong where cells are missing, rows overlap or nodes do not halve") {
+  const Tiling right = tiling_of(hard_cloud(1), 400);
+  REQUIRE(right.check());
+  REQUIRE(right.tiles.size() > 2);
+  const auto is_right_with = [&](auto change) {
+    Tiling tiling = right;
+    change(tiling);
+    return tiling.check();
+  };
+  CHECK(is_right_with([](Tiling&) {}));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles.pop_back(); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cells.pop_back(); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { std::swap(t.tiles[0], t.tiles[1]); }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.tiles[1].first_cell; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[1].first_row = t.tiles[0].first_row; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].points = t.tiles[0].raw + 1; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.tiles[0].first_row = Row{1}; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.cells[1].first_row = t.cells[0].first_row; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.cells[0].points; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[0].first; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].left].last; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { ++t.nodes[t.nodes[0].right].points; }));
+  CHECK_FALSE(is_right_with([](Tiling& t) { t.nodes.clear(); }));
+}
+
+TEST_CASE("a single heavy cell is set aside, as is one without end, and no cells make no tiles") {
+  const std::vector<CountedCell> cells = {
+      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, CellGrid::kLast, 0}, 1}};
+  const TilePlan plan = split_tiles(cells, CellGrid{}, 12);
+  CHECK(counts_of(plan.aside) ==
+        std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, CellGrid::kLast, 0}, 1}});
+  CHECK(plan.heavy == 1);
+  CHECK(plan.cells.size() == 3);
+  CHECK(split_tiles({}, CellGrid{}, 12).tiles.empty());
+}
+
+TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbour of any of its points") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Cloud cloud = random_cloud(6000 + seed);
+    if (seed == 1) cloud = hard_cloud(2);
+    Cloud distinct;
+    for (const PointId id : distinct_ids(cloud)) distinct.positions.push_back(cloud.positions[value(id)]);
+    if (distinct.size() == 0) continue;
+    const auto [tiling, points] = index_of(distinct, 200);
+    for (const std::size_t k : {1, 7, 40}) {
+      std::vector<double> reach(tiling.cells.size());
+      for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) reach[c] = squared_distance_bound(tiling, c, k);
+      std::size_t too_short = 0;
+      for (std::size_t i = 0; i < distinct.size(); i += 1 + distinct.size() / 300) {
+        const Eigen::Vector3d& p = distinct.positions[i];
+        std::uint32_t cell = 0;
+        while (std::find(points[cell].begin(), points[cell].end(), p) == points[cell].end()) ++cell;
+        std::vector<double> others;
+        for (std::size_t j = 0; j < distinct.size(); ++j) {
+          if (j != i) others.push_back(squared_distance(p, distinct.positions[j]));
+        }
+        const double bound = reach[cell];
+        if (others.size() < k) {
+          too_short += bound != std::numeric_limits<double>::infinity();
+        } else {
+          std::nth_element(others.begin(), others.begin() + std::ptrdiff_t(k) - 1, others.end());
+          too_short += bound < others[k - 1];
+        }
+      }
+      INFO("seed " << seed << ", k " << k);
+      CHECK(too_short == 0);
+    }
+  }
+}
+
+TEST_CASE("the reach is infinite where the scan has no more than k points, finite where it has one more") {
+  const Tiling tiling = tiling_of(scattered(16, 1), 1'000'000);
+  CHECK(squared_distance_bound(tiling, 0, 16) == std::numeric_limits<double>::infinity());
+  CHECK(squared_distance_bound(tiling, 0, 15) < 100);
+}
+
+TEST_CASE("the reach in an even plane is a few spacings") {
+  const Tiling tiling = tiling_of(plane(100), 1'000'000);
+  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
+    if (std::sqrt(squared_distance_bound(tiling, c, 15)) > 30) FAIL_CHECK("a reach of more than 30 spacings");
+  }
+}
+
+TEST_CASE("cells near a box are those of a search through all") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Cloud cloud = random_cloud(7000 + seed);
+    const Tiling tiling = tiling_of(cloud, 100);
+    const auto cells = static_cast<std::uint32_t>(tiling.cells.size());
+    if (cells == 0) continue;
+    Random random(seed);
+    for (int query = 0; query < 50; ++query) {
+      const auto pick = [&] { return static_cast<std::uint32_t>(random.whole(0, cells - 1)); };
+      const Eigen::AlignedBox3d box = tiling.cells[pick()].box;
+      const double radius = tiling.cells[pick()].box.diagonal().norm() * random.uniform(0, 5);
+      std::uint32_t skip_first = pick(), skip_last = pick();
+      if (skip_first > skip_last || random.chance(0.3)) skip_first = skip_last = 0;
+      std::vector<std::uint32_t> expected, found;
+      for (std::uint32_t c = 0; c < cells; ++c) {
+        const bool near = min_squared_distance(box, tiling.cells[c].box) <= radius * radius;
+        if (near && !(c >= skip_first && c < skip_last)) expected.push_back(c);
+      }
+      const auto all = [&](std::uint32_t c) {
+        found.push_back(c);
+        return true;
+      };
+      for_each_cell_near(tiling, box, radius * radius, skip_first, skip_last, all);
+      CHECK(found == expected);
+      int visits = 0;
+      for_each_cell_near(tiling, box, radius * radius, skip_first, skip_last, [&](std::uint32_t) {
+        ++visits;
+        return false;
+      });
+      CHECK(visits == (expected.empty() ? 0 : 1));
+    }
+  }
+}
+
+TEST_CASE("points beyond the end of the grid have a finite reach") {
+  Cloud cloud = scattered(300, 4);
+  cloud.positions.push_back({1e40, 0, 0});
+  cloud.positions.push_back({1e39, 0, 0});
+  const Tiling tiling = tiling_of(cloud, 50);
+  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
+    const double reach = squared_distance_bound(tiling, c, 5);
+    CHECK_FALSE(std::isnan(reach));
+    CHECK(reach > 0);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna
