@@ -2,15 +2,15 @@
 
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/boundary/tangential/tangential_boundary.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/loops/measure_loops.hpp"
-#include "engine/halo/eps_balls.hpp"
 #include "engine/bucket/bucket_scan.hpp"
-#include "engine/survey/survey_scan.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
+#include "engine/loops/measure_loops.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/orientation_graph.hpp"
-#include "engine/bucket/split.hpp"
+#include "engine/survey/survey_scan.hpp"
 
 #include <cmath>
 #include <memory>
@@ -78,8 +78,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   const TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
   Summary summary = summarise(survey, store.tiling().tiles.size(), tile_points, job);
 
-  // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer keeps
-  // what it needs of an evaluated tile.
+  // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
+  // keeps what it needs of an evaluated tile.
   refuse_balls(store.tiling(), eps, job);
   AppendLists<HaloEdge> halo = exchange_halo(store, job);
   Candidates candidates(store, job);
@@ -102,8 +102,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
-  return collect_results({std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates), std::move(points),
-                          std::move(opposed_normals)},
+  return collect_results({std::move(summary), std::move(loops), std::move(coherent),
+                          std::move(boundary_candidates), std::move(points), std::move(opposed_normals)},
                          candidates, store, job);
 }
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "engine/boundary/coherence.hpp"
-#include "engine/store/point_column.hpp"
-#include "engine/store/row_set.hpp"
-#include "engine/store/append_lists.hpp"
-#include "engine/store/tile_store.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/loops/raw_loops.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/point_column.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <mutex>
 #include <vector>
@@ -32,9 +32,9 @@ class Candidates final : public TileConsumer {
   // Appends candidates of a tile, in ascending row. From any thread.
   void add(TileIndex tile, std::span<const StoredCandidate> candidates);
 
-  // Those that are coherent: the greatest set of candidates of which each has both of its gap neighbours in it.
-  // Tiles are evaluated on their own, and again while a tile that their candidates depend on changes; the order
-  // does not matter. Memory: one bit per row.
+  // Those that are coherent: the greatest set of candidates of which each has both of its gap neighbours in
+  // it. Tiles are evaluated on their own, and again while a tile that their candidates depend on changes; the
+  // order does not matter. Memory: one bit per row.
   RowSet coherent(Job& job) const;
   // Those whose gap neighbours both lie on one of the loops.
   RowSet beside(const RawLoops& loops, Job& job) const;

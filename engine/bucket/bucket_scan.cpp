@@ -1,10 +1,10 @@
 #include "engine/bucket/bucket_scan.hpp"
 
 #include "engine/bucket/cell_index.hpp"
-#include "engine/run/error.hpp"
 #include "engine/bucket/index_file.hpp"
-#include "engine/bucket/set_aside.hpp"
 #include "engine/bucket/order_tile.hpp"
+#include "engine/bucket/set_aside.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -127,15 +127,15 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
   std::vector<Scattered> batches(kBatches);
   scan.rewind();
   job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                    [&](std::size_t slot) {
-                      batches[slot].scatter(to);
-                      append(batches[slot], to.aside, filler);
-                    },
-                    [&](std::size_t slot) {
-                      set_aside(batches[slot], to, aside);
-                      phase.advance(batches[slot].points.size());
-                    },
-                    kBatches);
+                     [&](std::size_t slot) {
+                       batches[slot].scatter(to);
+                       append(batches[slot], to.aside, filler);
+                     },
+                     [&](std::size_t slot) {
+                       set_aside(batches[slot], to, aside);
+                       phase.advance(batches[slot].points.size());
+                     },
+                     kBatches);
   filler.finish();
 }
 

@@ -1,9 +1,9 @@
 // bucket: the points sorted into tiles on disk.
 #pragma once
 
+#include "engine/bucket/split.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/job.hpp"
-#include "engine/bucket/split.hpp"
 #include "engine/store/tile_store.hpp"
 
 namespace lacuna {

@@ -1,10 +1,10 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
-#include "engine/simd/vectorised.hpp"
-#include "engine/halo/eps_balls.hpp"
 #include "engine/evaluate/evaluate.hpp"
-#include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/halo/distance_bound.hpp"
+#include "engine/halo/eps_balls.hpp"
+#include "engine/neighbours/neighbourhoods.hpp"
+#include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -135,8 +135,8 @@ void operator+=(Totals& totals, const Totals& more) {
 }
 
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
-Totals sum_up(std::span<const Evaluation> evaluations, const Rows& neighbourhoods, double threshold, double unit,
-              std::vector<LocalIndex>& candidates) {
+Totals sum_up(std::span<const Evaluation> evaluations, const Rows& neighbourhoods, double threshold,
+              double unit, std::vector<LocalIndex>& candidates) {
   Totals totals{.points = evaluations.size(), .neighbours = neighbourhoods.indices.size()};
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
     const Evaluation& e = evaluations[p];
@@ -172,7 +172,8 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
     const Tile& tile = tiling.tiles[t];
     std::uint64_t foreign = halo.count(t);
     for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
-    needs[t] = job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
+    needs[t] =
+        job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
   std::mutex mutex;
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
@@ -188,8 +189,8 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
         evaluate(points, neighbourhoods, store.normals(index), job.config.normals, job.config.criteria);
 
     std::vector<LocalIndex> candidates;
-    const Totals sums = sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit,
-                               candidates);
+    const Totals sums =
+        sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
     for (TileConsumer* const consumer : consumers)
       consumer->take({index, tile, points, neighbourhoods, evaluations, candidates, is_border});

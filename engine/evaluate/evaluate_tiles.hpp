@@ -1,11 +1,11 @@
 // evaluate, over all tiles: every point judged from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/halo/halo.hpp"
+#include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
-#include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/run/job.hpp"
-#include "engine/halo/halo.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,13 +1,13 @@
-// What the evaluation of a tile hands on. Each consumer keeps what it needs in lists of its own, and nothing else
-// of the tile stays: the neighbour graph never touches the disk.
+// What the evaluation of a tile hands on. Each consumer keeps what it needs in lists of its own, and nothing
+// else of the tile stays: the neighbour graph never touches the disk.
 #pragma once
 
-#include "engine/store/column.hpp"
-#include "engine/store/point_column.hpp"
-#include "engine/model/boundary_graph.hpp"
 #include "engine/criteria/evaluation.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/tiling.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/point_column.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,10 +20,10 @@ struct EvaluatedTile {
   TileIndex index;
   const Tile& tile;
   const TilePoints& points;
-  const Rows& neighbourhoods;                // of owned points
-  std::span<const Evaluation> evaluations;   // likewise
-  std::span<const LocalIndex> candidates;    // owned points with Pi above the threshold, ascending
-  std::span<const std::uint8_t> is_border;   // of owned points: has foreign neighbours
+  const Rows& neighbourhoods;               // of owned points
+  std::span<const Evaluation> evaluations;  // likewise
+  std::span<const LocalIndex> candidates;   // owned points with Pi above the threshold, ascending
+  std::span<const std::uint8_t> is_border;  // of owned points: has foreign neighbours
 
   Vertex vertex(LocalIndex p) const { return {points.ids[p], points.rows[p]}; }
   StoredPoint stored(LocalIndex p) const {
@@ -40,8 +40,8 @@ class TileConsumer {
   virtual void take(const EvaluatedTile& tile) = 0;
 };
 
-// Writes record(p) for the owned points that are wanted. They are few and near each other, so runs of rows without
-// any stay unwritten.
+// Writes record(p) for the owned points that are wanted. They are few and near each other, so runs of rows
+// without any stay unwritten.
 template <class Record, class Make>
 void write_wanted(Column<Record>& column, const EvaluatedTile& tile, std::span<const std::uint8_t> is_wanted,
                   Make&& record) {

@@ -1,9 +1,9 @@
-// The points that may lie on a loop, with what measuring a loop needs of them. They are a small part of the scan,
-// so measuring loops does not read the tile store again.
+// The points that may lie on a loop, with what measuring a loop needs of them. They are a small part of the
+// scan, so measuring loops does not read the tile store again.
 #pragma once
 
-#include "engine/store/append_lists.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/store/append_lists.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,11 +1,11 @@
 // Loops measured: the points of each joined with what the evaluation said of them.
 #pragma once
 
-#include "engine/store/tile_store.hpp"
-#include "engine/model/loop.hpp"
 #include "engine/loops/loop_points.hpp"
 #include "engine/loops/raw_loops.hpp"
+#include "engine/model/loop.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <vector>
 

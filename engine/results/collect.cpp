@@ -1,7 +1,7 @@
 #include "engine/results/collect.hpp"
 
-#include "engine/store/sorted_runs.hpp"
 #include "engine/store/outbox.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -41,8 +41,8 @@ using BoundarySort = SortedRuns<StoredBoundary>;
 class WorkspaceDetection final : public Detection {
  public:
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
-                     Column<StoredBoundary> boundary, std::uint64_t marked, std::optional<PointResults> results,
-                     std::optional<RowSet> turned)
+                     Column<StoredBoundary> boundary, std::uint64_t marked,
+                     std::optional<PointResults> results, std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
         selected_(std::move(selected)),
@@ -176,8 +176,8 @@ StoredBoundary stored(const Mark& mark) {
 
 }  // namespace
 
-std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates, const TileStore& store,
-                                           Job& job) {
+std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates,
+                                           const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
   const MeasuredLoops& loops = findings.loops;
@@ -226,9 +226,9 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
     flush();
   }
   summary.phases = job.phases;
-  return std::make_unique<WorkspaceDetection>(std::move(summary), std::move(findings.loops), std::move(selected),
-                                              std::move(boundary_points), marked, std::move(findings.points),
-                                              std::move(findings.opposed_normals));
+  return std::make_unique<WorkspaceDetection>(
+      std::move(summary), std::move(findings.loops), std::move(selected), std::move(boundary_points), marked,
+      std::move(findings.points), std::move(findings.opposed_normals));
 }
 
 }  // namespace lacuna

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "engine/boundary/candidates.hpp"
+#include "engine/loops/measure_loops.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/results/point_results.hpp"
+#include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
-#include "engine/model/detection.hpp"
-#include "engine/loops/measure_loops.hpp"
-#include "engine/run/job.hpp"
-#include "engine/results/point_results.hpp"
 
 #include <memory>
 #include <optional>
@@ -25,7 +25,7 @@ struct Findings {
 };
 
 // Fills in the counts of boundary points.
-std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates, const TileStore& store,
-                                           Job& job);
+std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates,
+                                           const TileStore& store, Job& job);
 
 }  // namespace lacuna

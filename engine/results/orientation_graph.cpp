@@ -1,8 +1,8 @@
 #include "engine/results/orientation_graph.hpp"
 
-#include "engine/store/sorted_runs.hpp"
-#include "engine/store/scratch.hpp"
 #include "engine/results/orient.hpp"
+#include "engine/store/scratch.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // Consistent orientation of the normals over all tiles (Hoppe et al. 1992), exact.
 #pragma once
 
-#include "engine/store/row_set.hpp"
-#include "engine/store/append_lists.hpp"
-#include "engine/store/tile_store.hpp"
-#include "engine/model/orientation.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/model/orientation.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/tile_store.hpp"
 
 namespace lacuna {
 
@@ -17,25 +17,26 @@ struct OrientationCrossing {
   PointId foreign_id;
 };
 
-// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So of the edges inside a
-// tile only its own spanning forest goes on.
+// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So of the edges
+// inside a tile only its own spanning forest goes on.
 class OrientationGraph final : public TileConsumer {
  public:
   OrientationGraph(const TileStore& store, const Job& job);
 
   void take(const EvaluatedTile& tile) override;
 
-  // All tiles are taken. Rows whose normal has to be turned round. The minimum spanning tree of G is built from the
-  // tiles' forests and the edges between tiles, sorted on disk, by a union-find that carries the sign. In every
-  // component the topmost point (largest z, then lowest id) gets a normal that points up: its first coordinate of
-  // z, y, x that is not 0 is positive. Memory: the global budget. Consumes the edges: to be called once.
+  // All tiles are taken. Rows whose normal has to be turned round. The minimum spanning tree of G is built
+  // from the tiles' forests and the edges between tiles, sorted on disk, by a union-find that carries the
+  // sign. In every component the topmost point (largest z, then lowest id) gets a normal that points up: its
+  // first coordinate of z, y, x that is not 0 is positive. Memory: the global budget. Consumes the edges: to
+  // be called once.
   RowSet opposed_normals(Job& job);
 
  private:
   const TileStore& store_;
-  AppendLists<OrientationEdge> forests_;         // by tile
-  AppendLists<OrientationCrossing> crossings_;   // by tile
-  Column<StoredNormal> normals_;           // by row
+  AppendLists<OrientationEdge> forests_;        // by tile
+  AppendLists<OrientationCrossing> crossings_;  // by tile
+  Column<StoredNormal> normals_;                // by row
 };
 
 }  // namespace lacuna

@@ -7,15 +7,16 @@
 namespace lacuna {
 
 PointResults::PointResults(std::uint64_t ids, const TileStore& store, const Job& job)
-    : store_(store), lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {}
+    : store_(store),
+      lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {}
 
 void PointResults::take(const EvaluatedTile& tile) {
   constexpr std::size_t kTogether = 1 << 14;
   std::vector<StoredResult> results;
   const auto add = [&](PointId id, LocalIndex p) {
     const Evaluation& e = tile.evaluations[p];
-    StoredResult& result =
-        results.emplace_back(StoredResult{.id = id, .row = tile.points.rows[p], .probability = tile.probability(p)});
+    StoredResult& result = results.emplace_back(
+        StoredResult{.id = id, .row = tile.points.rows[p], .probability = tile.probability(p)});
     for (std::size_t i = 0; i < kCriteria; ++i) result.criteria[i] = static_cast<float>(e.criteria[i]);
     for (int axis = 0; axis < 3; ++axis) result.normal[axis] = static_cast<float>(e.normal[axis]);
   };

@@ -1,11 +1,11 @@
 // Results of every point of the input, for points.ply.
 #pragma once
 
-#include "engine/store/append_lists.hpp"
-#include "engine/store/tile_store.hpp"
 #include "engine/criteria/criterion.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,8 @@ namespace lacuna {
 namespace {
 
 // Components with an edge that no crossing edge leaves.
-std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices, std::span<const LocalIndex> part_of_root) {
+std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices,
+                           std::span<const LocalIndex> part_of_root) {
   std::vector<std::uint8_t> has_edge(vertices);
   for (LocalIndex v = 0; v < vertices; ++v) {
     const LocalIndex root = connected.find(v);
@@ -93,7 +94,8 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
     scratch.trim();
     count_ += components.find(c) == c;
     if (records[c] == 0) continue;
-    if (batches.records.empty() || batches.records.back() + records[c] > most_records) batches.records.push_back(0);
+    if (batches.records.empty() || batches.records.back() + records[c] > most_records)
+      batches.records.push_back(0);
     batches.records.back() += records[c];
     batch_of[c] = static_cast<std::uint32_t>(batches.records.size() - 1);
   }

@@ -1,12 +1,12 @@
-// Components of the boundary graph across tiles: union-find within each tile, then one global union-find over the
-// ends of the edges that cross.
+// Components of the boundary graph across tiles: union-find within each tile, then one global union-find over
+// the ends of the edges that cross.
 #pragma once
 
-#include "engine/store/scratch.hpp"
-#include "engine/store/append_lists.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/run/job.hpp"
 #include "engine/stitch/union_find.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -21,8 +21,8 @@ struct CrossingEdge {
   Row own, foreign;
 };
 
-// An open part: a component of a tile's part of the graph that crossing edges leave. It goes by one of its own
-// ends of these, a row that no other open part has.
+// An open part: a component of a tile's part of the graph that crossing edges leave. It goes by one of its
+// own ends of these, a row that no other open part has.
 struct OpenPart {
   Row name;
   std::uint64_t records;  // of the tile in this part
@@ -38,18 +38,18 @@ class Components {
  public:
   Components(std::size_t tiles, const Job& job);
 
-  // The open parts of a tile; their `records` are for the caller to count. `connected`: of all `vertices` of the
-  // tile's part of the graph. Counts the closed components. From any thread, once for each tile.
+  // The open parts of a tile; their `records` are for the caller to count. `connected`: of all `vertices` of
+  // the tile's part of the graph. Counts the closed components. From any thread, once for each tile.
   TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
                            std::span<const CrossingEdge> crossings);
   void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
 
-  // All tiles are added: joins open parts to components, and groups these to batches of at most `most_records`
-  // each; a component of more has a batch of its own.
+  // All tiles are added: joins open parts to components, and groups these to batches of at most
+  // `most_records` each; a component of more has a batch of its own.
   struct Batches {
-    std::vector<std::uint64_t> records;             // of each batch
-    std::span<const std::uint32_t> batch_of;        // by component
-    std::span<const LocalIndex> component_of;       // by open part, those of tile t from first_part[t] on
+    std::vector<std::uint64_t> records;        // of each batch
+    std::span<const std::uint32_t> batch_of;   // by component
+    std::span<const LocalIndex> component_of;  // by open part, those of tile t from first_part[t] on
     std::vector<std::uint64_t> first_part;
   };
   Batches join(std::uint64_t most_records, Scratch& scratch);

@@ -1,8 +1,9 @@
 // stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
 //
-// A tile adds its part of the graph. Loops that lie wholly inside are its own affair; of the open components, those that
-// leave the tile, it passes on records: boundary edges, in whatever form the method needs to find loops. The records are
-// grouped by component, in batches that fit in memory; a component larger than that is handed out from disk.
+// A tile adds its part of the graph. Loops that lie wholly inside are its own affair; of the open components,
+// those that leave the tile, it passes on records: boundary edges, in whatever form the method needs to find
+// loops. The records are grouped by component, in batches that fit in memory; a component larger than that is
+// handed out from disk.
 #pragma once
 
 #include "engine/stitch/components.hpp"
@@ -21,10 +22,10 @@ namespace lacuna {
 template <class Record>
 struct GraphPart {
   LocalIndex vertices = 0;
-  std::span<LocalIndex> links;           // of a UnionFind over the vertices: what the edges of the part connect
+  std::span<LocalIndex> links;  // of a UnionFind over the vertices: what the edges of the part connect
   std::vector<CrossingEdge> crossings;
-  std::vector<Record> records;           // of its open components
-  std::vector<LocalIndex> vertex_of;     // of each record, a vertex of its component
+  std::vector<Record> records;        // of its open components
+  std::vector<LocalIndex> vertex_of;  // of each record, a vertex of its component
 };
 
 // `Record`: plain data.
@@ -70,7 +71,8 @@ class Stitch {
     job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
 
     std::vector<std::uint64_t> needs;
-    for (const std::uint64_t records : batches.records) needs.push_back(records > fits ? 0 : records * record_bytes_);
+    for (const std::uint64_t records : batches.records)
+      needs.push_back(records > fits ? 0 : records * record_bytes_);
     job_.arena.for_each_within_budget(needs, job_.memory.global / 2, [&](std::size_t b) {
       if (batches.records[b] <= fits) visit_batch(lists.read(b), in_memory);
     });
@@ -94,7 +96,8 @@ class Stitch {
     open_.drop(tile);
     for (Member& m : members) m.component = batches.component_of[batches.first_part[tile] + m.component];
     const auto batch = [&](const Member& m) { return batches.batch_of[m.component]; };
-    std::sort(members.begin(), members.end(), [&](const Member& x, const Member& y) { return batch(x) < batch(y); });
+    std::sort(members.begin(), members.end(),
+              [&](const Member& x, const Member& y) { return batch(x) < batch(y); });
     for (std::size_t begin = 0, end; begin < members.size(); begin = end) {
       for (end = begin; end < members.size() && batch(members[end]) == batch(members[begin]);) ++end;
       lists.append(batch(members[begin]), std::span(members).subspan(begin, end - begin));

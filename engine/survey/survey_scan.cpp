@@ -17,17 +17,17 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
   std::vector<Counted> batches(kBatches);
   scan.rewind();
   job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                    [&](std::size_t slot) {
-                      Counted& counted = batches[slot];
-                      counted.counts.reset();
-                      if (survey.is_sized()) counted.counts = count_cells(counted.batch, survey.finest());
-                    },
-                    [&](std::size_t slot) {
-                      const Counted& counted = batches[slot];
-                      counted.counts ? survey.add(*counted.counts) : survey.add(counted.batch);
-                      phase.advance(counted.batch.size());
-                    },
-                    kBatches);
+                     [&](std::size_t slot) {
+                       Counted& counted = batches[slot];
+                       counted.counts.reset();
+                       if (survey.is_sized()) counted.counts = count_cells(counted.batch, survey.finest());
+                     },
+                     [&](std::size_t slot) {
+                       const Counted& counted = batches[slot];
+                       counted.counts ? survey.add(*counted.counts) : survey.add(counted.batch);
+                       phase.advance(counted.batch.size());
+                     },
+                     kBatches);
 }
 
 }  // namespace

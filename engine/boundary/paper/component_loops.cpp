@@ -1,15 +1,16 @@
 #include "engine/boundary/paper/component_loops.hpp"
 
 #include "engine/boundary/paper/order_edges.hpp"
-#include "engine/store/sorted_runs.hpp"
 #include "engine/store/row_numbers.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <functional>
 
 namespace lacuna {
 
 // Vertices are numbered by row: near in space, near in memory.
-void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job, RawLoops& loops) {
+void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
+                          RawLoops& loops) {
   if (edges.size() <= static_cast<std::uint64_t>(e)) return;  // a loop has more
   RowNumbers rows;
   rows.collect(edges.size(), [&](auto&& add) {
@@ -37,8 +38,8 @@ void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, c
       spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
-void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
-                                std::int64_t e, const Job& job, RawLoops& loops) {
+void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
+                                std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops) {
   RowNumbers rows;
   rows.collect(edge_count, [&](auto&& add) {
     for_each_edge([&](const BoundaryEdge& edge) {
@@ -46,8 +47,7 @@ void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_e
       add(edge.b.row);
     });
   });
-  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"),
-                                                               job.memory.global / 4);
+  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"), job.memory.global / 4);
   Scratch scratch(job.workspace, job.memory.global * 5 / 8);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {

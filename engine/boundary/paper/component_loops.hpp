@@ -3,11 +3,11 @@
 
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
-#include "engine/store/scratch.hpp"
-#include "engine/model/boundary_graph.hpp"
 #include "engine/loops/raw_loops.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/run/job.hpp"
 #include "engine/stitch/stitch.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <cstdint>
 #include <span>
@@ -27,10 +27,11 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
 }
 
 // `edges`: of a whole component, in any order. `e`: an edge may close a loop of more than e edges.
-void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job, RawLoops& loops);
+void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
+                          RawLoops& loops);
 
 // The same for a component that does not fit in memory: sorted on disk and spanned in mapped arrays.
-void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
-                                std::int64_t e, const Job& job, RawLoops& loops);
+void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
+                                std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops);
 
 }  // namespace lacuna

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/model/boundary_graph.hpp"
 #include "engine/criteria/evaluation.hpp"
+#include "engine/model/boundary_graph.hpp"
 #include "engine/model/neighbourhoods.hpp"
 
 #include <span>

@@ -31,7 +31,8 @@ BoundaryEdge boundary_edge(double weight, const Vertex& a, const Vertex& b) {
 // tiles at the ends of its crossing edges.
 class TileVertices {
  public:
-  TileVertices(const Tile& tile, std::span<const StoredVertex> own, std::span<const EligibleCrossing> crossings)
+  TileVertices(const Tile& tile, std::span<const StoredVertex> own,
+               std::span<const EligibleCrossing> crossings)
       : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
     for (LocalIndex v = 0; v < own_; ++v) {
       numbers_[own[v].owned] = v;
@@ -85,7 +86,8 @@ void PaperBoundary::take(const EvaluatedTile& tile) {
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
   undecided_.append(tile.index, undecided);
 
-  // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign neighbours.
+  // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign
+  // neighbours.
   std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
   for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
   add_loop_points(loop_points_, tile, is_end);

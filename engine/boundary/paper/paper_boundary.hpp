@@ -1,11 +1,11 @@
-// Boundary edges of the paper: the eligible edges of G, of which the spanning graph admits those that close long
-// loops only (paper, 5.1), and its loops by breadth-first search (5.2).
+// Boundary edges of the paper: the eligible edges of G, of which the spanning graph admits those that close
+// long loops only (paper, 5.1), and its loops by breadth-first search (5.2).
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
-#include "engine/store/tile_store.hpp"
 #include "engine/stitch/stitch.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 
@@ -25,9 +25,9 @@ struct EligibleCrossing {
   double weight;
 };
 
-// Each tile decides what it can: most edges, and the loops that lead to no other tile. What it passes on is stitched
-// by component, spanned again and searched. A component larger than memory is sorted on disk and spanned in mapped
-// arrays.
+// Each tile decides what it can: most edges, and the loops that lead to no other tile. What it passes on is
+// stitched by component, spanned again and searched. A component larger than memory is sorted on disk and
+// spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
   PaperBoundary(const TileStore& store, const Job& job);
@@ -35,7 +35,8 @@ class PaperBoundary final : public BoundaryMethod {
   void take(const EvaluatedTile& tile) override;
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // The coherent ones.
-  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RawLoops&, Job&) const override {
+  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RawLoops&,
+                             Job&) const override {
     return coherent;
   }
 
@@ -47,7 +48,7 @@ class PaperBoundary final : public BoundaryMethod {
   AppendLists<TileEdge> inside_;             // eligible ones, by tile
   AppendLists<StoredCrossing> undecided_;    // by tile
   AppendLists<EligibleCrossing> crossings_;  // by tile
-  Column<Strength> strengths_;         // by row, of points with foreign neighbours
+  Column<Strength> strengths_;               // by row, of points with foreign neighbours
   const SpanningConfig& config_;
 };
 

@@ -1,10 +1,10 @@
 #include "engine/boundary/tangential/border_exchange.hpp"
 
-#include "engine/store/outbox.hpp"
-#include "engine/run/rounds.hpp"
-#include "engine/boundary/tangential/radius_bound.hpp"
 #include "engine/boundary/tangential/open_stars.hpp"
+#include "engine/boundary/tangential/radius_bound.hpp"
 #include "engine/boundary/tangential/stars.hpp"
+#include "engine/run/rounds.hpp"
+#include "engine/store/outbox.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -36,8 +36,7 @@ struct Waiting {
       : nearby(lists.waiting_nearby.read(t)), all_neighbours(lists.waiting_neighbours.read(t)) {
     std::span<const LocalIndex> left = all_neighbours;
     for (const WaitingPoint& p : lists.waiting.read(t)) {
-      points.push_back(
-          {p.place, p.state, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
+      points.push_back({p.place, p.state, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
       left = left.subspan(p.neighbours);
     }
   }
@@ -231,10 +230,12 @@ class BorderExchange {
     const Tile& here = tiling_.tiles[t];
     const StoredStars open = lists_.open.read(t);
     const std::vector<RemoteTriangle> remote_triangles = sorted_claims(t);
-    OpenStars(here, lists_.active, lists_.unmeasured, open, remote_triangles).find_active_points([&](Row row) {
-      if (!here.owns(row) || lists_.unmeasured.contains(row) || has_remote_triangle(remote_triangles, here.local(row)))
-        visit(tiling_.tile_of_row(row));
-    });
+    OpenStars(here, lists_.active, lists_.unmeasured, open, remote_triangles)
+        .find_active_points([&](Row row) {
+          if (!here.owns(row) || lists_.unmeasured.contains(row) ||
+              has_remote_triangle(remote_triangles, here.local(row)))
+            visit(tiling_.tile_of_row(row));
+        });
   }
 
   void find_wedges(TileIndex t) {

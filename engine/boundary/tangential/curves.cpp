@@ -10,7 +10,6 @@
 namespace lacuna {
 namespace {
 
-
 // Place i of the rim as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
   return forwards ? (start + i) % count : (start + count - i) % count;
@@ -43,8 +42,8 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   return partners;
 }
 
-void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
-                   const std::function<void(std::vector<CurvePoint>&)>& visit) {
+void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
+                   std::vector<bool> left_out, const std::function<void(std::vector<CurvePoint>&)>& visit) {
   std::vector<bool>& is_done = left_out;
   std::vector<CurvePoint> curve;
   for (LocalIndex start = 0; start < wedges.size(); ++start) {

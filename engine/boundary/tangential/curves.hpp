@@ -1,9 +1,9 @@
 // rims: the closed curves along which agreed triangles end, followed from wedge to wedge.
 #pragma once
 
+#include "engine/boundary/tangential/stored_stars.hpp"
 #include "engine/config.hpp"
 #include "engine/model/boundary_graph.hpp"
-#include "engine/boundary/tangential/stored_stars.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,17 +19,18 @@ struct CurvePoint {
   float room;  // of the wedge
 };
 
-// The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these wedges.
+// The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these
+// wedges.
 using WedgePartners = std::array<LocalIndex, 2>;
 
 // Of each wedge. `wedges`: in ascending row. Cost: linear.
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges);
 
-// visit(curve) for each closed curve, but for those of wedges that are `left_out`: whole components of the boundary
-// graph, such as leave the tile. The start and the direction of a curve do not depend on the order of the wedges of a
-// point. Cost: linear.
-void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners, std::vector<bool> left_out,
-                   const std::function<void(std::vector<CurvePoint>&)>& visit);
+// visit(curve) for each closed curve, but for those of wedges that are `left_out`: whole components of the
+// boundary graph, such as leave the tile. The start and the direction of a curve do not depend on the order
+// of the wedges of a point. Cost: linear.
+void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
+                   std::vector<bool> left_out, const std::function<void(std::vector<CurvePoint>&)>& visit);
 
 // Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several
 // such ways the one whose ids come first).

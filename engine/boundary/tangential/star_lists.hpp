@@ -1,13 +1,13 @@
 // Stars on their way across tiles: what a tile alone knows of its stars, and what its borders leave open.
 #pragma once
 
-#include "engine/store/column.hpp"
-#include "engine/store/row_set.hpp"
-#include "engine/store/append_lists.hpp"
-#include "engine/store/tile_store.hpp"
 #include "engine/boundary/tangential/stored_stars.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <string>
@@ -50,15 +50,15 @@ struct StarLists {
 
   void drop_waiting(TileIndex tile);  // all but the wedges
 
-  AppendLists<WaitingPoint> waiting;                 // in ascending owned index
-  AppendLists<LocalIndex> waiting_neighbours;        // of one after the other, in neighbour order: places in sight
-  AppendLists<NearbyPoint> waiting_nearby;              // these points and their neighbours, in ascending row
+  AppendLists<WaitingPoint> waiting;           // in ascending owned index
+  AppendLists<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
+  AppendLists<NearbyPoint> waiting_nearby;     // these points and their neighbours, in ascending row
   std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
   Column<Site> sites;                          // by row, of border points and their neighbours
   RowSet active;
-  RowSet unmeasured;     // of waiting points, those whose stars are not measured yet
-  StarSpill found;       // stars of waiting points as they are found
-  StarSpill open;        // measured stars
+  RowSet unmeasured;               // of waiting points, those whose stars are not measured yet
+  StarSpill found;                 // stars of waiting points as they are found
+  StarSpill open;                  // measured stars
   AppendLists<Wedge> wedges;       // of settled ones
   AppendLists<Wedge> open_wedges;  // of the others (passes/seams)
 };

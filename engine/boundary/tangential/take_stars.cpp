@@ -79,8 +79,9 @@ class StarTaker {
       if (is_seen[p]) seen.push_back(p);
     }
     // By row: both the owned and the foreign ones are.
-    std::inplace_merge(seen.begin(), std::lower_bound(seen.begin(), seen.end(), tile_.points.owned), seen.end(),
-                       [&](LocalIndex a, LocalIndex b) { return tile_.points.rows[a] < tile_.points.rows[b]; });
+    std::inplace_merge(
+        seen.begin(), std::lower_bound(seen.begin(), seen.end(), tile_.points.owned), seen.end(),
+        [&](LocalIndex a, LocalIndex b) { return tile_.points.rows[a] < tile_.points.rows[b]; });
     std::vector<LocalIndex> place(tile_.points.size());
     std::vector<NearbyPoint> nearby;
     std::vector<Row> rows;

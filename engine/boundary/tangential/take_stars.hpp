@@ -10,8 +10,9 @@
 
 namespace lacuna {
 
-// Finds the stars of the tile's active points, and of those that may become active by what other tiles have. Boundary
-// wedges that are certain and stars that are not go to the lists. Returns which owned points a loop may pass through.
+// Finds the stars of the tile's active points, and of those that may become active by what other tiles have.
+// Boundary wedges that are certain and stars that are not go to the lists. Returns which owned points a loop
+// may pass through.
 std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, const Config& config,
                                      StarLists& lists);
 

@@ -1,9 +1,9 @@
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 
+#include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
 #include "engine/store/merge_runs.hpp"
-#include "engine/boundary/tangential/border_exchange.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +42,7 @@ void add_component_loops(std::vector<Wedge> wedges, const TangentialConfig& conf
 
 // A tile's part of the boundary graph. Its vertices are the wedges; those of one point are connected.
 GraphPart<Wedge> part_of(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
-                       std::vector<LocalIndex>& links) {
+                         std::vector<LocalIndex>& links) {
   links.assign(wedges.size(), 0);
   UnionFind connected(links);
   GraphPart<Wedge> part{.vertices = static_cast<LocalIndex>(wedges.size()), .links = links};
@@ -59,7 +59,8 @@ GraphPart<Wedge> part_of(std::span<const Wedge> wedges, std::span<const WedgePar
   return part;
 }
 
-// Adds the wedges of open components, those that leave the tile, to the records of the part. Returns which they are.
+// Adds the wedges of open components, those that leave the tile, to the records of the part. Returns which
+// they are.
 std::vector<bool> add_open_wedges(std::span<const Wedge> wedges, GraphPart<Wedge>& part) {
   UnionFind connected(part.links);
   std::vector<bool> has_crossing(wedges.size()), is_open(wedges.size());
@@ -116,7 +117,9 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
                   [&](std::vector<CurvePoint>& curve) { add_loops(curve, config, found.loops); });
   });
   stitch.for_each_component(
-      [&](std::span<const Wedge> wedges) { add_component_loops({wedges.begin(), wedges.end()}, config, found.loops); },
+      [&](std::span<const Wedge> wedges) {
+        add_component_loops({wedges.begin(), wedges.end()}, config, found.loops);
+      },
       [&](const auto& for_each_wedge, std::uint64_t count) {
         std::vector<Wedge> wedges;
         wedges.reserve(count);

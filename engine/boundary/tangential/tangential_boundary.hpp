@@ -1,6 +1,6 @@
-// Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one consistent
-// triangle. A boundary wedge is a point with the two such edges between which, around the point, there is no
-// consistent triangle; wedges chain to closed curves.
+// Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
+// consistent triangle. A boundary wedge is a point with the two such edges between which, around the point,
+// there is no consistent triangle; wedges chain to closed curves.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
@@ -17,7 +17,8 @@ class TangentialBoundary final : public BoundaryMethod {
   void take(const EvaluatedTile& tile) override;
   // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges by itself.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
-  // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes through.
+  // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes
+  // through.
   RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
                              Job& job) const override {
     return candidates.beside(loops, job);

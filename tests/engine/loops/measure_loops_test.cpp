@@ -68,8 +68,8 @@ TEST_CASE("no loops: nothing is measured") {
   const Totals totals = scan.evaluate({&boundary});
   const FoundLoops traced = boundary.find_loops(totals, scan.job);
   REQUIRE(traced.loops.size() == 0);
-  const MeasuredLoops measured =
-      measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(), totals.mean_edge_length(), scan.job);
+  const MeasuredLoops measured = measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(),
+                                               totals.mean_edge_length(), scan.job);
   CHECK(measured.measures.empty());
   CHECK(measured.offsets == std::vector<std::uint64_t>{0});
 }

@@ -59,7 +59,8 @@ GraphPart<Edge> part_of(std::uint64_t tile, const std::vector<Edge>& edges, std:
   return part;
 }
 
-Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64_t memory, std::int64_t threads) {
+Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64_t memory,
+                std::int64_t threads) {
   const test::ScratchFolder folder;
   const Config config = tiled({}, 100, threads);
   NoProgress quiet;
@@ -77,13 +78,16 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
     std::vector<LocalIndex> links;
     stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
   });
-  stitch.for_each_component([&](std::span<const Edge> component) { add({component.begin(), component.end()}); },
-                            [&](const auto& for_each, std::uint64_t count) {
-                              Component component;
-                              for_each([&](const Edge& edge) { component.push_back(edge); });
-                              CHECK(component.size() == count);
-                              add(component);
-                            });
+  stitch.for_each_component(
+      [&](std::span<const Edge> component) {
+        add({component.begin(), component.end()});
+      },
+      [&](const auto& for_each, std::uint64_t count) {
+        Component component;
+        for_each([&](const Edge& edge) { component.push_back(edge); });
+        CHECK(component.size() == count);
+        add(component);
+      });
   result.count = stitch.components();
   return result;
 }
@@ -146,7 +150,8 @@ TEST_CASE("a chain through all tiles and back is one component") {
     edges.push_back({Row{t * kTilePoints}, Row{(t + 1) * kTilePoints}});
     edges.push_back({Row{t * kTilePoints + 7}, Row{(t + 1) * kTilePoints + 7}});
   }
-  edges.push_back({Row{19 * kTilePoints}, Row{19 * kTilePoints + 7}});  // joins the two far from where they begin
+  edges.push_back(
+      {Row{19 * kTilePoints}, Row{19 * kTilePoints + 7}});  // joins the two far from where they begin
   CHECK(stitch(edges, 20, 1 << 20, 4).components.size() == 1);
   CHECK(stitch(edges, 20, 1 << 20, 4).count == 1);
 }

@@ -1,8 +1,8 @@
 #include "engine/boundary/paper/partial_spanning.hpp"
 
-#include "engine/evaluate/evaluate.hpp"
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/order_edges.hpp"
+#include "engine/evaluate/evaluate.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 

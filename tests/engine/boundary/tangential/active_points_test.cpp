@@ -114,7 +114,8 @@ TEST_CASE("in one tile the active points are those found by definition, and so a
       if (!active[p]) continue;
       wrong_stars += !same_bits(found.stars[p], stars[p]);
       for (std::size_t i = 0; i < stars[p].size(); ++i) {
-        const Consistency expected = is_agreed(stars, active, p, i) ? Consistency::kConsistent : Consistency::kInconsistent;
+        const Consistency expected =
+            is_agreed(stars, active, p, i) ? Consistency::kConsistent : Consistency::kInconsistent;
         wrong_agreements += found.stars.consistencies_of(p)[i] != expected;
         ++consistencies[static_cast<std::size_t>(expected)];
       }

@@ -2,7 +2,6 @@
 #include "engine/boundary/tangential/border_exchange.hpp"
 
 #include "engine/boundary/tangential/take_stars.hpp"
-
 #include "tests/support/draws.hpp"
 #include "tests/support/tiled_scan.hpp"
 

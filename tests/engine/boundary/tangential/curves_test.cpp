@@ -27,7 +27,8 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   std::vector<std::vector<CurvePoint>> curves;
   std::stable_sort(wedges.begin(), wedges.end(),
                    [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
-  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()), [&](std::vector<CurvePoint>& curve) { curves.push_back(curve); });
+  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
+                [&](std::vector<CurvePoint>& curve) { curves.push_back(curve); });
   return curves;
 }
 
@@ -71,7 +72,8 @@ TEST_CASE("curves that touch in a point stay apart") {
   CHECK(std::minmax({curves[0].size(), curves[1].size()}) == std::pair<std::size_t, std::size_t>(3, 6));
 }
 
-TEST_CASE("wedges that are left out have no curve, and a wedge whose neighbour is elsewhere no partner there") {
+TEST_CASE(
+    "wedges that are left out have no curve, and a wedge whose neighbour is elsewhere no partner there") {
   std::vector<Wedge> wedges = ring({1, 2, 3, 4});
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);

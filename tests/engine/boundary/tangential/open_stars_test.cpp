@@ -26,7 +26,8 @@ struct Border {
   void add(LocalIndex p, const std::vector<Row>& corners, const std::vector<float>& rooms) {
     stars.add(PointId{p}, p);
     for (std::size_t i = 0; i < corners.size(); ++i)
-      stars.add_corner({corners[i], rooms[i], rooms[i] > 0 ? Consistency::kInconsistent : Consistency::kUndecided});
+      stars.add_corner(
+          {corners[i], rooms[i], rooms[i] > 0 ? Consistency::kInconsistent : Consistency::kUndecided});
   }
 
   OpenStars open() { return {kTile, active, unmeasured, stars, remote_triangles}; }
@@ -84,7 +85,8 @@ TEST_CASE("a active point of another tile agrees to the triangles that it has to
   SECTION("one told") {
     border.add(1, {owned(2), owned(0), kForeign}, {0, 0, 3});
     border.add(2, {owned(1), owned(0), owned(7)}, {0, 2, 2.5});
-    border.remote_triangles = {{0, 0, kForeign, owned(1)}, {1, 0, kForeign, owned(0)}, {3, 0, kForeign, owned(2)}};
+    border.remote_triangles = {
+        {0, 0, kForeign, owned(1)}, {1, 0, kForeign, owned(0)}, {3, 0, kForeign, owned(2)}};
     CHECK(border.found() == std::vector{owned(1), owned(2), owned(7)});
     // Triangles (0, 1, 2) and (0, 1, foreign) are agreed on.
     const std::vector<Wedge> wedges = border.open().wedges();
