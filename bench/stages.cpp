@@ -334,25 +334,29 @@ struct NoisySample {
     rows = lacuna::find_neighbourhoods(points, kNeighbours, 0);
     evaluations = lacuna::evaluate(points, rows, {}, kConfig.normals, kConfig.criteria);
     is_border.resize(points.owned);
+    for (LocalIndex p = 0; p < points.owned; ++p) {
+      if (evaluations[p].probability > kConfig.coherence.threshold) seeds.push_back(p);
+    }
   }
 
   TilePoints points;
   Rows rows;
   std::vector<Evaluation> evaluations;
+  std::vector<LocalIndex> seeds;
   std::vector<std::uint8_t> is_border;  // none
 };
 
 void find_stars(benchmark::State& state, double noise) {
   const NoisySample sample(noise);
-  std::size_t corners = 0;
+  std::size_t vertices = 0;
   for (auto _ : state) {
     const TileStars found =
-        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.is_border,
-                           kConfig.coherence.threshold, kConfig.tangential);
-    corners = found.stars.corners.size();
+        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seeds, sample.is_border,
+                           kConfig.tangential);
+    vertices = found.stars.vertices.size();
   }
   time_per(state, "per_point", kPoints);
-  time_per(state, "per_corner", corners);
+  time_per(state, "per_link_vertex", vertices);
 }
 BENCHMARK_CAPTURE(find_stars, plain, 0.0);
 BENCHMARK_CAPTURE(find_stars, noisy, 0.5);

@@ -22,7 +22,8 @@ namespace lacuna {
 template <class Record>
 struct GraphPart {
   LocalIndex vertices = 0;
-  std::span<LocalIndex> links;  // of a UnionFind over the vertices: what the edges of the part connect
+  bool single_vertices_count = false;  // whether a vertex without edges is a component, too
+  std::span<LocalIndex> links;         // of a UnionFind over the vertices: what the edges of the part connect
   std::vector<CrossingEdge> crossings;
   std::vector<Record> records;        // of its open components
   std::vector<LocalIndex> vertex_of;  // of each record, a vertex of its component
@@ -43,7 +44,7 @@ class Stitch {
   // From any thread, once for each tile.
   void add(TileIndex tile, const GraphPart<Record>& part) {
     UnionFind connected(part.links);
-    TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings);
+    TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings, part.single_vertices_count);
     std::vector<Member> members;
     members.reserve(part.records.size());
     for (std::size_t i = 0; i < part.records.size(); ++i) {

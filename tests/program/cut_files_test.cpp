@@ -49,7 +49,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
                                                         {"tangential", "sites"},
                                                         {"tangential", "results"},
                                                         {"tangential", "loop-points"},
-                                                        {"tangential", "waiting-nearby"},
+                                                        {"tangential", "belt-rows"},
                                                         {"paper", "strengths"}}) {
     INFO(file << ", --method " << method);
     const Run run(method);

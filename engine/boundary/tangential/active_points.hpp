@@ -1,17 +1,16 @@
-// tile_stars: which points of a tile are active, and their stars.
+// active_points: which points of a tile are active, and their stars (method.md, C.3).
 //
-// A surface ends where triangles are missing. So the search starts at the seeds, which are the paper's
-// candidates (method.md, 4): points with Pi above the threshold. It goes on from triangle to triangle along
-// what is missing: seeds are active, and where a triangle in the star of a active point is refused (its ball is
-// too large, or the star of another active corner has it not), all its corners are active. That is a least
-// fixed point: it does not matter in which order it is reached, nor by which tile. Along a wedge between agreed
-// triangles all points are active, which is what closes the rims.
+// A surface ends where triangles are missing. The search starts at the seeds, which are the paper's candidates
+// (method.md, 4), and grows along inconsistent triangles. Seeds are active. Where a triangle in the star of an
+// active point is inconsistent (its ball is too large, or the star of another active vertex does not have it), all
+// its vertices are active. That is a least fixed point: neither the order of the search nor the tiles matter.
+// Along a boundary wedge all points are active, which closes the boundary curves.
 #pragma once
 
+#include "engine/boundary/tangential/stars.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/points.hpp"
-#include "engine/boundary/tangential/stars.hpp"
 
 #include <cstdint>
 #include <span>
@@ -19,26 +18,20 @@
 
 namespace lacuna {
 
-// Of a tile's owned points, as far as the tile alone can tell. All those that may be active, whatever other
-// tiles tell, are measured or wait: the border and its neighbours do, and from them on the search takes any
-// triangle for refused that may be.
+// Of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active are measured
+// or in the belt: from the belt on, the search takes each triangle for inconsistent that may turn out so.
 struct TileStars {
   std::vector<PointState> states;
   std::vector<std::uint8_t> is_active;  // for certain
-  // Measured ones, with an consistency on each triangle, open where a corner waits or is unsure. Those beside
-  // the border as found, and open. Others were found for their samplings only: nothing is agreed.
+  // Measured ones, with the consistency of each triangle. Others are found for their samplings only.
   Stars<LocalIndex> stars;
-  std::vector<Sampling> samplings;
+  std::vector<Sampling> samplings;  // of measured and inner points, and of all their neighbours but border points
 };
 
-inline bool is_seed(const Evaluation& evaluation, double threshold) {
-  return evaluation.probability > threshold;
-}
-
-// `is_border`: of owned points, has foreign neighbours. Cost: proportional to the active points and their
-// neighbours, and a look at each point.
+// `seeds` ascend; `is_border`: of owned points, has foreign neighbours. Cost: proportional to the active points
+// and their neighbours, and one sweep over all points.
 TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
-                     std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
-                     double threshold, const TangentialConfig& config);
+                     std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
+                     std::span<const std::uint8_t> is_border, const TangentialConfig& config);
 
 }  // namespace lacuna

@@ -1,14 +1,17 @@
-// The stars of points that wait for other tiles.
+// The stars of the belts, between tiles.
 #pragma once
 
 #include "engine/boundary/tangential/star_lists.hpp"
 
 namespace lacuna {
 
-// Goes on, from tile to tile, to look for active points along refused triangles until there are no more: then
-// all wedges are known. All points have their sites. Stars that wait are found where a active point is near,
-// and measured where one is active; after two rounds all of a tile that has news. So on clean scans the cost
-// is that of the rims between tiles and of reading the lists once in each round. Consumes all but the wedges.
+// Completes the wedges of all tiles, once each has taken its own stars. Consumes all lists but the wedges and
+// the active points.
+//
+// Active points are a least fixed point (method.md, C.3), so tiles may grow them in any order: again and again,
+// while a neighbouring tile has new ones. A tile takes part once a point of its belt is active. Then its belt is
+// measured, after the borders of the tiles around it are sampled. Cost: the stars of these belts, and the open
+// stars once in each round.
 void exchange_borders(StarLists& lists, const Tiling& tiling, Job& job);
 
 }  // namespace lacuna

@@ -10,7 +10,7 @@
 namespace lacuna {
 namespace {
 
-// Place i of the rim as it is read from `start` on, in either direction.
+// Place i of the curve as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
   return forwards ? (start + i) % count : (start + count - i) % count;
 }
@@ -42,34 +42,44 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   return partners;
 }
 
-void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
-                   std::vector<bool> left_out, const std::function<void(std::vector<CurvePoint>&)>& visit) {
-  std::vector<bool>& is_done = left_out;
-  std::vector<CurvePoint> curve;
-  for (LocalIndex start = 0; start < wedges.size(); ++start) {
-    if (is_done[start]) continue;
-    curve.clear();
-    std::size_t side = wedges[start].from < wedges[start].to ? 1 : 0;  // where the curve goes on
-    for (LocalIndex at = start; !is_done[at];) {
-      const Wedge& wedge = wedges[at];
+void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
+                   const std::function<void(const WedgeChain&)>& visit) {
+  std::vector<bool> is_done(wedges.size());
+  std::vector<LocalIndex> numbers;
+  // Leaves the first wedge by the other side.
+  const auto follow = [&](LocalIndex start, std::size_t first_side) {
+    numbers.clear();
+    std::size_t side = 1 - first_side;
+    for (LocalIndex at = start;;) {
       is_done[at] = true;
-      curve.push_back({wedge.point, wedge.room});
-      at = partners[at][side];
-      assert(at != kNoIndex);  // the curve is closed
-      side = wedges[at].from == wedge.point.row ? 1 : 0;
+      numbers.push_back(at);
+      const LocalIndex next = partners[at][side];
+      if (next == kNoIndex || is_done[next]) {
+        visit({numbers, next != kNoIndex, first_side, side});
+        return;
+      }
+      side = wedges[next].from == wedges[at].point.row ? 1 : 0;
+      at = next;
     }
-    visit(curve);
+  };
+  for (LocalIndex start = 0; start < wedges.size(); ++start) {
+    for (const std::size_t side : {0, 1}) {
+      if (!is_done[start] && partners[start][side] == kNoIndex) follow(start, side);
+    }
+  }
+  for (LocalIndex start = 0; start < wedges.size(); ++start) {
+    if (!is_done[start]) follow(start, 0);
   }
 }
 
-void normalise(std::vector<CurvePoint>& rim) {
+void normalise(std::vector<CurvePoint>& curve) {
   struct Way {
     std::size_t start;
     bool forwards;
   };
-  const std::size_t count = rim.size();
+  const std::size_t count = curve.size();
   const auto id = [&](const Way& way, std::size_t i) {
-    return rim[place(way.start, i, way.forwards, count)].vertex.id;
+    return curve[place(way.start, i, way.forwards, count)].vertex.id;
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -77,11 +87,11 @@ void normalise(std::vector<CurvePoint>& rim) {
     }
     return false;
   };
-  PointId least = rim.front().vertex.id;
-  for (const CurvePoint& p : rim) least = std::min(least, p.vertex.id);
+  PointId least = curve.front().vertex.id;
+  for (const CurvePoint& p : curve) least = std::min(least, p.vertex.id);
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
-    if (rim[start].vertex.id != least) continue;
+    if (curve[start].vertex.id != least) continue;
     for (const bool forwards : {true, false}) {
       const Way way{start, forwards};
       if (!best || comes_first(way, *best)) best = way;
@@ -89,13 +99,13 @@ void normalise(std::vector<CurvePoint>& rim) {
   }
   std::vector<CurvePoint> turned;
   turned.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) turned.push_back(rim[place(best->start, i, best->forwards, count)]);
-  rim = std::move(turned);
+  for (std::size_t i = 0; i < count; ++i) turned.push_back(curve[place(best->start, i, best->forwards, count)]);
+  curve = std::move(turned);
 }
 
-std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> rim) {
-  std::vector<Row> rows;  // then: those that are passed again
-  for (const CurvePoint& p : rim) rows.push_back(p.vertex.row);
+std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> curve) {
+  std::vector<Row> rows;  // then: those that the curve passes again
+  for (const CurvePoint& p : curve) rows.push_back(p.vertex.row);
   std::sort(rows.begin(), rows.end());
   std::size_t count = 0;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
@@ -104,39 +114,39 @@ std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> ri
   rows.resize(count);
   std::vector<std::vector<CurvePoint>> curves;
   if (rows.empty()) {
-    curves.push_back(std::move(rim));
+    curves.push_back(std::move(curve));
     return curves;
   }
   constexpr std::size_t kNone = SIZE_MAX;
-  std::vector<std::size_t> places(rows.size(), kNone);  // on the way
+  std::vector<std::size_t> places(rows.size(), kNone);  // on the path
   const auto place_of = [&](const CurvePoint& p) -> std::size_t* {
     const auto at = std::lower_bound(rows.begin(), rows.end(), p.vertex.row);
     return at != rows.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - rows.begin())]
                                                    : nullptr;
   };
-  std::vector<CurvePoint> way;
-  for (const CurvePoint& p : rim) {
+  std::vector<CurvePoint> path;
+  for (const CurvePoint& p : curve) {
     std::size_t* const place = place_of(p);
     if (place != nullptr && *place != kNone) {
-      const auto back = way.begin() + static_cast<std::ptrdiff_t>(*place);
-      curves.emplace_back(back, way.end());
+      const auto back = path.begin() + static_cast<std::ptrdiff_t>(*place);
+      curves.emplace_back(back, path.end());
       for (const CurvePoint& left : curves.back()) {
         if (std::size_t* const of_left = place_of(left); of_left != nullptr) *of_left = kNone;
       }
-      way.erase(back, way.end());
+      path.erase(back, path.end());
     }
-    if (place != nullptr) *place = way.size();
-    way.push_back(p);
+    if (place != nullptr) *place = path.size();
+    path.push_back(p);
   }
-  curves.push_back(std::move(way));
+  curves.push_back(std::move(path));
   for (std::vector<CurvePoint>& curve : curves) normalise(curve);
   return curves;
 }
 
-double confidence(std::span<const CurvePoint> rim, const TangentialConfig& config) {
+double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config) {
   double sum = 0;
-  for (const CurvePoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
-  return sum / (static_cast<double>(rim.size()) + config.doubt);
+  for (const CurvePoint& p : curve) sum += std::min(p.excess / config.clear_excess, 1.0);
+  return sum / (static_cast<double>(curve.size()) + config.doubt);
 }
 
 }  // namespace lacuna

@@ -1,9 +1,8 @@
-// rims: the closed curves along which agreed triangles end, followed from wedge to wedge.
+// curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md, C.4).
 #pragma once
 
-#include "engine/boundary/tangential/stored_stars.hpp"
+#include "engine/boundary/tangential/wedge.hpp"
 #include "engine/config.hpp"
-#include "engine/model/boundary_graph.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,10 +12,10 @@
 
 namespace lacuna {
 
-// A point of a rim. A point with several wedges is on several rims, or several times on one.
+// A point of a curve. A point with several wedges is on several curves, or several times on one.
 struct CurvePoint {
   Vertex vertex;
-  float room;  // of the wedge
+  float excess;  // radius, of the wedge
 };
 
 // The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these
@@ -26,24 +25,31 @@ using WedgePartners = std::array<LocalIndex, 2>;
 // Of each wedge. `wedges`: in ascending row. Cost: linear.
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges);
 
-// visit(curve) for each closed curve, but for those of wedges that are `left_out`: whole components of the
-// boundary graph, such as leave the tile. The start and the direction of a curve do not depend on the order
-// of the wedges of a point. Cost: linear.
-void follow_curves(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
-                   std::vector<bool> left_out, const std::function<void(std::vector<CurvePoint>&)>& visit);
+// Wedges one after the other along boundary edges, by their numbers. An open chain begins and ends at wedges
+// without a partner on that side; `first_side` and `last_side` say which.
+struct WedgeChain {
+  std::span<const LocalIndex> wedges;
+  bool is_closed;
+  std::size_t first_side, last_side;  // 0: from; 1: to
+};
 
-// Turns a rim so that it starts at its smallest id and goes on to that one's smaller neighbour (of several
-// such ways the one whose ids come first).
-void normalise(std::vector<CurvePoint>& rim);
+// visit(chain) for each; all wedges are in one. Their starts and directions depend on the order of the wedges.
+// Cost: linear.
+void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
+                   const std::function<void(const WedgeChain&)>& visit);
 
-// A rim passes a point twice where two holes touch: parts it into curves that pass each point once. Whenever
-// it comes back to a point, what lies between is a curve. Of one that is normalised; the curves are, too.
-std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> rim);
+// Turns a closed curve so that it starts at its smallest id and goes on to that one's smaller neighbour (of
+// several such ways, the one whose ids come first).
+void normalise(std::vector<CurvePoint>& curve);
 
-// How sure it is that the rim is that of a hole, in [0, 1]: where the scan only happens to be thin, a larger
-// ball fits at few points of the rim. A point counts in proportion to its room, fully from 3.5 on
-// (`clear_excess`). The mean of that, with five more points that have none (`doubt`): a few points may have
-// room by chance. The sum is taken in the order of the rim.
-double confidence(std::span<const CurvePoint> rim, const TangentialConfig& config);
+// A curve passes a point twice where two holes touch. Splits it into curves that pass each point once: when
+// it comes back to a point, the part in between is a curve. It must be normalised; the curves are, too.
+std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> curve);
+
+// How sure it is that the curve bounds a hole, in [0, 1]. Where a scan happens to be thin, a larger ball fits at
+// few points of the curve. A point counts in proportion to its excess radius, fully from `clear_excess` on.
+// Returns the mean of that over the points and `doubt` more that have none: a few points may have an excess by
+// chance. The sum is in the order of the curve.
+double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config);
 
 }  // namespace lacuna

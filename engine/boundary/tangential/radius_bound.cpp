@@ -29,8 +29,8 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars, 
   std::fill(balls.begin(), balls.end(), kBeyondAll);
   Counts counts{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
-    for (std::size_t corner = 0; corner < stars[i].size(); ++corner) {
-      const double ball = stars[i][corner].room;
+    for (std::size_t vertex = 0; vertex < stars[i].size(); ++vertex) {
+      const double ball = stars[i][vertex].radius;
       balls[counts[i]].at[i] = ball <= config.hole_radius ? ball : kBeyondAll.at[i];
       counts[i] += ball <= config.hole_radius;
     }
@@ -43,7 +43,7 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars, 
     if (counts[i] == 0) continue;
     const double median = balls[counts[i] / 2].at[i];
     samplings[i].circle = median * samplings[i].distance;
-    samplings[i].scatter = (median - balls[0].at[i]) * samplings[i].distance;
+    samplings[i].spread = (median - balls[0].at[i]) * samplings[i].distance;
   }
   return samplings;
 }
@@ -53,29 +53,33 @@ void RadiusBounder::find() {
   for (const Surroundings& p : points_) rows = std::max(rows, p.neighbours.size() + 1);
   if (circles_.size() < rows) {
     circles_.resize(rows);
-    scatters_.resize(rows);
+    spreads_.resize(rows);
   }
   std::fill_n(circles_.begin(), rows, kBeyondAll);
-  std::fill_n(scatters_.begin(), rows, kBeyondAll);
+  std::fill_n(spreads_.begin(), rows, kBeyondAll);
   Counts counts{};
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto look_at = [&](LocalIndex q) {
+    const auto add = [&](LocalIndex q) {
       const Sampling& sampling = samplings_[q];
       circles_[counts[i]].at[i] = sampling.circle > 0 ? sampling.circle : kBeyondAll.at[i];
-      scatters_[counts[i]].at[i] = sampling.circle > 0 ? sampling.scatter : kBeyondAll.at[i];
+      spreads_[counts[i]].at[i] = sampling.circle > 0 ? sampling.spread : kBeyondAll.at[i];
       counts[i] += sampling.circle > 0;
     };
-    look_at(points_[i].point);
-    for (const LocalIndex q : points_[i].neighbours) look_at(q);
+    add(points_[i].point);
+    for (const LocalIndex q : points_[i].neighbours) add(q);
   }
   rows = *std::max_element(counts.begin(), counts.end());
   sort_rows(circles_.data(), rows);
-  sort_rows(scatters_.data(), rows);
+  sort_rows(spreads_.data(), rows);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double most = config_.most_radius * samplings_[points_[i].point].distance;
+    const double distance = samplings_[points_[i].point].distance;
+    bounds_[i] = {};
+    if (distance == 0) continue;
+    const double most = config_.most_radius * distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);
-    const double scatter = std::min(scatters_[counts[i] / 2].at[i], most);
-    sizes_[i] = {config_.max_radius * circle + scatter, config_.least_spread * circle + scatter};
+    const double spread = std::min(spreads_[counts[i] / 2].at[i], most);
+    bounds_[i] = {static_cast<float>((config_.max_radius * circle + spread) / distance),
+                  static_cast<float>((config_.least_spread * circle + spread) / distance)};
   }
 }
 

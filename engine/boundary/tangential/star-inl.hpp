@@ -1,9 +1,9 @@
 // Formulas of the stars, for the points of a batch and for one point in the exact fallback.
-#if defined(LACUNA_STAGES_STAR_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef LACUNA_STAGES_STAR_INL
-#undef LACUNA_STAGES_STAR_INL
+#if defined(LACUNA_BOUNDARY_STAR_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LACUNA_BOUNDARY_STAR_INL
+#undef LACUNA_BOUNDARY_STAR_INL
 #else
-#define LACUNA_STAGES_STAR_INL
+#define LACUNA_BOUNDARY_STAR_INL
 #endif
 
 #include "engine/simd/vector-inl.hpp"
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// Where a point sees a neighbour in its tangent plane, inverted; or from there to another. NaN: not at all.
+// A neighbour in the tangent plane, inverted; or the way from one to another. NaN: undefined.
 template <class V>
 struct View {
   V x, y;
@@ -30,11 +30,11 @@ HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
   return {dot(offset, frame.u) * inverse, dot(offset, frame.v) * inverse};
 }
 
-// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): where p sees one
-// of them, inverted; (dx, dy): from there to where it sees the other.
+// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): the view
+// of one of them; (dx, dy): from there to the view of the other.
 template <class V>
-HWY_INLINE auto ball_at(V x, V y, V dx, V dy, V distance) {
-  // Both without a unit. From here on in single precision, which is what is kept: roots and quotients take a
+HWY_INLINE auto radius_at(V x, V y, V dx, V dy, V distance) {
+  // Both without a unit. From here on in single precision, as the result is kept: roots and quotients take a
   // quarter of the time.
   const hn::Rebind<float, TagOf<V>> single;
   const V unit = distance * distance;

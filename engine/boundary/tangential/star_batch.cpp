@@ -6,7 +6,6 @@
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
 #include "engine/simd/load_pair-inl.hpp"
-#include "engine/simd/mask_bits-inl.hpp"
 #include "engine/boundary/tangential/star-inl.hpp"
 // clang-format on
 
@@ -37,7 +36,7 @@ constexpr std::size_t kChains = 4;
 
 // Of as many points as a vector holds, by row.
 struct Views {
-  View<V> at[kMostSeen];
+  View<V> at[kMostNeighbours];
   std::size_t rows;  // an even number
   V distance;        // `Sampling::distance`
 };
@@ -87,7 +86,7 @@ void find_views(const StarBatch& batch, std::size_t first, Views& views) {
     sum = sum + q.closeness;
   }
   for (; row < views.rows; ++row) {
-    // Without a branch: which point has one neighbour more cannot be foretold.
+    // Without a branch: which point has one neighbour more is not predictable.
     for (std::size_t i = 0; i < kStep; ++i)
       row_of[i] =
           numbers_of(batch.sites[batch.neighbours[first + i][row < batch.counts[first + i] ? row : 0]]);
@@ -105,35 +104,35 @@ HWY_INLINE V cross(const View<V>& edge, const View<V>& other) {
   return edge.x * other.y - edge.y * other.x;
 }
 
-struct Corner {
+struct HullVertex {
   V x, y;
   Count row;
 };
 
-// The view farthest from the origin is a corner.
-Corner first_corner(const Views& views, V& squared_distance, Count& seen) {
-  Corner corner{all<V>(0), all<V>(0), count(0)};
+// The view farthest from the origin is a vertex.
+HullVertex first_vertex(const Views& views, V& squared_distance, Count& defined) {
+  HullVertex vertex{all<V>(0), all<V>(0), count(0)};
   squared_distance = all<V>(0);
-  seen = count(0);
+  defined = count(0);
   for (std::size_t row = 0; row < views.rows; ++row) {
     const auto [x, y] = views.at[row];
     const V squared = x * x + y * y;
     const Mask is_farther = squared > squared_distance;
     squared_distance = hn::IfThenElse(is_farther, squared, squared_distance);
-    corner.x = hn::IfThenElse(is_farther, x, corner.x);
-    corner.y = hn::IfThenElse(is_farther, y, corner.y);
-    corner.row = hn::IfThenElse(hn::RebindMask(kWhole, is_farther), count(row), corner.row);
-    seen = seen - hn::VecFromMask(kWhole, hn::RebindMask(kWhole, squared == squared));
+    vertex.x = hn::IfThenElse(is_farther, x, vertex.x);
+    vertex.y = hn::IfThenElse(is_farther, y, vertex.y);
+    vertex.row = hn::IfThenElse(hn::RebindMask(kWhole, is_farther), count(row), vertex.row);
+    defined = defined - hn::VecFromMask(kWhole, hn::RebindMask(kWhole, squared == squared));
   }
-  return corner;
+  return vertex;
 }
 
 // Rows of some views: how many, and their sum.
 constexpr int kCountShift = 32;
 
-// The edge from a corner such that no view is to its right. `back`: the edge before, turned; all views are to
+// The edge from a vertex such that no view is to its right. `back`: the edge before, turned; all views are to
 // its right by more than `margin` but those `on_edge`. Views nearer to a line than `rounding` are on it.
-HWY_INLINE View<V> next_edge(const Views& views, const Corner& at, const View<V>& back, V margin, V rounding,
+HWY_INLINE View<V> next_edge(const Views& views, const HullVertex& at, const View<V>& back, V margin, V rounding,
                              Count& on_edge) {
   const V least = hn::Neg(margin), right = hn::Neg(rounding);
   const auto first_of = [&](const View<V>& a, const View<V>& b) HWY_ATTR {
@@ -162,27 +161,27 @@ HWY_INLINE View<V> next_edge(const Views& views, const Corner& at, const View<V>
   return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
 }
 
-// Eight bytes each: a corner's row, and the ball beyond it.
-template <class Ball>
-HWY_INLINE void store_corners(Count row, Ball ball, LinkVertex<LocalIndex>* corners) {
+// Eight bytes each: a vertex's row, and the radius of the ball beyond it.
+template <class Radius>
+HWY_INLINE void store_vertices(Count row, Radius radius, LinkVertex<LocalIndex>* link) {
   const hn::Rebind<std::uint32_t, Doubles> bits;
   std::uint64_t packed[kStep];
-  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, ball))), row), kWhole, packed);
-  __builtin_memcpy(corners, packed, sizeof packed);
+  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, radius))), row), kWhole, packed);
+  __builtin_memcpy(link, packed, sizeof packed);
 }
 
-// Gift wrapping: the convex hull from corner to corner, counterclockwise.
+// Gift wrapping: the convex hull from vertex to vertex, counterclockwise.
 void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
   V squared_distance;
-  Count seen;
-  const Corner start = first_corner(views, squared_distance, seen);
+  Count defined;
+  const HullVertex start = first_vertex(views, squared_distance, defined);
   const V scale = all<V>(kOnEdge) * hn::Sqrt(squared_distance),
           rounding = all<V>(kRounding) * squared_distance;
 
   const auto none = hn::FirstN(kWhole, 0);
-  auto is_open = seen > count(2), ambiguous = none;
+  auto is_open = defined > count(2), ambiguous = none;
   Count sizes = count(0), before = start.row;
-  Corner at = start;
+  HullVertex at = start;
   View<V> back{start.y, hn::Neg(start.x)};  // all views are on one side of the tangent at the farthest
   V margin = all<V>(0);
   for (std::size_t step = 0;; ++step) {
@@ -203,7 +202,7 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
       ambiguous = hn::Or(ambiguous, is_open);
       break;
     }
-    store_corners(at.row, ball_at(at.x, at.y, next.x, next.y, views.distance), &stars.corners[step][first]);
+    store_vertices(at.row, radius_at(at.x, at.y, next.x, next.y, views.distance), &stars.links[step][first]);
     margin = scale * (hn::Abs(next.x) + hn::Abs(next.y));
     back = {hn::Neg(next.x), hn::Neg(next.y)};
     before = at.row;
@@ -215,51 +214,6 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
   hn::StoreU(hn::IfThenElse(ambiguous, count(BatchStars::kAmbiguous), sizes), kWhole, found);
   for (std::size_t lane = 0; lane < kStep; ++lane)
     stars.sizes[first + lane] = static_cast<std::uint32_t>(found[lane]);
-}
-
-// ---- Consistency
-
-constexpr std::uint32_t kNone = UINT32_MAX;
-
-// Bit 2 i: corner i of the first kFewCorners is that point.
-HWY_INLINE std::uint32_t places_of(LocalIndex point, const LinkVertex<LocalIndex>* star) {
-  constexpr hn::CappedTag<std::uint32_t, 2 * kFewCorners> kCorners;
-  if constexpr (kLanes<decltype(kCorners)> == 2 * kFewCorners) {  // a point and a ball each
-    const auto corners = hn::LoadU(kCorners, reinterpret_cast<const std::uint32_t*>(star));
-    return bits_of(kCorners, corners == hn::Set(kCorners, point)) & 0x5555;
-  } else {
-    std::uint32_t places = 0;
-    for (std::uint32_t i = 0; i < kFewCorners; ++i)
-      places |= static_cast<std::uint32_t>(star[i].point == point) << 2 * i;
-    return places;
-  }
-}
-
-// The corner of a large star after which b follows a, or a follows b.
-std::uint32_t find_in_large(const LinkVertex<LocalIndex>* star, std::uint32_t size, LocalIndex a,
-                            LocalIndex b) {
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const LocalIndex here = star[i].point, next = star[i + 1 < size ? i + 1 : 0].point;
-    if ((here == a && next == b) || (here == b && next == a)) return i;
-  }
-  return kNone;
-}
-
-// The corner from which the point's triangle with a and b goes on to the next corner.
-HWY_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
-  const auto [begin, size] = stars.places[point];
-  const LinkVertex<LocalIndex>* const star = stars.corners + begin;
-  std::uint32_t place = kNone;
-  if (size <= kFewCorners) {
-    const std::uint32_t all = (1U << 2 * size) - 1;
-    const std::uint32_t at_a = places_of(a, star) & all, at_b = places_of(b, star) & all;
-    const auto next = [&](std::uint32_t at) HWY_ATTR { return at << 2 | at >> ((2 * size - 2) & 31); };
-    const std::uint32_t at = (next(at_a) & at_b) != 0 ? at_a : (next(at_b) & at_a) != 0 ? at_b : 0;
-    if (at != 0) place = static_cast<std::uint32_t>(__builtin_ctz(at)) / 2;
-  } else {
-    place = find_in_large(star, size, a, b);
-  }
-  return place != kNone && star[place].room <= 0 ? begin + place : kNone;
 }
 
 }  // namespace
@@ -276,22 +230,6 @@ void find_batch_stars(const StarBatch& batch, BatchStars& stars) {
   }
 }
 
-void compare_triangles(const StarTable& stars, const AskedTriangle* asked, std::size_t count) {
-  for (const AskedTriangle* triangle = asked; triangle < asked + count; ++triangle) {
-    const auto [corner, p, a, b] = *triangle;
-    const PointState of_a = stars.states[a], of_b = stars.states[b];
-    std::uint32_t in_a = corner, in_b = corner;
-    if (of_a == PointState::kActive && (in_a = find_triangle(stars, a, p, b)) == kNone) continue;
-    if (of_b == PointState::kActive && (in_b = find_triangle(stars, b, p, a)) == kNone) continue;
-    const auto is_told_later = [](PointState corner) HWY_ATTR {
-      return corner != PointState::kActive && corner != PointState::kInactive;
-    };
-    const bool is_open = is_told_later(of_a) || is_told_later(of_b);
-    const Consistency consistency = is_open ? Consistency::kUndecided : Consistency::kConsistent;
-    stars.consistencies[corner] = stars.consistencies[in_a] = stars.consistencies[in_b] = consistency;
-  }
-}
-
 }  // namespace lacuna::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -301,11 +239,6 @@ namespace lacuna {
 HWY_EXPORT(find_batch_stars);
 void find_batch_stars(const StarBatch& batch, BatchStars& stars) {
   HWY_DYNAMIC_DISPATCH(find_batch_stars)(batch, stars);
-}
-
-HWY_EXPORT(compare_triangles);
-void compare_triangles(const StarTable& stars, const AskedTriangle* asked, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(compare_triangles)(stars, asked, count);
 }
 
 }  // namespace lacuna

@@ -1,4 +1,4 @@
-// The stars of a batch of points (stages/stars), and which of their triangles are agreed.
+// The stars of a batch of points (stars.hpp), one in each lane.
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
@@ -9,9 +9,9 @@
 
 namespace lacuna {
 
-inline constexpr std::size_t kMostSeen = 64;  // neighbours of one point
+inline constexpr std::size_t kMostNeighbours = 64;  // of one point
 
-// Larger balls say no more, in units of `Sampling::distance`.
+// Larger balls count as this large, in units of `Sampling::distance`.
 inline constexpr double kLargestBall = 8;
 
 struct StarBatch {
@@ -25,30 +25,11 @@ struct StarBatch {
 struct BatchStars {
   static constexpr std::uint32_t kAmbiguous = UINT32_MAX;
 
-  LinkVertex<LocalIndex> corners[kMostSeen][kBatchSize];  // by their numbers among the neighbours
-  std::uint32_t sizes[kBatchSize];  // ambiguous: corners are so near to a line that rounding decides
+  LinkVertex<LocalIndex> links[kMostNeighbours][kBatchSize];  // by their numbers among the neighbours
+  std::uint32_t sizes[kBatchSize];  // ambiguous: vertices are so near to a line that rounding decides
   double distances[kBatchSize];     // `Sampling::distance`
 };
 
 void find_batch_stars(const StarBatch& batch, BatchStars& stars);
-
-// Stars that are compared in one step have no more corners; as many are readable beyond the last star.
-inline constexpr std::uint32_t kFewCorners = 8;
-
-// Stars by point, as in `Stars`, and what becomes of their triangles.
-struct StarTable {
-  const StarPlace* places;
-  const LinkVertex<LocalIndex>* corners;
-  const PointState* states;
-  Consistency* consistencies;
-};
-
-// A triangle that one of its corners, the first active one, asks the others for.
-struct AskedTriangle {
-  std::uint32_t corner;  // of the asking star
-  LocalIndex point, a, b;
-};
-
-void compare_triangles(const StarTable& stars, const AskedTriangle* asked, std::size_t count);
 
 }  // namespace lacuna

@@ -2,51 +2,47 @@
 
 #include "engine/store/merge_runs.hpp"
 
-#include <utility>
+#include <tuple>
 
 namespace lacuna {
 
-StarSpill::StarSpill(const Job& job, const std::string& name, std::size_t tiles, std::uint64_t budget)
-    : stars_(job.file(name + "-stars"), tiles, budget / 4),
-      corners_(job.file(name + "-corners"), tiles, budget - budget / 4) {}
-
-void StarSpill::append(TileIndex tile, StoredStars stars) {
-  const auto before = static_cast<std::uint32_t>(corners_.count(tile));
-  for (StoredStar& star : stars.stars) star.place.begin += before;
-  stars_.append(tile, stars.stars);
-  corners_.append(tile, stars.corners);
-}
-
-StoredStars StarSpill::read(TileIndex tile) const {
-  StoredStars stars{stars_.read(tile), corners_.read(tile)};
-  merge_runs(stars.stars, [](const StoredStar& a, const StoredStar& b) { return a.owned < b.owned; });
-  return stars;
-}
-
-void StarSpill::drop(TileIndex tile) {
-  stars_.drop(tile);
-  corners_.drop(tile);
+bool operator<(const RemoteTriangle& a, const RemoteTriangle& b) {
+  return std::tie(a.to, a.from, a.other) < std::tie(b.to, b.from, b.other);
 }
 
 StarLists::StarLists(const TileStore& store, const Job& job)
-    : waiting(job.file("waiting"), store.tiling().tiles.size(), job.memory.spills / 16),
-      waiting_neighbours(job.file("waiting-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
-      waiting_nearby(job.file("waiting-nearby"), store.tiling().tiles.size(), job.memory.spills / 16),
+    : belt(job.file("belt"), store.tiling().tiles.size(), job.memory.spills / 16),
+      belt_rows(job.file("belt-rows"), store.tiling().tiles.size(), job.memory.spills / 16),
+      belt_neighbours(job.file("belt-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       around(store.tiling().tiles.size()),
       sites(job.file("sites")),
+      samplings(job.file("samplings")),
       active(store.tiling().row_count()),
-      unmeasured(store.tiling().row_count()),
-      found(job, "found", store.tiling().tiles.size(), job.memory.spills / 16),
-      open(job, "open", store.tiling().tiles.size(), job.memory.spills / 8),
-      wedges(job.file("wedges"), store.tiling().tiles.size(), job.memory.spills / 8),
-      open_wedges(job.file("open-wedges"), store.tiling().tiles.size(), job.memory.spills / 16) {}
+      open_stars(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 16),
+      open_vertices(job.file("open-vertices"), store.tiling().tiles.size(), job.memory.spills / 8),
+      remote_triangles(job.file("remote-triangles"), store.tiling().tiles.size(), job.memory.spills / 8),
+      wedges(job.file("wedges"), store.tiling().tiles.size(), job.memory.spills / 8) {}
 
-void StarLists::drop_waiting(TileIndex tile) {
-  waiting.drop(tile);
-  waiting_neighbours.drop(tile);
-  waiting_nearby.drop(tile);
-  found.drop(tile);
-  open.drop(tile);
+void StarLists::append_open(TileIndex tile, OpenStars stars) {
+  const auto before = static_cast<std::uint32_t>(open_vertices.count(tile));
+  for (OpenStar& star : stars.stars) star.place.begin += before;
+  open_stars.append(tile, stars.stars);
+  open_vertices.append(tile, stars.vertices);
+}
+
+OpenStars StarLists::read_open(TileIndex tile) const {
+  OpenStars stars{open_stars.read(tile), open_vertices.read(tile)};
+  merge_runs(stars.stars, [](const OpenStar& a, const OpenStar& b) { return a.owned < b.owned; });
+  return stars;
+}
+
+void StarLists::drop(TileIndex tile) {
+  belt.drop(tile);
+  belt_rows.drop(tile);
+  belt_neighbours.drop(tile);
+  open_stars.drop(tile);
+  open_vertices.drop(tile);
+  remote_triangles.drop(tile);
 }
 
 }  // namespace lacuna

@@ -1,7 +1,8 @@
-// Stars on their way across tiles: what a tile alone knows of its stars, and what its borders leave open.
+// What the tangential method keeps of the tiles until all of them are evaluated.
 #pragma once
 
-#include "engine/boundary/tangential/stored_stars.hpp"
+#include "engine/boundary/tangential/stars.hpp"
+#include "engine/boundary/tangential/wedge.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
@@ -10,57 +11,79 @@
 #include "engine/store/tile_store.hpp"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace lacuna {
 
-// A point with neighbours in other tiles, whose star waits for their sites, or one beside such, whose star
-// waits to be measured.
-struct WaitingPoint {
-  LocalIndex place;  // in sight
+// A point of a tile's belt: it has neighbours in other tiles (border), or neighbours that have.
+struct BeltPoint {
+  PointId id;
+  LocalIndex owned;
+  LocalIndex place;  // among the rows of the belt
   std::uint32_t neighbours;
-  PointState state;
   double normal[3];
+  bool is_border;
 };
 
-// A point that a waiting one sees.
-struct NearbyPoint {
-  Vertex vertex;
-  Sampling sampling;  // none of border points: theirs come later
+// A measured star some of whose triangles depend on other tiles. Its link goes by rows, which all tiles know.
+struct OpenStar {
+  PointId id;
+  LocalIndex owned;
+  StarPlace place;  // among the tile's open link vertices
 };
 
-// Stars by tile. Those of a tile are appended in one go or in several, by one thread at a time.
-class StarSpill {
- public:
-  StarSpill(const Job& job, const std::string& name, std::size_t tiles, std::uint64_t budget);
-
-  void append(TileIndex tile, StoredStars stars);
-  StoredStars read(TileIndex tile) const;  // in ascending owned index
-  void drop(TileIndex tile);
-
- private:
-  AppendLists<StoredStar> stars_;
-  AppendLists<StoredLinkVertex> corners_;
+// Of an open star, with the consistency of the triangle that begins here.
+struct OpenLinkVertex {
+  Row point;
+  float radius;
+  Consistency consistency;
 };
 
-// What the default method keeps of the tiles; lists are by tile unless said otherwise.
+// Open stars of one tile.
+struct OpenStars {
+  std::vector<OpenStar> stars;
+  std::vector<OpenLinkVertex> vertices;
+
+  void add(PointId id, LocalIndex owned, const RadiusBound& bound) {
+    stars.push_back({id, owned, {static_cast<std::uint32_t>(vertices.size()), 0, bound}});
+  }
+  void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
+    vertices.push_back(vertex);
+    ++stars.back().place.size;
+  }
+};
+
+// The star of `from`, in another tile, has the triangle (from, to, other); `to` is an owned point.
+struct RemoteTriangle {
+  LocalIndex to;
+  std::uint32_t padding = 0;
+  Row from, other;
+
+  friend bool operator<(const RemoteTriangle& a, const RemoteTriangle& b);
+};
+
+// Lists are by tile.
 struct StarLists {
   StarLists(const TileStore& store, const Job& job);
 
-  void drop_waiting(TileIndex tile);  // all but the wedges
+  // A tile's open stars are appended in one go or in several, by one thread at a time.
+  void append_open(TileIndex tile, OpenStars stars);
+  OpenStars read_open(TileIndex tile) const;  // in ascending owned index
+  void drop(TileIndex tile);                  // all but the wedges
 
-  AppendLists<WaitingPoint> waiting;           // in ascending owned index
-  AppendLists<LocalIndex> waiting_neighbours;  // of one after the other, in neighbour order: places in sight
-  AppendLists<NearbyPoint> waiting_nearby;     // these points and their neighbours, in ascending row
-  std::vector<std::vector<TileIndex>> around;  // tiles with these points, in ascending order
-  Column<Site> sites;                          // by row, of border points and their neighbours
+  AppendLists<BeltPoint> belt;              // in ascending owned index
+  AppendLists<Row> belt_rows;               // of these points and their neighbours, ascending
+  AppendLists<LocalIndex> belt_neighbours;  // of one point after the other, in neighbour order: places of rows
+  std::vector<std::vector<TileIndex>> around;  // tiles that own any of the belt's rows, ascending
+  // By row, of the belts' rows. Each tile writes its own points.
+  Column<Site> sites;
+  Column<Sampling> samplings;
+
   RowSet active;
-  RowSet unmeasured;               // of waiting points, those whose stars are not measured yet
-  StarSpill found;                 // stars of waiting points as they are found
-  StarSpill open;                  // measured stars
-  AppendLists<Wedge> wedges;       // of settled ones
-  AppendLists<Wedge> open_wedges;  // of the others (passes/seams)
+  AppendLists<OpenStar> open_stars;
+  AppendLists<OpenLinkVertex> open_vertices;
+  AppendLists<RemoteTriangle> remote_triangles;  // of the tile's border points
+  AppendLists<Wedge> wedges;                     // in two runs of ascending row
 };
 
 }  // namespace lacuna

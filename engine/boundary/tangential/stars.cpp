@@ -35,7 +35,7 @@ auto number(V one) {
   return formulas::hn::GetLane(one);
 }
 
-// Where a point sees a neighbour, inverted.
+// A neighbour in the tangent plane, inverted.
 struct View {
   double x, y;
   LocalIndex neighbour;
@@ -46,7 +46,7 @@ struct Views {
   double distance;  // `Sampling::distance`
 };
 
-Views look_around(std::span<const Site> sites, const StarQuery& query) {
+Views find_views(std::span<const Site> sites, const StarQuery& query) {
   const Site& at = sites[query.point];
   const auto frame = formulas::frame_of(vector(query.normal));
   Views views;
@@ -55,8 +55,8 @@ Views look_around(std::span<const Site> sites, const StarQuery& query) {
     const Site& q = sites[query.neighbours[i]];
     sum += q.closeness;
     const auto offset = (vector(q.position) - vector(at.position)) + (vector(q.shift) - vector(at.shift));
-    const auto seen = formulas::view_of(offset, one(at.weight - q.weight), frame);
-    const View view{number(seen.x), number(seen.y), i};
+    const auto inverted = formulas::view_of(offset, one(at.weight - q.weight), frame);
+    const View view{number(inverted.x), number(inverted.y), i};
     if (std::isfinite(view.x) && std::isfinite(view.y)) views.all.push_back(view);
   }
   views.distance = static_cast<double>(query.neighbours.size() + 1) / sum;
@@ -98,7 +98,7 @@ Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
 ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query) {
   ExactStar star;
   if (!query.normal.allFinite()) return star;
-  Views views = look_around(sites, query);
+  Views views = find_views(sites, query);
   star.distance = views.distance;
   if (views.all.size() < 3) return star;
   std::vector<View> hull = hull_of(std::move(views.all));
@@ -113,8 +113,8 @@ ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query)
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
     const double dx = next.x - x, dy = next.y - y;
-    const auto ball = formulas::ball_at(one(x), one(y), one(dx), one(dy), one(views.distance));
-    star.corners.push_back({hull[i].neighbour, number(ball)});
+    const auto ball = formulas::radius_at(one(x), one(y), one(dx), one(dy), one(views.distance));
+    star.link.push_back({hull[i].neighbour, number(ball)});
     x += dx;  // rounded as in a batch
     y += dy;
   }
@@ -125,7 +125,7 @@ void StarFinder::find() {
   StarBatch batch{.sites = sites_.data()};
   for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
     const StarQuery& query = queries_[std::min(lane, queries_.size() - 1)];
-    const bool fits = lane < queries_.size() && query.neighbours.size() <= kMostSeen;
+    const bool fits = lane < queries_.size() && query.neighbours.size() <= kMostNeighbours;
     batch.points[lane] = query.point;
     batch.neighbours[lane] = query.neighbours.empty() ? &query.point : query.neighbours.data();
     batch.counts[lane] = fits ? static_cast<std::uint32_t>(query.neighbours.size()) : 0;
@@ -135,11 +135,11 @@ void StarFinder::find() {
 
   for (std::size_t lane = 0; lane < queries_.size(); ++lane) {
     const std::uint32_t size = batch_stars_.sizes[lane];
-    if (queries_[lane].neighbours.size() > kMostSeen || size == BatchStars::kAmbiguous) {
+    if (queries_[lane].neighbours.size() > kMostNeighbours || size == BatchStars::kAmbiguous) {
       exact_[lane] = find_star_exactly(sites_, queries_[lane]);
-      stars_[lane] = {exact_[lane].corners.data(), 1, exact_[lane].corners.size(), exact_[lane].distance};
+      stars_[lane] = {exact_[lane].link.data(), 1, exact_[lane].link.size(), exact_[lane].distance};
     } else {
-      stars_[lane] = {&batch_stars_.corners[0][lane], kBatchSize, size, batch_stars_.distances[lane]};
+      stars_[lane] = {&batch_stars_.links[0][lane], kBatchSize, size, batch_stars_.distances[lane]};
     }
   }
 }

@@ -1,4 +1,4 @@
-// take_stars: what a tile alone knows of the stars of its points.
+// take_stars: what one tile alone knows of the stars of its points.
 #pragma once
 
 #include "engine/boundary/tangential/star_lists.hpp"
@@ -10,10 +10,9 @@
 
 namespace lacuna {
 
-// Finds the stars of the tile's active points, and of those that may become active by what other tiles have.
-// Boundary wedges that are certain and stars that are not go to the lists. Returns which owned points a loop
-// may pass through.
-std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling, const Config& config,
-                                     StarLists& lists);
+// Finds the stars of the tile's active points, and of those that other tiles may make active. Certain wedges,
+// open stars and the belt go to the lists. Returns which owned points a loop may pass through.
+std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling,
+                                     const TangentialConfig& config, StarLists& lists);
 
 }  // namespace lacuna

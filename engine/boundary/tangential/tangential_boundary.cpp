@@ -1,6 +1,7 @@
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 
 #include "engine/boundary/tangential/border_exchange.hpp"
+#include "engine/boundary/tangential/chains.hpp"
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
 #include "engine/store/merge_runs.hpp"
@@ -12,12 +13,11 @@
 namespace lacuna {
 namespace {
 
-// Measured: a wedge, its curve, and the curve turned and parted.
-constexpr std::uint64_t kBytesPerWedge = 160;
+// Measured: a wedge of a tile, its partners and its curve.
+constexpr std::uint64_t kBytesPerWedge = 120;
 
-bool by_row(const Wedge& a, const Wedge& b) {
-  return a.point.row < b.point.row;
-}
+// An open chain of a component, its ends and their partners.
+constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
 // The loops along a closed curve.
 void add_loops(std::vector<CurvePoint>& curve, const TangentialConfig& config, RawLoops& loops) {
@@ -33,45 +33,11 @@ void add_loops(std::vector<CurvePoint>& curve, const TangentialConfig& config, R
   }
 }
 
-// Of a whole component.
-void add_component_loops(std::vector<Wedge> wedges, const TangentialConfig& config, RawLoops& loops) {
-  std::sort(wedges.begin(), wedges.end(), by_row);
-  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
-                [&](std::vector<CurvePoint>& curve) { add_loops(curve, config, loops); });
-}
-
-// A tile's part of the boundary graph. Its vertices are the wedges; those of one point are connected.
-GraphPart<Wedge> part_of(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
-                         std::vector<LocalIndex>& links) {
-  links.assign(wedges.size(), 0);
-  UnionFind connected(links);
-  GraphPart<Wedge> part{.vertices = static_cast<LocalIndex>(wedges.size()), .links = links};
-  for (LocalIndex i = 0; i < wedges.size(); ++i) {
-    if (i > 0 && wedges[i].point == wedges[i - 1].point) connected.unite(i - 1, i);
-    for (const std::size_t side : {0, 1}) {
-      if (partners[i][side] != kNoIndex) {
-        connected.unite(i, partners[i][side]);
-      } else {
-        part.crossings.push_back({i, wedges[i].point.row, side == 0 ? wedges[i].from : wedges[i].to});
-      }
-    }
+// Wedges of one point, which are next to each other, connect the chains that they are on.
+void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of, UnionFind connected) {
+  for (std::size_t i = 1; i < wedges.size(); ++i) {
+    if (wedges[i].point == wedges[i - 1].point) connected.unite(chain_of[i - 1], chain_of[i]);
   }
-  return part;
-}
-
-// Adds the wedges of open components, those that leave the tile, to the records of the part. Returns which
-// they are.
-std::vector<bool> add_open_wedges(std::span<const Wedge> wedges, GraphPart<Wedge>& part) {
-  UnionFind connected(part.links);
-  std::vector<bool> has_crossing(wedges.size()), is_open(wedges.size());
-  for (const CrossingEdge& crossing : part.crossings) has_crossing[connected.find(crossing.vertex)] = true;
-  for (LocalIndex i = 0; i < wedges.size(); ++i) {
-    if (!has_crossing[connected.find(i)]) continue;
-    is_open[i] = true;
-    part.records.push_back(wedges[i]);
-    part.vertex_of.push_back(i);
-  }
-  return is_open;
 }
 
 }  // namespace
@@ -81,20 +47,52 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
           LoopPointLists(job.file("loop-points"), store.tiling().tiles.size(), job.memory.spills / 12)),
       tiling_(store.tiling()),
       stars_(store, job),
-      config_(job.config) {}
+      chain_points_(job.file("chain-points")),
+      config_(job.config.tangential) {}
 
 void TangentialBoundary::take(const EvaluatedTile& tile) {
   add_loop_points(loop_points_, tile, take_stars(tile, tiling_, config_, stars_));
 }
 
+// Of a tile, in ascending row.
 std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
   std::vector<Wedge> wedges = stars_.wedges.read(t);
   stars_.wedges.drop(t);
-  const std::vector<Wedge> open = stars_.open_wedges.read(t);
-  stars_.open_wedges.drop(t);
-  wedges.insert(wedges.end(), open.begin(), open.end());
-  merge_runs(wedges, by_row);
+  merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
   return wedges;
+}
+
+// Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
+void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, FoundLoops& found) {
+  const std::vector<Wedge> wedges = wedges_of(t);
+  std::atomic_ref(found.edges) += wedges.size();  // each wedge ends at two edges, each edge at two wedges
+  std::vector<LocalIndex> chain_of(wedges.size());
+  std::vector<CurvePoint> points;
+  GraphPart<OpenChain> part{.single_vertices_count = true};
+  follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
+    const LocalIndex number = part.vertices++;
+    points.clear();
+    for (const LocalIndex w : chain.wedges) {
+      chain_of[w] = number;
+      points.push_back({wedges[w].point, wedges[w].excess});
+    }
+    if (chain.is_closed) {
+      add_loops(points, config_, found.loops);
+      return;
+    }
+    const auto end = [&](LocalIndex w, std::size_t side) {
+      const ChainEnd end{wedges[w].point.row, side == 0 ? wedges[w].from : wedges[w].to};
+      part.crossings.push_back({number, end.own, end.foreign});
+      return end;
+    };
+    const ChainEnd first = end(chain.wedges.front(), chain.first_side), last = end(chain.wedges.back(), chain.last_side);
+    part.records.push_back({chain_points_.append(points), points.size(), {first, last}});
+    part.vertex_of.push_back(number);
+  });
+  std::vector<LocalIndex> links(part.vertices);
+  part.links = links;
+  connect_chains(wedges, chain_of, UnionFind(links));
+  stitch.add(t, part);
 }
 
 FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
@@ -103,28 +101,17 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   exchange_borders(stars_, tiling_, job);
 
   const std::size_t tiles = tiling_.tiles.size();
-  const TangentialConfig& config = config_.tangential;
-  Stitch<Wedge> stitch(tiles, kBytesPerWedge, job);
-  job.arena.for_each(tiles, [&](std::size_t t) {
-    const std::vector<Wedge> wedges = wedges_of(static_cast<TileIndex>(t));
-    const std::vector<WedgePartners> partners = partners_of(wedges);
-    std::atomic_ref(found.edges) += wedges.size();  // each wedge ends at two edges, each edge at two wedges
-    std::vector<LocalIndex> links;
-    GraphPart<Wedge> part = part_of(wedges, partners, links);
-    std::vector<bool> is_open = add_open_wedges(wedges, part);
-    stitch.add(static_cast<TileIndex>(t), part);
-    follow_curves(wedges, partners, std::move(is_open),
-                  [&](std::vector<CurvePoint>& curve) { add_loops(curve, config, found.loops); });
+  std::vector<std::uint64_t> needs(tiles);
+  for (std::size_t t = 0; t < tiles; ++t) needs[t] = stars_.wedges.count(t) * kBytesPerWedge;
+  Stitch<OpenChain> stitch(tiles, kBytesPerChain, job);
+  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t t) {
+    chain_tile(static_cast<TileIndex>(t), stitch, found);
   });
+  const auto add = [&](std::vector<CurvePoint>& curve) { add_loops(curve, config_, found.loops); };
   stitch.for_each_component(
-      [&](std::span<const Wedge> wedges) {
-        add_component_loops({wedges.begin(), wedges.end()}, config, found.loops);
-      },
-      [&](const auto& for_each_wedge, std::uint64_t count) {
-        std::vector<Wedge> wedges;
-        wedges.reserve(count);
-        for_each_wedge([&](const Wedge& wedge) { wedges.push_back(wedge); });
-        add_component_loops(std::move(wedges), config, found.loops);
+      [&](std::span<const OpenChain> chains) { close_chains(chains, chain_points_, add); },
+      [&](const auto& for_each_chain, std::uint64_t count) {
+        close_many_chains(for_each_chain, count, chain_points_, job, add);
       });
   found.components = stitch.components();
   found.loops.sort();

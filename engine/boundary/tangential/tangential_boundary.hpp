@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
+#include "engine/boundary/tangential/chains.hpp"
 #include "engine/boundary/tangential/star_lists.hpp"
 #include "engine/stitch/stitch.hpp"
 
@@ -26,10 +27,12 @@ class TangentialBoundary final : public BoundaryMethod {
 
  private:
   std::vector<Wedge> wedges_of(TileIndex tile);
+  void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, FoundLoops& found);
 
   const Tiling& tiling_;
   StarLists stars_;
-  const Config& config_;
+  Column<CurvePoint> chain_points_;  // of open chains
+  const TangentialConfig& config_;
 };
 
 }  // namespace lacuna

@@ -16,15 +16,15 @@ namespace lacuna {
 namespace {
 
 // A wedge with the ids of its points, its ends in either order.
-struct NamedGap {
+struct NamedWedge {
   PointId point, low, high;
-  float room;
+  float excess;
 
-  auto operator<=>(const NamedGap&) const = default;
+  auto operator<=>(const NamedWedge&) const = default;
 };
 
 struct Found {
-  std::vector<NamedGap> wedges;  // sorted
+  std::vector<NamedWedge> wedges;  // sorted
   std::size_t tiles = 0;
   bool across_tiles = false;  // some were left to the exchange
 };
@@ -32,40 +32,43 @@ struct Found {
 // The stars of all tiles, before the exchange.
 struct StarTaker final : TileConsumer {
   explicit StarTaker(const TiledScan& scan) : scan(scan), stars(scan.store, scan.job) {}
-  void take(const EvaluatedTile& tile) override { take_stars(tile, scan.store.tiling(), scan.config, stars); }
+  void take(const EvaluatedTile& tile) override { take_stars(tile, scan.store.tiling(), scan.config.tangential, stars); }
 
   const TiledScan& scan;
   StarLists stars;
 };
 
-Found gaps_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threads = 2) {
+Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threads = 2) {
   TiledScan scan(cloud, tiled({}, tile_points, threads));
   const Tiling& tiling = scan.store.tiling();
   std::map<Row, PointId> ids;
   for (const auto& [id, row] : scan.rows()) ids.emplace(row, id);
   StarTaker taker(scan);
   scan.evaluate({&taker});
+  const auto wedges = [&] {
+    std::vector<Wedge> wedges;
+    for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
+      for (const Wedge& wedge : taker.stars.wedges.read(tile)) wedges.push_back(wedge);
+    }
+    return wedges;
+  };
+  const std::size_t certain = wedges().size();
   exchange_borders(taker.stars, tiling, scan.job);
 
   Found found{.tiles = tiling.tiles.size()};
-  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
-    const std::vector<Wedge> open = taker.stars.open_wedges.read(tile);
-    std::vector<Wedge> all = taker.stars.wedges.read(tile);
-    found.across_tiles = found.across_tiles || !open.empty();
-    all.insert(all.end(), open.begin(), open.end());
-    for (const Wedge& wedge : all) {
-      const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
-      found.wedges.push_back({wedge.point.id, low, high, wedge.room});
-    }
+  for (const Wedge& wedge : wedges()) {
+    const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
+    found.wedges.push_back({wedge.point.id, low, high, wedge.excess});
   }
+  found.across_tiles = found.wedges.size() > certain;
   std::sort(found.wedges.begin(), found.wedges.end());
   return found;
 }
 
 // Edges of the curves that wedges form: each is an edge of the wedges at both of its ends.
-bool are_closed(const std::vector<NamedGap>& wedges) {
+bool are_closed(const std::vector<NamedWedge>& wedges) {
   std::map<std::pair<PointId, PointId>, int> edges;  // as many from the lower id as from the higher one
-  for (const NamedGap& wedge : wedges) {
+  for (const NamedWedge& wedge : wedges) {
     for (const PointId other : {wedge.low, wedge.high}) {
       if (wedge.point < other) ++edges[{wedge.point, other}];
       if (other < wedge.point) --edges[{other, wedge.point}];
@@ -75,19 +78,19 @@ bool are_closed(const std::vector<NamedGap>& wedges) {
 }
 
 void check_tilings(const Cloud& cloud) {
-  const Found whole = gaps_of(cloud, 1'000'000);
+  const Found whole = wedges_of(cloud, 1'000'000);
   CHECK(whole.tiles <= 2);  // points far from all others are set aside
   CHECK(are_closed(whole.wedges));
   for (const std::int64_t tile_points : {1, 30, 250}) {
     INFO(tile_points << " points a tile");
-    const bool same = gaps_of(cloud, tile_points).wedges == whole.wedges;
+    const bool same = wedges_of(cloud, tile_points).wedges == whole.wedges;
     CHECK(same);
   }
 }
 
 TEST_CASE("wedges around holes that lie across tiles are those of a single tile") {
   const Cloud cloud = plane(40).punched({13, 14}, 4).punched({27, 25}, 6).jittered(0.25, 3);
-  const Found parts = gaps_of(cloud, 60);
+  const Found parts = wedges_of(cloud, 60);
   CHECK(parts.tiles > 20);
   CHECK(parts.across_tiles);
   CHECK(parts.wedges.size() > 100);
@@ -111,9 +114,9 @@ TEST_CASE("wedges of drawn clouds are those of a single tile, and close to curve
 
 TEST_CASE("the exchange between tiles does not depend on the number of threads") {
   const Cloud cloud = hard_cloud(7);
-  const Found one = gaps_of(cloud, 40, 1);
+  const Found one = wedges_of(cloud, 40, 1);
   CHECK(one.across_tiles);
-  const bool same = gaps_of(cloud, 40, 8).wedges == one.wedges;
+  const bool same = wedges_of(cloud, 40, 8).wedges == one.wedges;
   CHECK(same);
 }
 

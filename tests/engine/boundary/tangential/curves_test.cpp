@@ -7,12 +7,12 @@
 namespace lacuna {
 namespace {
 
-// Ids are not rows: what is told apart by rows must not be by ids.
+// Ids are not rows: curves must be followed by rows.
 Vertex vertex(std::uint64_t row) {
   return {PointId{1000 - row}, Row{row}};
 }
 
-// The wedges of a closed rim, every second one written against its direction.
+// The wedges of a closed curve, every second one written against its direction.
 std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
   std::vector<Wedge> wedges;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -27,21 +27,24 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   std::vector<std::vector<CurvePoint>> curves;
   std::stable_sort(wedges.begin(), wedges.end(),
                    [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
-  follow_curves(wedges, partners_of(wedges), std::vector<bool>(wedges.size()),
-                [&](std::vector<CurvePoint>& curve) { curves.push_back(curve); });
+  follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
+    CHECK(chain.is_closed);
+    curves.emplace_back();
+    for (const LocalIndex w : chain.wedges) curves.back().push_back({wedges[w].point, wedges[w].excess});
+  });
   return curves;
 }
 
-std::vector<CurvePoint> rim_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& room = {}) {
-  std::vector<CurvePoint> rim;
+std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& excess = {}) {
+  std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    rim.push_back({{PointId{ids[i]}, Row{ids[i]}}, room.empty() ? 0 : room[i]});
-  return rim;
+    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, excess.empty() ? 0 : excess[i]});
+  return curve;
 }
 
-std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& rim) {
+std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
   std::vector<std::uint64_t> ids;
-  for (const CurvePoint& p : rim) ids.push_back(value(p.vertex.id));
+  for (const CurvePoint& p : curve) ids.push_back(value(p.vertex.id));
   return ids;
 }
 
@@ -53,7 +56,7 @@ TEST_CASE("wedges chain to one closed curve, through a point that it passes twic
   std::vector<std::uint64_t> found;
   for (const CurvePoint& p : one[0]) {
     found.push_back(value(p.vertex.row));
-    CHECK(p.room == static_cast<float>(value(p.vertex.row)));
+    CHECK(p.excess == static_cast<float>(value(p.vertex.row)));
   }
   std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
   if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
@@ -72,74 +75,89 @@ TEST_CASE("curves that touch in a point stay apart") {
   CHECK(std::minmax({curves[0].size(), curves[1].size()}) == std::pair<std::size_t, std::size_t>(3, 6));
 }
 
-TEST_CASE(
-    "wedges that are left out have no curve, and a wedge whose neighbour is elsewhere no partner there") {
-  std::vector<Wedge> wedges = ring({1, 2, 3, 4});
+TEST_CASE("a curve of which a part is elsewhere is an open chain, and its ends say by which edges it leaves") {
+  std::vector<Wedge> wedges = ring({1, 2, 3, 4, 5});
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
   wedges.insert(wedges.end(), other.begin(), other.end());
+  wedges.push_back({vertex(40), Row{41}, Row{42}, 0});  // alone in its tile
   const std::vector<WedgePartners> partners = partners_of(wedges);
   CHECK(std::count(partners[0].begin(), partners[0].end(), kNoIndex) == 0);
   CHECK(std::count(partners[1].begin(), partners[1].end(), kNoIndex) == 1);
   CHECK(std::count(partners[2].begin(), partners[2].end(), kNoIndex) == 1);
-  std::vector<std::size_t> sizes;
-  follow_curves(wedges, partners, {true, true, true, false, false, false},
-                [&](std::vector<CurvePoint>& curve) { sizes.push_back(curve.size()); });
-  CHECK(sizes == std::vector<std::size_t>{3});
+  std::vector<std::vector<Row>> open;  // with the points beyond
+  std::vector<std::size_t> closed;
+  follow_wedges(wedges, partners, [&](const WedgeChain& chain) {
+    if (chain.is_closed) {
+      closed.push_back(chain.wedges.size());
+      return;
+    }
+    const auto beyond = [&](LocalIndex w, std::size_t side) { return side == 0 ? wedges[w].from : wedges[w].to; };
+    open.push_back({beyond(chain.wedges.front(), chain.first_side)});
+    for (const LocalIndex w : chain.wedges) open.back().push_back(wedges[w].point.row);
+    open.back().push_back(beyond(chain.wedges.back(), chain.last_side));
+  });
+  CHECK(closed == std::vector<std::size_t>{3});
+  for (std::vector<Row>& chain : open) {
+    if (chain.back() < chain.front()) std::reverse(chain.begin(), chain.end());
+  }
+  std::sort(open.begin(), open.end());
+  CHECK(open == std::vector<std::vector<Row>>{{Row{3}, Row{2}, Row{1}, Row{5}, Row{4}, Row{3}},
+                                              {Row{41}, Row{40}, Row{42}}});
 }
 
 TEST_CASE("no wedges: no curve") {
   CHECK(follow({}).empty());
 }
 
-TEST_CASE("a rim starts at its smallest id and goes on to the smaller neighbour") {
+TEST_CASE("a curve starts at its smallest id and goes on to the smaller neighbour") {
   for (const std::vector<std::uint64_t>& way :
        {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
-    std::vector<CurvePoint> rim = rim_of(way);
-    normalise(rim);
-    CHECK(ids(rim) == std::vector<std::uint64_t>{2, 5, 7, 9});
+    std::vector<CurvePoint> curve = curve_of(way);
+    normalise(curve);
+    CHECK(ids(curve) == std::vector<std::uint64_t>{2, 5, 7, 9});
   }
-  std::vector<CurvePoint> twice = rim_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
+  std::vector<CurvePoint> twice = curve_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
   normalise(twice);
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
-TEST_CASE("a rim is parted where it passes a point again, into curves that pass each point once") {
-  const auto parted = [](const std::vector<std::uint64_t>& rim) {
+TEST_CASE("a curve is split where it passes a point again, into curves that pass each point once") {
+  const auto split = [](const std::vector<std::uint64_t>& curve) {
     std::vector<std::vector<std::uint64_t>> curves;
-    for (const auto& curve : split_at_pinches(rim_of(rim))) curves.push_back(ids(curve));
+    for (const auto& simple : split_at_pinches(curve_of(curve))) curves.push_back(ids(simple));
     return curves;
   };
   using Curves = std::vector<std::vector<std::uint64_t>>;
-  CHECK(parted({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
-  CHECK(parted({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
-  CHECK(parted({1, 5, 4, 1, 2, 3}) == Curves{{1, 4, 5}, {1, 2, 3}});
-  CHECK(parted({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
-  CHECK(parted({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
-  const auto rooms = split_at_pinches(rim_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
-  REQUIRE(rooms.size() == 2);
-  CHECK(rooms[1][1].room == 4);  // of the pass that stays on the curve
+  CHECK(split({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
+  CHECK(split({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
+  CHECK(split({1, 5, 4, 1, 2, 3}) == Curves{{1, 4, 5}, {1, 2, 3}});
+  CHECK(split({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
+  CHECK(split({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
+  const auto excesses = split_at_pinches(curve_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
+  REQUIRE(excesses.size() == 2);
+  CHECK(excesses[1][1].excess == 4);  // of the pass that stays on the curve
 }
 
 TEST_CASE(
-    "confidence is the mean of the points' room, up to what is clear, with some points more that have none") {
+    "confidence is the mean of the points' excess radius, up to what is clear, with some points more that have none") {
   const TangentialConfig config{.clear_excess = 2, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
   const double points = 20 + 4;
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
-  CHECK(confidence(rim_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
-  CHECK(confidence(rim_of(twenty), config) == 0);
+  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
+  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
+  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
+  CHECK(confidence(curve_of(twenty), config) == 0);
   std::vector<float> half(20, 0);
   std::fill(half.begin(), half.begin() + 10, 3.0f);
-  CHECK(confidence(rim_of(twenty, half), config) == 10 / points);
+  CHECK(confidence(curve_of(twenty, half), config) == 10 / points);
 }
 
-TEST_CASE("the more points a rim has, the surer it is") {
+TEST_CASE("the more points a curve has, the surer it is") {
   double before = 0;
   for (std::size_t count = 3; count < 40; ++count) {
     const double now =
-        confidence(rim_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
+        confidence(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
     CHECK(now > before);
     before = now;
   }

@@ -1,4 +1,4 @@
-// How large balls may be, from medians by hand, beside whatever other points.
+// Bounds on the balls of triangles, from medians by hand, whatever points share the batch.
 #include "engine/boundary/tangential/radius_bound.hpp"
 
 #include "tests/support/clouds.hpp"
@@ -15,9 +15,9 @@ constexpr TangentialConfig kConfig{
     .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .least_spread = 0.25};
 
 Sampling sampling_among(std::vector<float> balls, double distance) {
-  std::vector<LinkVertex<LocalIndex>> corners;
-  for (const float ball : balls) corners.push_back({0, ball});
-  const FoundStar star(corners.data(), 1, corners.size(), distance);
+  std::vector<LinkVertex<LocalIndex>> link;
+  for (const float ball : balls) link.push_back({0, ball});
+  const FoundStar star(link.data(), 1, link.size(), distance);
   return samplings_of({&star, 1}, kConfig)[0];
 }
 
@@ -26,34 +26,36 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-RadiusBound size_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
-  std::vector<double> circles, scatters;
-  const auto look_at = [&](LocalIndex q) {
+RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
+  std::vector<double> circles, spreads;
+  const auto add = [&](LocalIndex q) {
     if (samplings[q].circle == 0) return;
     circles.push_back(samplings[q].circle);
-    scatters.push_back(samplings[q].scatter);
+    spreads.push_back(samplings[q].spread);
   };
-  look_at(around.point);
-  for (const LocalIndex q : around.neighbours) look_at(q);
+  add(around.point);
+  for (const LocalIndex q : around.neighbours) add(q);
   const double most = kConfig.most_radius * samplings[around.point].distance;
   const double circle = circles.empty() ? most : std::min(median(circles), most);
-  const double scatter = circles.empty() ? most : std::min(median(scatters), most);
-  return {kConfig.max_radius * circle + scatter, kConfig.least_spread * circle + scatter};
+  const double spread = circles.empty() ? most : std::min(median(spreads), most);
+  const double distance = samplings[around.point].distance;
+  return {static_cast<float>((kConfig.max_radius * circle + spread) / distance),
+          static_cast<float>((kConfig.least_spread * circle + spread) / distance)};
 }
 
 }  // namespace
 
-TEST_CASE("a star tells its median ball and how far the least is below") {
+TEST_CASE("a sampling is the median ball of a star and how far the least is below") {
   const Sampling even = sampling_among({0.5f, 0.25f, 0.8f, 0.75f}, 10);
   CHECK(even.distance == 10);
   CHECK(even.circle == 7.5);
-  CHECK(even.scatter == 5);
+  CHECK(even.spread == 5);
   CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).circle == 1);
   CHECK(sampling_among({}, 2).distance == 0);
   CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
 }
 
-TEST_CASE("balls that lie in a hole say nothing of the sampling") {
+TEST_CASE("balls that lie in a hole do not count") {
   CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
   const Sampling none = sampling_among({2, 3, 4}, 2);
   CHECK(none.distance == 2);
@@ -64,38 +66,39 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
   Random random(3);
   std::size_t wrong = 0;
   for (int round = 0; round < 200; ++round) {
-    std::vector<std::vector<LinkVertex<LocalIndex>>> corners(std::size_t(random.whole(1, kBatchSize)));
+    std::vector<std::vector<LinkVertex<LocalIndex>>> link(std::size_t(random.whole(1, kBatchSize)));
     std::vector<FoundStar> stars;
-    for (auto& of_one : corners) {
+    for (auto& of_one : link) {
       of_one.resize(std::size_t(random.chance(0.1) ? random.whole(0, 64) : random.whole(3, 9)));
-      for (auto& corner : of_one)
-        corner = {0, static_cast<float>(random.chance(0.8) ? random.uniform(0.1, 1) : 8)};
+      for (auto& vertex : of_one)
+        vertex = {0, static_cast<float>(random.chance(0.8) ? random.uniform(0.1, 1) : 8)};
       stars.emplace_back(of_one.data(), 1, of_one.size(), random.uniform(1, 2));
     }
     const auto together = samplings_of(stars, kConfig);
     for (std::size_t i = 0; i < stars.size(); ++i) {
       const Sampling alone = samplings_of({&stars[i], 1}, kConfig)[0];
       wrong += together[i].distance != alone.distance || together[i].circle != alone.circle ||
-               together[i].scatter != alone.scatter;
+               together[i].spread != alone.spread;
     }
   }
   CHECK(wrong == 0);
 }
 
-TEST_CASE("room is what a ball has beyond the size of triangles, in its unit") {
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 2) == 2);
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1.5f) == 0);
-  CHECK(room_beyond({3, 0.5}, {.distance = 2}, 1) == -2);
+TEST_CASE("the excess radius of a ball is what it has beyond the largest of a triangle, in its unit") {
+  const RadiusBound bound{.largest = 1.5f, .unit = 0.25f};
+  CHECK(bound.excess(2) == 2);
+  CHECK(bound.excess(1.5f) == 0);
+  CHECK(bound.excess(1) == -2);
 }
 
-TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized beside") {
+TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batch") {
   Random random(5);
   std::size_t wrong = 0, most = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<Sampling> samplings(200);
     for (Sampling& s : samplings) {
       if (random.chance(0.8)) s = {random.uniform(0.5, 2), random.uniform(0.1, 2), random.uniform(0, 1)};
-      if (random.chance(0.2)) s.circle = s.scatter = 0;  // large balls only
+      if (random.chance(0.2)) s.circle = s.spread = 0;  // large balls only
     }
     std::vector<std::vector<LocalIndex>> neighbours;
     std::vector<Surroundings> all;
@@ -111,15 +114,15 @@ TEST_CASE("ball sizes are those by hand, bit for bit, whatever points are sized 
       all.push_back({p, {}});
     }
     for (std::size_t i = 0; i < points; ++i) all[i].neighbours = neighbours[i];
-    std::size_t sized = 0;
+    std::size_t bounded = 0;
     RadiusBounder(samplings, kConfig)
         .for_each(
             points, [&](std::size_t i) { return all[i]; },
-            [&](std::size_t i, const RadiusBound& size) {
-              const RadiusBound expected = size_by_hand(samplings, all[i]);
-              wrong += i != sized++ || size.radius != expected.radius || size.unit != expected.unit;
+            [&](std::size_t i, const RadiusBound& bound) {
+              const RadiusBound expected = bound_by_hand(samplings, all[i]);
+              wrong += i != bounded++ || bound.largest != expected.largest || bound.unit != expected.unit;
             });
-    CHECK(sized == points);
+    CHECK(bounded == points);
   }
   CHECK(wrong == 0);
   CHECK(most > 128);

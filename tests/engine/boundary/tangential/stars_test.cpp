@@ -15,7 +15,7 @@
 namespace lacuna {
 namespace {
 
-using Star = std::vector<LinkVertex<LocalIndex>>;
+using Link = std::vector<LinkVertex<LocalIndex>>;
 
 // A point among some others.
 struct Neighbourhood {
@@ -77,8 +77,8 @@ struct Queries {
   }
 };
 
-std::vector<Star> found_side_by_side(const Queries& queries) {
-  std::vector<Star> stars(queries.all.size());
+std::vector<Link> found_side_by_side(const Queries& queries) {
+  std::vector<Link> stars(queries.all.size());
   StarFinder(queries.sites)
       .for_each_batch(
           queries.all.size(), [&](std::size_t i) { return queries.all[i]; },
@@ -90,7 +90,7 @@ std::vector<Star> found_side_by_side(const Queries& queries) {
   return stars;
 }
 
-bool same_bits(const Star& a, const Star& b) {
+bool same_bits(const Link& a, const Link& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
@@ -100,38 +100,38 @@ StarBatch batch_of(const Queries& queries) {
     const StarQuery& query = queries.all[i];
     batch.points[i] = query.point;
     batch.neighbours[i] = query.neighbours.empty() ? &query.point : query.neighbours.data();
-    batch.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostSeen));
+    batch.counts[i] = static_cast<std::uint32_t>(std::min(query.neighbours.size(), kMostNeighbours));
     for (int axis = 0; axis < 3; ++axis) batch.normals[axis][i] = query.normal[axis];
   }
   return batch;
 }
 
 // A point with neighbours at these places of its tangent plane, all on the unit length.
-Star star_among(const std::vector<Eigen::Vector2d>& places) {
+Link star_among(const std::vector<Eigen::Vector2d>& places) {
   Neighbourhood drawn{{{0, 0, 0}, {0, 0, 0}, 1, 0}, {0, 0, 1}, {}};
   for (const Eigen::Vector2d& q : places) drawn.around.push_back({{q.x(), q.y(), 0}, {0, 0, 0}, 1, 0});
   return found_side_by_side(Queries({drawn}))[0];
 }
 
-std::vector<LocalIndex> names(const Star& star) {
+std::vector<LocalIndex> names(const Link& star) {
   std::vector<LocalIndex> names;
-  for (const auto& corner : star) names.push_back(corner.point);
+  for (const auto& vertex : star) names.push_back(vertex.point);
   return names;
 }
 
 }  // namespace
 
-TEST_CASE("a star's corners are the neighbours that a ball can rest on, counterclockwise from the nearest") {
-  const Star star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
+TEST_CASE("the vertices of a star's link are the neighbours that a ball can rest on, counterclockwise from the nearest") {
+  const Link star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
   CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
   // The circle through (0, 0), (-1.2, 0) and (0, 1.2).
-  CHECK(star[1].room == Approx(0.6 * std::sqrt(2.0)));
+  CHECK(star[1].radius == Approx(0.6 * std::sqrt(2.0)));
 }
 
 TEST_CASE("where all neighbours are on one side, the star is closed by an edge with the largest ball") {
-  const Star star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
+  const Link star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
   CHECK(names(star).size() == 3);
-  CHECK(std::count_if(star.begin(), star.end(), [](const auto& c) { return c.room == kLargestBall; }) == 1);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestBall; }) == 1);
 }
 
 TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
@@ -142,17 +142,17 @@ TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
 
 TEST_CASE("stars found side by side are those of the exact fallback, bit for bit") {
   Random random(21);
-  std::size_t different = 0, corners = 0;
+  std::size_t different = 0, vertices = 0;
   for (int round = 0; round < 3000; ++round) {
     const Queries queries(drawn_neighbourhoods(random));
-    const std::vector<Star> found = found_side_by_side(queries);
+    const std::vector<Link> found = found_side_by_side(queries);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      different += !same_bits(found[i], find_star_exactly(queries.sites, queries.all[i]).corners);
-      corners += found[i].size();
+      different += !same_bits(found[i], find_star_exactly(queries.sites, queries.all[i]).link);
+      vertices += found[i].size();
     }
   }
   CHECK(different == 0);
-  CHECK(corners > 3000);
+  CHECK(vertices > 3000);
 }
 
 TEST_CASE("nearly every star is decided side by side, from every instruction set with the same bits") {
@@ -170,19 +170,19 @@ TEST_CASE("nearly every star is decided side by side, from every instruction set
         if (found.sizes[i] == BatchStars::kAmbiguous || found.sizes[i] != expected.sizes[i]) continue;
         for (std::uint32_t c = 0; c < found.sizes[i]; ++c)
           different +=
-              std::memcmp(&found.corners[c][i], &expected.corners[c][i], sizeof found.corners[0][0]) != 0;
+              std::memcmp(&found.links[c][i], &expected.links[c][i], sizeof found.links[0][0]) != 0;
       }
     });
     for (std::size_t i = 0; i < kBatchSize; ++i) {
-      if (queries.all[i].neighbours.size() > kMostSeen) continue;
+      if (queries.all[i].neighbours.size() > kMostNeighbours) continue;
       const auto [exact, distance] = find_star_exactly(queries.sites, queries.all[i]);
       if (expected.sizes[i] == BatchStars::kAmbiguous) {
         ++ambiguous;
         continue;
       }
       ++plain_ones;
-      Star star;
-      for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.corners[c][i]);
+      Link star;
+      for (std::uint32_t c = 0; c < expected.sizes[i]; ++c) star.push_back(expected.links[c][i]);
       unlike_exact += !same_bits(star, exact);
       if (!exact.empty()) unlike_exact += expected.distances[i] != distance;
     }
@@ -198,7 +198,7 @@ TEST_CASE("a star is the same wherever its point is in a batch, and whatever the
   std::size_t different = 0;
   for (int round = 0; round < 300; ++round) {
     const Neighbourhood drawn = drawn_neighbourhood(random);
-    const Star alone = found_side_by_side(Queries({drawn}))[0];
+    const Link alone = found_side_by_side(Queries({drawn}))[0];
     for (std::size_t place = 0; place < kBatchSize; ++place) {
       std::vector<Neighbourhood> others = drawn_neighbourhoods(random);
       others[place] = drawn;

@@ -1,0 +1,121 @@
+#include "engine/boundary/tangential/belt.hpp"
+
+#include "engine/boundary/tangential/radius_bound.hpp"
+#include "engine/store/outbox.hpp"
+#include "engine/store/row_runs.hpp"
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+// A tile's belt points, and the rows of these and of their neighbours.
+class Belt {
+ public:
+  Belt(const StarLists& lists, TileIndex t)
+      : points_(lists.belt.read(t)), rows_(lists.belt_rows.read(t)), neighbours_(lists.belt_neighbours.read(t)) {
+    queries_.reserve(points_.size());
+    std::span<const LocalIndex> left = neighbours_;
+    for (const BeltPoint& p : points_) {
+      queries_.push_back({p.place, {p.normal[0], p.normal[1], p.normal[2]}, left.first(p.neighbours)});
+      left = left.subspan(p.neighbours);
+    }
+  }
+  Belt(const Belt&) = delete;
+  Belt& operator=(const Belt&) = delete;
+
+  std::span<const BeltPoint> points() const { return points_; }
+  std::span<const Row> rows() const { return rows_; }              // ascending
+  std::span<const StarQuery> queries() const { return queries_; }  // of each point, by places of rows
+
+ private:
+  std::vector<BeltPoint> points_;
+  std::vector<Row> rows_;
+  std::vector<LocalIndex> neighbours_;
+  std::vector<StarQuery> queries_;
+};
+
+// Sends the triangles of a star to the tiles of its foreign link vertices.
+void send_triangles(Row point, const Star<LocalIndex>& star, std::span<const Row> rows, const Tiling& tiling,
+                    TileIndex t, Outbox<RemoteTriangle>& outbox) {
+  const auto send = [&](Row to, Row other) {
+    if (tiling.tiles[t].owns(to)) return;
+    const TileIndex there = tiling.tile_of_row(to);
+    outbox.add(there, {tiling.tiles[there].local(to), 0, point, other});
+  };
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    if (!star.is_triangle(i)) continue;
+    const Row a = rows[star.link[i].point], b = rows[star.link[star.next(i)].point];
+    send(a, b);
+    send(b, a);
+  }
+}
+
+}  // namespace
+
+void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config) {
+  const Belt belt(lists, t);
+  std::vector<StarQuery> queries;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < belt.points().size(); ++i) {
+    if (!belt.points()[i].is_border) continue;
+    queries.push_back(belt.queries()[i]);
+    rows.push_back(belt.rows()[queries.back().point]);
+  }
+  const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
+  std::vector<Sampling> samplings;
+  samplings.reserve(rows.size());
+  StarFinder(sites).for_each_batch(
+      queries.size(), [&](std::size_t i) { return queries[i]; },
+      [&](std::size_t, std::span<const FoundStar> stars) {
+        const std::array<Sampling, kBatchSize> of_batch = samplings_of(stars, config);
+        samplings.insert(samplings.end(), of_batch.begin(), of_batch.begin() + stars.size());
+      });
+  replace_rows(lists.samplings, std::span<const Row>(rows), std::span<const Sampling>(samplings));
+}
+
+void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const TangentialConfig& config) {
+  const Belt belt(lists, t);
+  const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
+  const std::vector<Sampling> samplings = read_rows(lists.samplings, belt.rows());
+  const std::span<const StarQuery> queries = belt.queries();
+  OpenStars open;
+  Outbox<RemoteTriangle> outbox(lists.remote_triangles);
+  RadiusBounder bounder(samplings, config);
+  std::vector<LinkVertex<LocalIndex>> link;
+  StarFinder(sites).for_each_batch(
+      queries.size(), [&](std::size_t i) { return queries[i]; },
+      [&](std::size_t first, std::span<const FoundStar> stars) {
+        const auto surroundings = [&](std::size_t i) {
+          return Surroundings{queries[first + i].point, queries[first + i].neighbours};
+        };
+        bounder.for_each(stars.size(), surroundings, [&](std::size_t i, const RadiusBound& bound) {
+          const StarQuery& query = queries[first + i];
+          const BeltPoint& point = belt.points()[first + i];
+          link.clear();
+          for (std::size_t v = 0; v < stars[i].size(); ++v)
+            link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
+          const Star<LocalIndex> star{link, bound};
+          open.add(point.id, point.owned, bound);
+          for (std::size_t v = 0; v < star.size(); ++v) {
+            open.add_vertex({belt.rows()[link[v].point], link[v].radius,
+                             star.is_triangle(v) ? Consistency::kUndecided : Consistency::kInconsistent});
+          }
+          send_triangles(belt.rows()[query.point], star, belt.rows(), tiling, t, outbox);
+        });
+      });
+  lists.append_open(t, std::move(open));
+  outbox.send();
+}
+
+std::uint64_t belt_bytes(const StarLists& lists, TileIndex t) {
+  const std::uint64_t star =
+      sizeof(StarQuery) + sizeof(BeltPoint) + sizeof(OpenStar) + 8 * sizeof(OpenLinkVertex);
+  return lists.belt.count(t) * star + lists.belt_neighbours.count(t) * sizeof(LocalIndex) +
+         lists.belt_rows.count(t) * (sizeof(Row) + sizeof(Site) + sizeof(Sampling));
+}
+
+}  // namespace lacuna

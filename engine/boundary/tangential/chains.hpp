@@ -1,0 +1,39 @@
+// chains: open chains of wedges, joined across tiles to closed curves (method.md, C.4).
+#pragma once
+
+#include "engine/boundary/tangential/curves.hpp"
+#include "engine/run/job.hpp"
+#include "engine/stitch/stitch.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/scratch.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// An end of a chain: its last point, and the other end of the boundary edge on which it leaves the tile.
+struct ChainEnd {
+  Row own, foreign;
+};
+
+// A chain's points lie one after the other in the column of all open chains.
+struct OpenChain {
+  std::uint64_t first, count;
+  std::array<ChainEnd, 2> ends;  // of its first and of its last point
+};
+
+// visit(curve) for each closed curve of whole components. Starts and directions depend on the order of
+// `chains`. Cost: linear, and a sort of the chains' ends.
+void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
+                  const std::function<void(std::vector<CurvePoint>&)>& visit);
+
+// The same for a component whose chains do not fit in memory: sorted on disk and followed in mapped arrays.
+void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
+                       const Column<CurvePoint>& points, const Job& job,
+                       const std::function<void(std::vector<CurvePoint>&)>& visit);
+
+}  // namespace lacuna

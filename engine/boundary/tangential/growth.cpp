@@ -1,0 +1,106 @@
+#include "engine/boundary/tangential/growth.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lacuna {
+
+bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point) {
+  const auto at =
+      std::partition_point(remote_triangles.begin(), remote_triangles.end(),
+                           [&](const RemoteTriangle& triangle) { return triangle.to < point; });
+  return at != remote_triangles.end() && at->to == point;
+}
+
+Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_t> is_measured, RowSet& active,
+               const OpenStars& open, std::span<const RemoteTriangle> remote_triangles)
+    : tiling_(tiling),
+      tile_(tiling.tiles[tile]),
+      is_measured_(is_measured),
+      active_(active),
+      remote_triangles_(remote_triangles),
+      points_(open.stars),
+      star_of_(tile_.points, kNone) {
+  stars_.places.reserve(open.stars.size());
+  stars_.vertices.reserve(open.vertices.size());
+  stars_.consistencies.reserve(open.vertices.size());
+  for (const OpenStar& star : open.stars) {
+    star_of_[star.owned] = static_cast<std::uint32_t>(stars_.places.size());
+    stars_.places.push_back(star.place);
+  }
+  for (const OpenLinkVertex& vertex : open.vertices) {
+    stars_.vertices.push_back({vertex.point, vertex.radius});
+    stars_.consistencies.push_back(vertex.consistency);
+  }
+}
+
+void Growth::find_active_points(const std::function<void(Row)>& visit) {
+  std::vector<std::uint32_t> undone(points_.size());
+  std::iota(undone.begin(), undone.end(), 0U);
+  for (bool found = true; found;) {
+    found = false;
+    std::erase_if(undone, [&](std::uint32_t s) {
+      if (!active_.contains(row(s))) return false;
+      found |= follow(s, visit);
+      const auto link = stars_[s].link;
+      return std::all_of(link.begin(), link.end(), [&](const auto& v) { return active_.contains(v.point); });
+    });
+  }
+}
+
+// Goes along the inconsistent triangles of an active point's star: true if a point became active.
+bool Growth::follow(std::size_t s, const std::function<void(Row)>& visit) {
+  bool found = false;
+  const Star<Row> star = stars_[s];
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const Row a = star.link[i].point, b = star.link[star.next(i)].point;
+    if ((active_.contains(a) && active_.contains(b)) || !is_inconsistent(s, i)) continue;
+    for (const Row vertex : {a, b}) {
+      if (!active_.insert(vertex)) continue;
+      found = true;
+      visit(vertex);
+    }
+  }
+  return found;
+}
+
+std::vector<Wedge> Growth::wedges() {
+  std::vector<Wedge> wedges;
+  for (std::size_t s = 0; s < points_.size(); ++s) {
+    if (!active_.contains(row(s))) continue;
+    const Star<Row> star = stars_[s];
+    const std::span<Consistency> consistencies = stars_.consistencies_of(s);
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (!is_inconsistent(s, i)) consistencies[i] = Consistency::kConsistent;
+    }
+    for_each_wedge(star, std::span<const Consistency>(consistencies), [&](Row from, Row to, float excess) {
+      wedges.push_back({{points_[s].id, row(s)}, from, to, excess});
+    });
+  }
+  return wedges;
+}
+
+// The triangle that begins at link vertex i of star s. Once it is inconsistent, it stays so.
+bool Growth::is_inconsistent(std::size_t s, std::size_t i) {
+  const Star<Row> star = stars_[s];
+  const Row a = star.link[i].point, b = star.link[star.next(i)].point;
+  Consistency& consistency = stars_.consistencies_of(s)[i];
+  if (consistency == Consistency::kUndecided && (lacks_triangle(a, s, b) || lacks_triangle(b, s, a)))
+    consistency = Consistency::kInconsistent;
+  return consistency == Consistency::kInconsistent;
+}
+
+// An active point whose star does not have the triangle with the point of star s and a third one. A star that
+// might have an undecided triangle is among the open ones, or its tile has sent the triangle.
+bool Growth::lacks_triangle(Row point, std::size_t s, Row third) const {
+  if (!active_.contains(point)) return false;
+  if (!tile_.owns(point)) {
+    return is_measured_[tiling_.tile_of_row(point)] != 0 &&
+           !std::binary_search(remote_triangles_.begin(), remote_triangles_.end(),
+                               RemoteTriangle{points_[s].owned, 0, point, third});
+  }
+  const std::uint32_t star = star_of_[tile_.local(point)];
+  return star == kNone || !stars_[star].has_triangle(row(s), third);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,51 @@
+// growth: active points and wedges among a tile's open stars, with what other tiles sent.
+#pragma once
+
+#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/model/tiling.hpp"
+#include "engine/store/row_set.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
+bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point);
+
+// Grows the active points of a tile along inconsistent triangles (method.md, C.3). The open stars are those of
+// all points that may become active; `remote_triangles` are sorted. A foreign star that is not measured yet
+// makes no triangle inconsistent: `is_measured`, by tile, are those whose stars sent their triangles.
+class Growth {
+ public:
+  Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_t> is_measured, RowSet& active,
+         const OpenStars& open, std::span<const RemoteTriangle> remote_triangles);
+
+  // Vertices of inconsistent triangles of active points become active, here and in other tiles, until there
+  // are no more. visit(row): each point that was not active before. Several tiles may grow at once.
+  void find_active_points(const std::function<void(Row)>& visit);
+
+  // Each wedge of active points, in ascending row. All active points are known.
+  std::vector<Wedge> wedges();
+
+ private:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  Row row(std::size_t s) const { return tile_.row(points_[s].owned); }
+  bool follow(std::size_t s, const std::function<void(Row)>& visit);
+  bool is_inconsistent(std::size_t s, std::size_t i);
+  bool lacks_triangle(Row point, std::size_t s, Row third) const;
+
+  const Tiling& tiling_;
+  const Tile& tile_;
+  std::span<const std::uint8_t> is_measured_;
+  RowSet& active_;
+  std::span<const RemoteTriangle> remote_triangles_;
+  std::span<const OpenStar> points_;
+  Stars<Row> stars_;
+  std::vector<std::uint32_t> star_of_;  // by owned index
+};
+
+}  // namespace lacuna

@@ -1,0 +1,50 @@
+// Records of some rows of a column, read and written in runs of rows that are near each other.
+#pragma once
+
+#include "engine/model/ids.hpp"
+#include "engine/store/column.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// visit(begin, end): runs of `rows`, which ascend. Rows between runs are not touched: most were never written,
+// and reading these, too, would fill the system's cache with zeros.
+template <class Visit>
+void for_each_run(std::span<const Row> rows, Visit&& visit) {
+  constexpr std::uint64_t kNear = 64;
+  for (std::size_t begin = 0, end; begin < rows.size(); begin = end) {
+    for (end = begin + 1; end < rows.size() && value(rows[end]) <= value(rows[end - 1]) + kNear;) ++end;
+    visit(begin, end);
+  }
+}
+
+// The records of rows that ascend and were written.
+template <class Record>
+std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row> rows) {
+  std::vector<Record> records(rows.size()), run;
+  for_each_run(rows, [&](std::size_t begin, std::size_t end) {
+    const std::uint64_t first = value(rows[begin]);
+    run.resize(value(rows[end - 1]) + 1 - first);
+    column.read(first, std::span(run));
+    for (std::size_t i = begin; i < end; ++i) records[i] = run[value(rows[i]) - first];
+  });
+  return records;
+}
+
+// Replaces the records of rows that ascend and were written. No other thread writes rows between them.
+template <class Record>
+void replace_rows(Column<Record>& column, std::span<const Row> rows, std::span<const Record> records) {
+  std::vector<Record> run;
+  for_each_run(rows, [&](std::size_t begin, std::size_t end) {
+    const std::uint64_t first = value(rows[begin]);
+    run.resize(value(rows[end - 1]) + 1 - first);
+    column.read(first, std::span(run));
+    for (std::size_t i = begin; i < end; ++i) run[value(rows[i]) - first] = records[i];
+    column.write(first, run);
+  });
+}
+
+}  // namespace lacuna
