@@ -4,12 +4,21 @@
 
 namespace lacuna {
 
-void RawLoops::add(std::span<const Vertex> loop, double confidence) {
+// In blocks: a loop may be larger than memory.
+void RawLoops::add(std::uint64_t points, double confidence,
+                   const std::function<Vertex(std::uint64_t)>& vertex) {
+  constexpr std::uint64_t kBlock = 4096;
   const std::lock_guard lock(*mutex_);
   ++found_;
   if (confidence < min_confidence_) return;
-  const std::uint64_t offset = vertices_.append(loop);
-  index_.push_back({offset, loop.size(), loop.front().id, confidence});
+  index_.push_back({vertices_.size(), points, vertex(0).id, confidence});
+  std::vector<Vertex> block;
+  for (std::uint64_t i = 0; i < points; ++i) {
+    block.push_back(vertex(i));
+    if (block.size() < kBlock && i + 1 < points) continue;
+    vertices_.append(block);
+    block.clear();
+  }
 }
 
 std::vector<Vertex> RawLoops::read(std::size_t loop) const {

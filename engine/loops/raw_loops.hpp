@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -13,7 +14,7 @@
 
 namespace lacuna {
 
-// Of loops of the paper's method, which does not tell.
+// Of loops of the paper's method, which has no measure of it.
 inline constexpr double kNoConfidence = 1;
 
 // On disk; in memory only where each one is. Those of less than `min_confidence` are counted, not kept.
@@ -22,8 +23,11 @@ class RawLoops {
   explicit RawLoops(std::filesystem::path file, double min_confidence = 0)
       : min_confidence_(min_confidence), vertices_(std::move(file)) {}
 
-  // May be called from any thread.
-  void add(std::span<const Vertex> loop, double confidence);
+  // May be called from any thread. vertex(i): of the i-th of `points` points.
+  void add(std::uint64_t points, double confidence, const std::function<Vertex(std::uint64_t)>& vertex);
+  void add(std::span<const Vertex> loop, double confidence) {
+    add(loop.size(), confidence, [&](std::uint64_t i) { return loop[i]; });
+  }
   std::uint64_t found() const { return found_; }
   std::size_t size() const { return index_.size(); }
   std::uint64_t points() const { return vertices_.size(); }

@@ -75,7 +75,12 @@ Phase::Phase(Job& job, std::string_view name, std::uint64_t total) : job_(job), 
   job_.progress.begin(name, total);
 }
 
+void Job::trim() const {
+  if (resident_memory().all > memory.limit / 2) ::malloc_trim(0);
+}
+
 Phase::~Phase() {
+  job_.trim();
   job_.phases.back().seconds = now() - start_;
   job_.progress.end();
 }

@@ -1,10 +1,12 @@
 #include "engine/run/machine_memory.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -26,6 +28,17 @@ std::uint64_t machine_memory() {
   const std::uint64_t physical = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                                  static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   return std::min(physical, group_memory("/proc/self/cgroup", "/sys/fs/cgroup"));
+}
+
+ResidentMemory resident_memory() {
+  static const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  char text[96] = {};
+  if (::pread(statm, text, sizeof text - 1, 0) <= 0) return {};
+  char* field = text;
+  std::strtoull(field, &field, 10);  // the size of the address space
+  const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)),
+                      all = std::strtoull(field, &field, 10), mapped = std::strtoull(field, &field, 10);
+  return {all * page, mapped * page};
 }
 
 std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {

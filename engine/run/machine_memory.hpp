@@ -1,4 +1,4 @@
-// How much memory the process may have.
+// How much memory the process may have, and has.
 #pragma once
 
 #include <cstdint>
@@ -12,5 +12,12 @@ std::uint64_t machine_memory();
 // The least that the control groups of a process allow, of either version; 2^64 - 1: they set no limit.
 // `groups` is as /proc/self/cgroup, `root` as /sys/fs/cgroup.
 std::uint64_t group_memory(const std::filesystem::path& groups, const std::filesystem::path& root);
+
+// Bytes of the process that are in memory now; `mapped`: those of files, the program and its libraries included.
+// Zeros where the system does not say. Cost: one system call.
+struct ResidentMemory {
+  std::uint64_t all, mapped;
+};
+ResidentMemory resident_memory();
 
 }  // namespace lacuna

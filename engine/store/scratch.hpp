@@ -21,19 +21,34 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
+  // For what an algorithm keeps beside its arrays.
+  const std::filesystem::path& folder() const { return folder_; }
+  std::uint64_t budget() const { return budget_; }
+
   template <class T>
   std::span<T> array(std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T>);
     return {reinterpret_cast<T*>(allocate(count * sizeof(T))), count};
   }
 
-  // To be called now and then from loops over the arrays (every call is one decrement): gives part of
-  // the mapped pages back to the system while they are more than the budget. What they hold stays.
-  void trim() {
-    if (--trims_left_ == 0) release();
+  // To be called from loops over the arrays (most calls are one subtraction): gives mapped pages back to the
+  // system while they are more than the budget. Their contents stay. `bytes`: what the loop has passed since the
+  // last call where it goes along an array; else one access may map a window of pages.
+  void trim(std::uint64_t bytes = kWindow) {
+    if ((untrimmed_ += bytes) >= between_looks_) release();
+  }
+  // visit(element) for each in order.
+  template <class T, class Visit>
+  void for_each(std::span<T> array, Visit&& visit) {
+    for (T& element : array) {
+      trim(sizeof(T));
+      visit(element);
+    }
   }
 
  private:
+  static constexpr std::uint64_t kWindow = 64 << 10;
+
   struct Mapping {
     std::byte* address;
     std::size_t bytes;
@@ -44,9 +59,9 @@ class Scratch {
   std::filesystem::path folder_;
   std::uint64_t budget_;
   std::uint64_t in_memory_ = 0;
-  std::uint64_t mapped_before_ = 0;  // of other files: the program and its libraries
-  std::uint64_t next_part_ = 0;
-  std::uint64_t trims_left_;
+  std::uint64_t most_mapped_ = 0;  // by the process, before pages are given back
+  std::uint64_t untrimmed_ = 0;    // bytes that may have become resident since the last look
+  std::uint64_t between_looks_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::vector<Mapping> mappings_;
 };

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,8 @@ std::string at_byte(std::uint64_t offset) {
 }  // namespace
 
 ScratchFile::ScratchFile(std::filesystem::path path) : path_(std::move(path)) {
+  static std::mutex one_at_a_time;  // several threads may use the same name
+  const std::lock_guard lock(one_at_a_time);
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor_ < 0) fail_with(errno, path_, "create");
   ::unlink(path_.c_str());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -23,7 +24,7 @@ class SortedRuns {
 
  public:
   SortedRuns(std::filesystem::path path, std::uint64_t budget, Less less = {})
-      : column_(std::move(path)), capacity_(std::max(budget, kLeastBudget) / sizeof(Record)), less_(less) {}
+      : path_(std::move(path)), capacity_(std::max(budget, kLeastBudget) / sizeof(Record)), less_(less) {}
 
   void add(const Record& record) {
     if (buffer_.size() == capacity_) write_run();
@@ -69,7 +70,8 @@ class SortedRuns {
 
   void write_run() {
     std::sort(buffer_.begin(), buffer_.end(), less_);
-    const std::uint64_t begin = column_.append(buffer_);
+    if (!column_) column_.emplace(path_);
+    const std::uint64_t begin = column_->append(buffer_);
     runs_.push_back({begin, begin + buffer_.size()});
     buffer_.clear();
   }
@@ -79,11 +81,11 @@ class SortedRuns {
     std::vector<Record> merged;
     merged.reserve(block(most_fronts()));
     const auto write = [&] {
-      longer.back().end = column_.append(merged) + merged.size();
+      longer.back().end = column_->append(merged) + merged.size();
       merged.clear();
     };
     for (std::size_t i = 0; i < runs_.size(); i += most_fronts()) {
-      longer.push_back({column_.size(), 0});
+      longer.push_back({column_->size(), 0});
       merge(std::span(runs_).subspan(i, std::min(most_fronts(), runs_.size() - i)),
             [&](const Record& record) {
               merged.push_back(record);
@@ -96,7 +98,7 @@ class SortedRuns {
 
   bool refill(Front& front, std::size_t block) const {
     front.block.resize(std::min<std::uint64_t>(block, front.end - front.next));
-    column_.read(front.next, front.block);
+    column_->read(front.next, front.block);
     front.next += front.block.size();
     front.at = 0;
     return !front.block.empty();
@@ -122,8 +124,9 @@ class SortedRuns {
     }
   }
 
-  Column<Record> column_;
-  std::uint64_t capacity_;  // records
+  std::filesystem::path path_;
+  std::optional<Column<Record>> column_;  // from the first run on
+  std::uint64_t capacity_;                // records
   Less less_;
   std::vector<Record> buffer_;
   std::vector<Run> runs_;

@@ -1,12 +1,21 @@
 #include "engine/boundary/paper/loops.hpp"
 
 #include "engine/boundary/paper/cycles.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <vector>
 
 namespace lacuna {
 namespace {
+
+// A search starts here; in ascending id.
+struct Origin {
+  PointId id;
+  LocalIndex vertex;
+
+  friend bool operator<(const Origin& a, const Origin& b) { return a.id < b.id; }
+};
 
 class Search {
  public:
@@ -68,21 +77,19 @@ void find_loops(const SpanningGraph& graph, Scratch& scratch,
                 const std::function<void(std::span<const LocalIndex>)>& report) {
   const SpanningGraph cycles = keep_cycles(graph, scratch);
   if (cycles.indices.empty()) return;
-  std::vector<LocalIndex> origins;
+  SortedRuns<Origin> origins(scratch.folder() / "origins", scratch.budget() / 4);
   for (LocalIndex v = 0; v < graph.size(); ++v) {
     scratch.trim();
-    if (!cycles[v].empty()) origins.push_back(v);
+    if (!cycles[v].empty()) origins.add({graph.ids[v], v});
   }
-  std::sort(origins.begin(), origins.end(),
-            [&](LocalIndex a, LocalIndex b) { return graph.ids[a] < graph.ids[b]; });
   Search search(cycles, scratch);
   const auto on_loop = scratch.array<std::uint8_t>(graph.size());
-  for (const LocalIndex origin : origins) {
-    if (on_loop[origin]) continue;
-    const std::span<const LocalIndex> loop = search.loop_through(origin);
+  origins.for_each([&](const Origin& origin) {
+    if (on_loop[origin.vertex]) return;
+    const std::span<const LocalIndex> loop = search.loop_through(origin.vertex);
     for (const LocalIndex v : loop) on_loop[v] = 1;
     if (!loop.empty()) report(loop);
-  }
+  });
 }
 
 }  // namespace lacuna

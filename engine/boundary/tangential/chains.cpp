@@ -1,5 +1,6 @@
 #include "engine/boundary/tangential/chains.hpp"
 
+#include "engine/store/scratch.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -51,35 +52,59 @@ class Partners {
   bool is_second_ = false;
 };
 
-void append_points(const OpenChain& chain, bool forwards, const Column<CurvePoint>& points,
-                   std::vector<CurvePoint>& curve) {
-  const auto begin = static_cast<std::ptrdiff_t>(curve.size());
-  curve.resize(curve.size() + chain.count);
-  points.read(chain.first, std::span(curve).last(chain.count));
-  if (!forwards) std::reverse(curve.begin() + begin, curve.end());
+void read_points(const OpenChain& chain, bool forwards, const Column<CurvePoint>& points,
+                 std::span<CurvePoint> to) {
+  points.read(chain.first, to);
+  if (!forwards) std::reverse(to.begin(), to.end());
 }
 
-// `is_done`: by chain, zeros.
-void follow_chains(std::span<const OpenChain> chains, std::span<const LocalIndex> partners,
-                   std::span<std::uint8_t> is_done, const Column<CurvePoint>& points, Scratch* scratch,
-                   const std::function<void(std::vector<CurvePoint>&)>& visit) {
-  std::vector<CurvePoint> curve;
-  for (LocalIndex start = 0; start < chains.size(); ++start) {
-    if (is_done[start]) continue;
-    curve.clear();
-    for (LocalIndex entered = 2 * start; !is_done[entered / 2]; entered = partners[entered ^ 1]) {
-      if (scratch != nullptr) scratch->trim();
-      is_done[entered / 2] = 1;
-      append_points(chains[entered / 2], entered % 2 == 0, points, curve);
+// Follows chains to curves. `is_done`: by chain, zeros.
+class ChainFollower {
+ public:
+  ChainFollower(std::span<const OpenChain> chains, std::span<const LocalIndex> partners,
+                std::span<std::uint8_t> is_done, Scratch& scratch)
+      : chains_(chains), partners_(partners), is_done_(is_done), scratch_(scratch) {}
+
+  void for_each_curve(const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+                      std::uint64_t budget, const VisitCurve& visit) {
+    for (LocalIndex start = 0; start < chains_.size(); ++start) {
+      if (is_done_[start]) continue;
+      std::uint64_t count = 0;
+      for_each_chain_from(start, [&](const OpenChain& chain, bool) { count += chain.count; });
+      Scratch scratch(workspace, budget);
+      const std::span<CurvePoint> curve = scratch.array<CurvePoint>(count);
+      std::span<CurvePoint> left = curve;
+      for_each_chain_from(start, [&](const OpenChain& chain, bool forwards) {
+        scratch.trim(chain.count * sizeof(CurvePoint));
+        read_points(chain, forwards, points, left.first(chain.count));
+        left = left.subspan(chain.count);
+        is_done_[static_cast<std::size_t>(&chain - chains_.data())] = 1;
+      });
+      visit(curve, scratch);
     }
-    visit(curve);
   }
-}
+
+ private:
+  template <class VisitChain>
+  void for_each_chain_from(LocalIndex start, VisitChain&& visit) {
+    LocalIndex entered = 2 * start;
+    do {
+      scratch_.trim();
+      visit(chains_[entered / 2], entered % 2 == 0);
+      entered = partners_[entered ^ 1];
+    } while (entered / 2 != start);
+  }
+
+  std::span<const OpenChain> chains_;
+  std::span<const LocalIndex> partners_;
+  std::span<std::uint8_t> is_done_;
+  Scratch& scratch_;
+};
 
 }  // namespace
 
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::function<void(std::vector<CurvePoint>&)>& visit) {
+                  const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit) {
   std::vector<NumberedEnd> ends;
   ends.reserve(2 * chains.size());
   for (LocalIndex c = 0; c < chains.size(); ++c)
@@ -89,14 +114,15 @@ void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& p
   Partners join(partners);
   for (const NumberedEnd& end : ends) join.add(end);
   std::vector<std::uint8_t> is_done(chains.size());
-  follow_chains(chains, partners, is_done, points, nullptr, visit);
+  Scratch none(workspace, budget);
+  ChainFollower(chains, partners, is_done, none).for_each_curve(points, workspace, budget, visit);
 }
 
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const Job& job,
-                       const std::function<void(std::vector<CurvePoint>&)>& visit) {
-  Scratch scratch(job.workspace, job.memory.global / 4);
-  SortedRuns<NumberedEnd> ends(job.file("chain-ends"), job.memory.global / 4);
+                       const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+                       std::uint64_t budget, const VisitCurve& visit) {
+  Scratch scratch(workspace, budget);
+  SortedRuns<NumberedEnd> ends(workspace / "chain-ends", budget);
   const std::span<OpenChain> chains = scratch.array<OpenChain>(count);
   LocalIndex number = 0;
   for_each_chain([&](const OpenChain& chain) {
@@ -110,7 +136,8 @@ void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, s
     scratch.trim();
     join.add(end);
   });
-  follow_chains(chains, partners, scratch.array<std::uint8_t>(count), points, &scratch, visit);
+  ChainFollower(chains, partners, scratch.array<std::uint8_t>(count), scratch)
+      .for_each_curve(points, workspace, budget, visit);
 }
 
 }  // namespace lacuna

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "engine/boundary/tangential/curves.hpp"
-#include "engine/run/job.hpp"
 #include "engine/stitch/stitch.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <vector>
@@ -26,14 +26,18 @@ struct OpenChain {
   std::array<ChainEnd, 2> ends;  // of its first and of its last point
 };
 
-// visit(curve) for each closed curve of whole components. Starts and directions depend on the order of
-// `chains`. Cost: linear, and a sort of the chains' ends.
+// For each closed curve of whole components, with arrays of its own.
+using VisitCurve = std::function<void(std::span<const CurvePoint>, Scratch&)>;
+
+// Starts and directions of curves depend on the order of `chains`. Memory: `budget` bytes for the arrays of a
+// curve, and files of the workspace beyond that. Cost: linear, and a sort of the chains' ends.
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::function<void(std::vector<CurvePoint>&)>& visit);
+                  const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit);
 
 // The same for a component whose chains do not fit in memory: sorted on disk and followed in mapped arrays.
+// Memory: three times the budget.
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const Job& job,
-                       const std::function<void(std::vector<CurvePoint>&)>& visit);
+                       const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+                       std::uint64_t budget, const VisitCurve& visit);
 
 }  // namespace lacuna

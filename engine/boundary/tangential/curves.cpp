@@ -1,6 +1,7 @@
 #include "engine/boundary/tangential/curves.hpp"
 
 #include "engine/store/row_numbers.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -13,6 +14,21 @@ namespace {
 // Place i of the curve as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
   return forwards ? (start + i) % count : (start + count - i) % count;
+}
+
+// The rows that a curve passes more than once, ascending.
+std::span<const Row> repeated_rows(std::span<const CurvePoint> curve, Scratch& scratch) {
+  SortedRuns<Row> rows(scratch.folder() / "curve-rows", scratch.budget() / 4);
+  scratch.for_each(curve, [&](const CurvePoint& p) { rows.add(p.vertex.row); });
+  const std::span<Row> repeated = scratch.array<Row>(curve.size() / 2);
+  std::size_t count = 0;
+  std::optional<Row> before;
+  rows.for_each([&](Row row) {
+    scratch.trim(sizeof(Row));
+    if (before == row && (count == 0 || repeated[count - 1] != row)) repeated[count++] = row;
+    before = row;
+  });
+  return repeated.first(count);
 }
 
 }  // namespace
@@ -72,80 +88,78 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
   }
 }
 
-void normalise(std::vector<CurvePoint>& curve) {
+void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch) {
   struct Way {
     std::size_t start;
     bool forwards;
   };
   const std::size_t count = curve.size();
-  const auto id = [&](const Way& way, std::size_t i) {
-    return curve[place(way.start, i, way.forwards, count)].vertex.id;
+  const auto at = [&](const Way& way, std::size_t i) -> const CurvePoint& {
+    scratch.trim(sizeof(CurvePoint));
+    return curve[place(way.start, i, way.forwards, count)];
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (id(a, i) != id(b, i)) return id(a, i) < id(b, i);
+      const PointId of_a = at(a, i).vertex.id, of_b = at(b, i).vertex.id;
+      if (of_a != of_b) return of_a < of_b;
     }
     return false;
   };
   PointId least = curve.front().vertex.id;
-  for (const CurvePoint& p : curve) least = std::min(least, p.vertex.id);
+  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.vertex.id); });
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
-    if (curve[start].vertex.id != least) continue;
+    if (at({start, true}, 0).vertex.id != least) continue;
     for (const bool forwards : {true, false}) {
       const Way way{start, forwards};
       if (!best || comes_first(way, *best)) best = way;
     }
   }
-  std::vector<CurvePoint> turned;
-  turned.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) turned.push_back(curve[place(best->start, i, best->forwards, count)]);
-  curve = std::move(turned);
+  for (std::size_t i = 0; i < count; ++i) turned[i] = at(*best, i);
 }
 
-std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> curve) {
-  std::vector<Row> rows;  // then: those that the curve passes again
-  for (const CurvePoint& p : curve) rows.push_back(p.vertex.row);
-  std::sort(rows.begin(), rows.end());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    if (rows[i] == rows[i + 1] && (count == 0 || rows[count - 1] != rows[i])) rows[count++] = rows[i];
+void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
+                      const std::function<void(std::span<const CurvePoint>)>& visit) {
+  const std::span<CurvePoint> whole = scratch.array<CurvePoint>(curve.size());
+  normalise(curve, whole, scratch);
+  const std::span<const Row> repeated = repeated_rows(curve, scratch);
+  if (repeated.empty()) {
+    visit(whole);
+    return;
   }
-  rows.resize(count);
-  std::vector<std::vector<CurvePoint>> curves;
-  if (rows.empty()) {
-    curves.push_back(std::move(curve));
-    return curves;
-  }
-  constexpr std::size_t kNone = SIZE_MAX;
-  std::vector<std::size_t> places(rows.size(), kNone);  // on the path
-  const auto place_of = [&](const CurvePoint& p) -> std::size_t* {
-    const auto at = std::lower_bound(rows.begin(), rows.end(), p.vertex.row);
-    return at != rows.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - rows.begin())]
-                                                   : nullptr;
+  // Of the repeated rows, 1 + the place on the path; 0: not on it.
+  const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
+  const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
+    const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.vertex.row);
+    return at != repeated.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - repeated.begin())]
+                                                       : nullptr;
   };
-  std::vector<CurvePoint> path;
-  for (const CurvePoint& p : curve) {
-    std::size_t* const place = place_of(p);
-    if (place != nullptr && *place != kNone) {
-      const auto back = path.begin() + static_cast<std::ptrdiff_t>(*place);
-      curves.emplace_back(back, path.end());
-      for (const CurvePoint& left : curves.back()) {
-        if (std::size_t* const of_left = place_of(left); of_left != nullptr) *of_left = kNone;
-      }
-      path.erase(back, path.end());
-    }
-    if (place != nullptr) *place = path.size();
-    path.push_back(p);
-  }
-  curves.push_back(std::move(path));
-  for (std::vector<CurvePoint>& curve : curves) normalise(curve);
-  return curves;
+  const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
+                              turned = scratch.array<CurvePoint>(curve.size());
+  std::uint32_t size = 0;  // of the path
+  const auto split_off = [&](std::uint32_t begin) {
+    const auto part = path.subspan(begin, size - begin);
+    normalise(part, turned, scratch);
+    visit(turned.first(part.size()));
+    scratch.for_each(part, [&](const CurvePoint& p) {
+      scratch.trim();
+      if (std::uint32_t* const place = place_of(p); place != nullptr) *place = 0;
+    });
+    size = begin;
+  };
+  scratch.for_each(whole, [&](const CurvePoint& p) {
+    scratch.trim();
+    std::uint32_t* const place = place_of(p);
+    if (place != nullptr && *place != 0) split_off(*place - 1);
+    path[size++] = p;
+    if (place != nullptr) *place = size;
+  });
+  split_off(0);
 }
 
-double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config) {
+double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch) {
   double sum = 0;
-  for (const CurvePoint& p : curve) sum += std::min(p.excess / config.clear_excess, 1.0);
+  scratch.for_each(curve, [&](const CurvePoint& p) { sum += std::min(p.excess / config.clear_excess, 1.0); });
   return sum / (static_cast<double>(curve.size()) + config.doubt);
 }
 

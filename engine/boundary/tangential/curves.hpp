@@ -3,6 +3,7 @@
 
 #include "engine/boundary/tangential/wedge.hpp"
 #include "engine/config.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <array>
 #include <cstdint>
@@ -38,18 +39,19 @@ struct WedgeChain {
 void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
                    const std::function<void(const WedgeChain&)>& visit);
 
-// Turns a closed curve so that it starts at its smallest id and goes on to that one's smaller neighbour (of
-// several such ways, the one whose ids come first).
-void normalise(std::vector<CurvePoint>& curve);
+// Turned so that the curve starts at its smallest id and goes on to that one's smaller neighbour (of several such
+// ways, the one whose ids come first).
+void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch);
 
-// A curve passes a point twice where two holes touch. Splits it into curves that pass each point once: when
-// it comes back to a point, the part in between is a curve. It must be normalised; the curves are, too.
-std::vector<std::vector<CurvePoint>> split_at_pinches(std::vector<CurvePoint> curve);
+// visit(curve): a curve passes a point twice where two holes touch, and is split there into curves that pass
+// each point once. When it comes back to a point, the part in between is a curve. All are normalised.
+void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
+                      const std::function<void(std::span<const CurvePoint>)>& visit);
 
 // How sure it is that the curve bounds a hole, in [0, 1]. Where a scan happens to be thin, a larger ball fits at
 // few points of the curve. A point counts in proportion to its excess radius, fully from `clear_excess` on.
 // Returns the mean of that over the points and `doubt` more that have none: a few points may have an excess by
 // chance. The sum is in the order of the curve.
-double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config);
+double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
 
 }  // namespace lacuna

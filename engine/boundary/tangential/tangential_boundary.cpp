@@ -19,20 +19,6 @@ constexpr std::uint64_t kBytesPerWedge = 120;
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
-// The loops along a closed curve.
-void add_loops(std::vector<CurvePoint>& curve, const TangentialConfig& config, RawLoops& loops) {
-  const auto least = static_cast<std::size_t>(config.min_curve);
-  if (curve.size() < least) return;
-  normalise(curve);
-  for (const std::vector<CurvePoint>& simple : split_at_pinches(std::move(curve))) {
-    if (simple.size() < least) continue;
-    std::vector<Vertex> loop;
-    loop.reserve(simple.size());
-    for (const CurvePoint& p : simple) loop.push_back(p.vertex);
-    loops.add(loop, confidence(simple, config));
-  }
-}
-
 // Wedges of one point, which are next to each other, connect the chains that they are on.
 void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of, UnionFind connected) {
   for (std::size_t i = 1; i < wedges.size(); ++i) {
@@ -48,6 +34,8 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
       tiling_(store.tiling()),
       stars_(store, job),
       chain_points_(job.file("chain-points")),
+      workspace_(job.workspace),
+      curve_budget_(job.memory.global / 8 / job.arena.threads()),
       config_(job.config.tangential) {}
 
 void TangentialBoundary::take(const EvaluatedTile& tile) {
@@ -60,6 +48,19 @@ std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
   stars_.wedges.drop(t);
   merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
   return wedges;
+}
+
+// The loops along a closed curve.
+void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scratch& scratch, RawLoops& loops) const {
+  const auto least = static_cast<std::size_t>(config_.min_curve);
+  if (curve.size() < least) return;
+  split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
+    if (simple.size() < least) return;
+    loops.add(simple.size(), confidence(simple, config_, scratch), [&](std::uint64_t i) {
+      scratch.trim(sizeof(CurvePoint));
+      return simple[i].vertex;
+    });
+  });
 }
 
 // Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
@@ -77,7 +78,8 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
       points.push_back({wedges[w].point, wedges[w].excess});
     }
     if (chain.is_closed) {
-      add_loops(points, config_, found.loops);
+      Scratch scratch(workspace_, curve_budget_);
+      add_loops(points, scratch, found.loops);
       return;
     }
     const auto end = [&](LocalIndex w, std::size_t side) {
@@ -99,6 +101,7 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   FoundLoops found{.loops = RawLoops(job.file("raw-loops"), job.config.selection.min_confidence)};
   Phase phase(job, "loops", 0);
   exchange_borders(stars_, tiling_, job);
+  job.trim();
 
   const std::size_t tiles = tiling_.tiles.size();
   std::vector<std::uint64_t> needs(tiles);
@@ -107,11 +110,13 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t t) {
     chain_tile(static_cast<TileIndex>(t), stitch, found);
   });
-  const auto add = [&](std::vector<CurvePoint>& curve) { add_loops(curve, config_, found.loops); };
+  const auto add = [&](auto curve, Scratch& scratch) { add_loops(curve, scratch, found.loops); };
   stitch.for_each_component(
-      [&](std::span<const OpenChain> chains) { close_chains(chains, chain_points_, add); },
+      [&](std::span<const OpenChain> chains) {
+        close_chains(chains, chain_points_, workspace_, curve_budget_, add);
+      },
       [&](const auto& for_each_chain, std::uint64_t count) {
-        close_many_chains(for_each_chain, count, chain_points_, job, add);
+        close_many_chains(for_each_chain, count, chain_points_, workspace_, job.memory.global / 4, add);
       });
   found.components = stitch.components();
   found.loops.sort();

@@ -27,11 +27,14 @@ class TangentialBoundary final : public BoundaryMethod {
 
  private:
   std::vector<Wedge> wedges_of(TileIndex tile);
+  void add_loops(std::span<const CurvePoint> curve, Scratch& scratch, RawLoops& loops) const;
   void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, FoundLoops& found);
 
   const Tiling& tiling_;
   StarLists stars_;
   Column<CurvePoint> chain_points_;  // of open chains
+  std::filesystem::path workspace_;
+  std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
   const TangentialConfig& config_;
 };
 
