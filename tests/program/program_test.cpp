@@ -1,10 +1,10 @@
 #include "engine/config.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/sheet.hpp"
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -19,24 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
-
-// A wavy sheet of n by n points with a square hole in its middle.
-std::string sheet(int n) {
-  std::ostringstream out;
-  out << "x y z\n";
-  const int from = n / 2 - n / 8;
-  const int to = n / 2 + n / 8;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const bool in_hole = from <= i && i < to && from <= j && j < to;
-      if (!in_hole) out << i + 0.1 * ((i * 7 + j * 3) % 5) << ' ' << j + 0.1 * ((i + j * 5) % 7) << " 0\n";
-    }
-  }
-  return out.str();
-}
+using test::sheet;
 
 void check_failure(const ProgramResult& result, int exit_code, const std::string& named) {
   INFO(result.err);
@@ -44,10 +31,6 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   CHECK(result.out.empty());
   CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
   CHECK(test::count_lines(result.err) == 1);
-}
-
-std::size_t count_entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
 }
 
 TEST_CASE("help is for everything and version is one line") {
