@@ -74,8 +74,10 @@ def mebibytes(amount):
     return f"{amount / 2**20:,.0f}" if amount else "-"
 
 
-def gibibytes(amount):
-    return f"{amount / 2**30:.3g} GiB" if amount else "-"
+def limit_in_words(amount):
+    if not amount:
+        return "-"
+    return f"{amount / 2**30:.3g} GiB" if amount >= 2**30 else f"{mebibytes(amount)} MiB"
 
 
 def print_medians(configurations):
@@ -114,7 +116,7 @@ def print_readme(configurations):
         total = seconds(phases)
         pcl = times_of("pcl", key, configurations)
         name = KINDS.get(key.positions) or REAL.get(key.case, key.case)
-        print(f"| {name} | {key.points / 1e6:.1f} M | {key.order} | {gibibytes(key.limit)} | {total:#.3g} | "
+        print(f"| {name} | {key.points / 1e6:.1f} M | {key.order} | {limit_in_words(key.limit)} | {total:#.3g} | "
               f"{key.points / total / 1e6:.2f} | {mebibytes(peak(phases))} | {f'{pcl / total:.1f}' if pcl else '-'} |")
 
 
