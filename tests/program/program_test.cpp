@@ -33,6 +33,17 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   CHECK(test::count_lines(result.err) == 1);
 }
 
+TEST_CASE("a run counts its loops in words") {
+  const ScratchFolder scratch;
+  const auto summary_of = [&](const char* kind) {
+    const std::string scan = (scratch / (std::string(kind) + ".ply")).string();
+    run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
+    return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
+  };
+  CHECK_THAT(summary_of("plane"), Contains("\n1 hole, 1 outer boundary\n"));
+  CHECK_THAT(summary_of("torus"), Contains("\n1 hole, 0 outer boundaries\n"));
+}
+
 TEST_CASE("help is for everything and version is one line") {
   CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
   CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info") && Contains("synth"));
