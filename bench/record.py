@@ -7,7 +7,7 @@ import json
 import os
 import re
 
-COLUMNS = ["case", "points", "order", "program", "threads", "memory_limit", "run", "phase", "seconds",
+COLUMNS = ["case", "points", "positions", "order", "program", "threads", "memory_limit", "run", "phase", "seconds",
            "points_per_second", "bytes_per_second", "peak_bytes"]
 
 
@@ -26,10 +26,10 @@ def read_report(report_file):
             report["peak_memory_bytes"], 0.0)
 
 
-def read_told(told_file):
+def read_printed(printed_file):
     """The same of a peer, from the lines that it prints, and the seconds that are not to be counted. It has no
     limit and does not know its peak."""
-    with open(told_file, encoding="utf-8") as lines:
+    with open(printed_file, encoding="utf-8") as lines:
         values = dict(line.split() for line in lines)
     phases = {name: float(values[name]) for name in ("load", "normals", "boundary")}
     return int(values["points"]), "", phases, "", float(values["untimed"])
@@ -37,12 +37,13 @@ def read_told(told_file):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    for name in ("csv", "case", "order", "program", "threads", "run", "scan", "begin", "end", "time", "told", "report"):
+    for name in ("csv", "case", "positions", "order", "program", "threads", "run", "scan", "begin", "end", "time",
+                 "printed", "report"):
         parser.add_argument("--" + name, required=True)
     given = parser.parse_args()
 
     is_peer = given.program not in ("lacuna", "against")
-    points, memory_limit, phases, peak, untimed = read_told(given.told) if is_peer else read_report(given.report)
+    points, memory_limit, phases, peak, untimed = read_printed(given.printed) if is_peer else read_report(given.report)
     total = float(given.end) - float(given.begin) - untimed
     rows = [(name, seconds, peak) for name, seconds in phases.items()]
     rows.append(("rest", max(total - sum(phases.values()), 0), ""))  # starting, writing the results, ending
@@ -56,8 +57,8 @@ def main():
             writer.writerow(COLUMNS)
         for phase, seconds, peak_bytes in rows:
             rates = [round(amount / seconds) if seconds > 0 else "" for amount in (points, scan_bytes)]
-            writer.writerow([given.case, points, given.order, given.program, given.threads, memory_limit, given.run,
-                             phase, f"{seconds:.6f}", *rates, peak_bytes])
+            writer.writerow([given.case, points, given.positions, given.order, given.program, given.threads,
+                             memory_limit, given.run, phase, f"{seconds:.6f}", *rates, peak_bytes])
 
 
 main()

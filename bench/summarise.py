@@ -1,27 +1,49 @@
 #!/usr/bin/env python3
-"""Medians of the runs in a file of results: as tables, or as gnuplot's data."""
+"""Medians of the runs in files of results: as tables, as the table of the README, or as gnuplot's data."""
 
 import csv
 import statistics
 import sys
+from dataclasses import dataclass, replace
+
+LEAST_POINTS = 100_000  # of the README's scans: smaller ones last milliseconds
+KINDS = {"jittered": "jittered grid", "random": "uniformly random"}
+REAL = {"dragon_30scans_793k": "dragon, 30 raw scans", "balm_23scans_1.7M": "BALM, 23 lidar scans",
+        "vol_total": "aerial survey"}
 
 
-def read(file):
-    """Of every configuration (case, points, order, program, threads, memory limit), in the order of the
-    file: by phase, the values of all runs as (seconds, peak bytes or None)."""
+@dataclass(frozen=True)
+class Configuration:
+    case: str
+    points: int
+    positions: str  # "file" for a real scan
+    order: str
+    program: str
+    threads: int
+    limit: int  # bytes of memory; 0: none
+
+
+def read(files):
+    """Of every configuration, in the order of the files: by phase, the values of all runs as (seconds, peak bytes
+    or None)."""
     configurations = {}
-    with open(file, encoding="utf-8", newline="") as lines:
-        for row in csv.DictReader(lines):
-            key = (row["case"], int(row["points"]), row["order"], row["program"], int(row["threads"]),
-                   int(row["memory_limit"] or 0))
-            phases = configurations.setdefault(key, {})
-            peak = int(row["peak_bytes"]) if row["peak_bytes"] else None
-            phases.setdefault(row["phase"], []).append((float(row["seconds"]), peak))
+    for file in files:
+        with open(file, encoding="utf-8", newline="") as lines:
+            for row in csv.DictReader(lines):
+                key = Configuration(row["case"], int(row["points"]), row["positions"], row["order"], row["program"],
+                                    int(row["threads"]), int(row["memory_limit"] or 0))
+                phases = configurations.setdefault(key, {})
+                peak = int(row["peak_bytes"]) if row["peak_bytes"] else None
+                phases.setdefault(row["phase"], []).append((float(row["seconds"]), peak))
     return configurations
 
 
 def seconds(phases, phase="total"):
     return statistics.median(value for value, _ in phases[phase])
+
+
+def peak(phases):
+    return max(value for _, value in phases["total"])
 
 
 def spread(phases):
@@ -30,10 +52,21 @@ def spread(phases):
     return 100 * (max(totals) / min(totals) - 1)
 
 
-def print_table(rows):
+def times_of(program, key, configurations):
+    """Seconds of a program on the scan of another configuration; with the most memory, where it ran with several
+    limits. None if it did not run."""
+    # Peers count only points with finite coordinates.
+    wanted = replace(key, program=program, limit=0, points=0)
+    found = [(other.limit, seconds(phases)) for other, phases in configurations.items()
+             if replace(other, limit=0, points=0) == wanted]
+    return max(found)[1] if found else None
+
+
+def print_table(rows, left):
+    """`left`: how many columns are of text."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     for row in rows:
-        print("  ".join(cell.ljust(width) if i < 3 else cell.rjust(width)
+        print("  ".join(cell.ljust(width) if i < left else cell.rjust(width)
                         for i, (cell, width) in enumerate(zip(row, widths))).rstrip())
 
 
@@ -41,60 +74,79 @@ def mebibytes(amount):
     return f"{amount / 2**20:,.0f}" if amount else "-"
 
 
+def limit_in_words(amount):
+    if not amount:
+        return "-"
+    return f"{amount / 2**30:.3g} GiB" if amount >= 2**30 else f"{mebibytes(amount)} MiB"
+
+
 def print_medians(configurations):
-    rows = [("case", "order", "program", "points", "threads", "limit MiB", "runs", "seconds", "M points/s",
+    rows = [("case", "positions", "order", "program", "points", "threads", "limit MiB", "runs", "seconds", "M points/s",
              "spread %", "peak MiB", "x lacuna")]
     for key, phases in configurations.items():
-        case, points, order, program, threads, limit = key
         total = seconds(phases)
-        # With the most memory, where it ran with several limits.
-        ours = [(name[5], seconds(other)) for name, other in configurations.items()
-                if name[0] == case and name[2:5] == (order, "lacuna", threads)]
-        rows.append((case, order, program, f"{points:,}", str(threads), mebibytes(limit), str(len(phases["total"])),
-                     f"{total:.3f}", f"{points / total / 1e6:.3f}", f"{spread(phases):.0f}",
-                     mebibytes(max(peak for _, peak in phases["total"])),
-                     "" if program == "lacuna" or not ours else f"{total / max(ours)[1]:.2f}"))
-    print_table(rows)
+        ours = None if key.program == "lacuna" else times_of("lacuna", key, configurations)
+        rows.append((key.case, key.positions, key.order, key.program, f"{key.points:,}", str(key.threads),
+                     mebibytes(key.limit), str(len(phases["total"])), f"{total:.3f}", f"{key.points / total / 1e6:.3f}",
+                     f"{spread(phases):.0f}", mebibytes(peak(phases)), f"{total / ours:.2f}" if ours else ""))
+    print_table(rows, 4)
 
 
 def print_phases(configurations):
     print("\nNanoseconds per point, by phase:")
-    for program in dict.fromkeys(key[3] for key in configurations):
-        chosen = {key: phases for key, phases in configurations.items() if key[3] == program}
+    for program in dict.fromkeys(key.program for key in configurations):
+        chosen = {key: phases for key, phases in configurations.items() if key.program == program}
         names = list(dict.fromkeys(name for phases in chosen.values() for name in phases))
         print()
-        rows = [("case", "order", "program", "threads", "limit MiB", *names)]
-        for (case, points, order, _, threads, limit), phases in chosen.items():
-            rows.append((case, order, program, str(threads), mebibytes(limit),
-                         *(f"{1e9 * seconds(phases, name) / points:.1f}" if name in phases else "-" for name in names)))
-        print_table(rows)
+        rows = [("case", "positions", "order", "program", "threads", "limit MiB", *names)]
+        for key, phases in chosen.items():
+            rows.append((key.case, key.positions, key.order, program, str(key.threads), mebibytes(key.limit),
+                         *(f"{1e9 * seconds(phases, name) / key.points:.1f}" if name in phases else "-"
+                           for name in names)))
+        print_table(rows, 4)
+
+
+def print_readme(configurations):
+    """A row for each scan, order, number of threads and limit; made scans by size, then real ones as they come."""
+    print("| scan | points | order | memory limit | seconds | M points/s | peak MiB | times as fast as PCL |")
+    print("|---|---|---|---|---|---|---|---|")
+    ours = [key for key in configurations if key.program == "lacuna" and key.points >= LEAST_POINTS]
+    for key in sorted(ours, key=lambda key: key.positions == "file"):
+        phases = configurations[key]
+        total = seconds(phases)
+        pcl = times_of("pcl", key, configurations)
+        name = KINDS.get(key.positions) or REAL.get(key.case, key.case)
+        print(f"| {name} | {key.points / 1e6:.1f} M | {key.order} | {limit_in_words(key.limit)} | {total:#.3g} | "
+              f"{key.points / total / 1e6:.2f} | {mebibytes(peak(phases))} | {f'{pcl / total:.1f}' if pcl else '-'} |")
 
 
 def print_plot(configurations):
     """A block per line: its title, then points and points per second. Real scans are no sizes of one thing,
     so they are in no line."""
     lines = {}
-    synthetic = {key: phases for key, phases in configurations.items() if key[2] != "file"}
-    several_threads = len({key[4] for key in synthetic}) > 1
-    several_limits = len({key[5] for key in synthetic if key[5]}) > 1
-    for (_, points, order, program, threads, limit), phases in synthetic.items():
-        title = f"{program}, {order}"
+    synthetic = {key: phases for key, phases in configurations.items() if key.positions != "file"}
+    several_threads = len({key.threads for key in synthetic}) > 1
+    several_limits = len({key.limit for key in synthetic if key.limit}) > 1
+    for key, phases in synthetic.items():
+        title = f"{key.program}, {KINDS[key.positions]}, {key.order} order"
         if several_threads:
-            title += f", {threads} threads"
-        if several_limits and limit:
-            title += f", {mebibytes(limit)} MiB"
-        lines.setdefault(title, []).append((points, points / seconds(phases)))
+            title += f", {key.threads} threads"
+        if several_limits and key.limit:
+            title += f", {mebibytes(key.limit)} MiB"
+        lines.setdefault(title, []).append((key.points, key.points / seconds(phases)))
     if lines:
         print("\n\n\n".join("\n".join([f'"{title}"', *(f"{x} {y:.0f}" for x, y in sorted(values))])
                             for title, values in lines.items()))
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in ("table", "plot"):
-        sys.exit("usage: summarise.py table|plot RESULTS.csv")
-    configurations = read(sys.argv[2])
+    if len(sys.argv) < 3 or sys.argv[1] not in ("table", "readme", "plot"):
+        sys.exit("usage: summarise.py table|readme|plot RESULTS.csv...")
+    configurations = read(sys.argv[2:])
     if sys.argv[1] == "plot":
         print_plot(configurations)
+    elif sys.argv[1] == "readme":
+        print_readme(configurations)
     else:
         print_medians(configurations)
         print_phases(configurations)

@@ -8,14 +8,16 @@ usage() {
 usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
 
 Builds a release, makes the scans, runs the programs in turns, each twice of which once to warm up, and writes
-bench/results/DATE.csv with a table of medians (DATE.txt) and a plot (DATE.svg).
+bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg).
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
+  --positions LIST      near a grid or anywhere: jittered, random     default "jittered random"
   --orders LIST         of the points in the file: scanline, random   default "scanline random"
   --threads LIST        default: one per core
   --memory-limit LIST   as for lacuna: 1GiB; or default               default "default"
   --runs N              that count; as many warm up                   default 5
-  --real                the real scans in ../shared/data too
+  --real                the real scans, too
+  --data DIR            where they are                                default ../shared/data
   --peers               PCL and Open3D too (installs about 1 GB of packages)
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
   --timeout SECONDS     for one run; what takes longer is left out    default 3600
@@ -31,11 +33,13 @@ END
 # ---- what was asked for
 
 points=(1 4)
+positions=(jittered random)
 orders=(scanline random)
 threads=("$(nproc)")
 memory_limit=(default)
 runs=5
 real=0
+data=$root/../shared/data
 peers=0
 peer_points=4
 timeout=3600
@@ -48,6 +52,9 @@ parse_options "$@"
 
 for size in "${points[@]}" "$peer_points"; do
   [[ $size =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "\"$size\" is not a number of million points" 2
+done
+for kind in "${positions[@]}"; do
+  [[ $kind == jittered || $kind == random ]] || fail "positions \"$kind\": must be jittered or random" 2
 done
 for order in "${orders[@]}"; do
   [[ $order == scanline || $order == random ]] || fail "order \"$order\": must be scanline or random" 2
@@ -100,22 +107,22 @@ csv=$stem.csv
 
 # Sets `scan` to the file of a synthetic scan, made unless it is there.
 make_scan() {
-  local millions=$1 order=$2 count
+  local millions=$1 kind=$2 order=$3 count
   count=$(awk -v m="$millions" 'BEGIN { printf "%.0f", m * 1e6 }')
-  scan=$work/waves-${millions}M-$order.ply
+  scan=$work/waves-${millions}M-$kind-positions-$order-order.ply
   [[ -e $scan ]] && return
-  "$lacuna" synth surface "$scan" --kind waves --density-factor 4 --points "$count" --order "$order" \
-    --holes "$((count / 10000 + 1))"
+  "$lacuna" synth surface "$scan" --kind waves --density-factor 4 --points "$count" --positions "$kind" \
+    --order "$order" --holes "$((count / 10000 + 1))"
 }
 
 at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
 
 # ---- runs
 
-cleanup() { rm -rf "$work/out" "$work/told" "$work/time" "$work/plot.dat"; }
+cleanup() { rm -rf "$work/out" "$work/printed" "$work/time" "$work/plot.dat"; }
 trap cleanup EXIT
 
-# One program on the current case (scan, case, order) with the current number of threads: its rows go to the
+# One program on the current case (scan, case, kind, order) with the current number of threads: its rows go to the
 # csv, but not those of run "warm-up".
 run_once() {
   local program=$1 limit=$2 run=$3 command begin end status=0
@@ -131,23 +138,23 @@ run_once() {
   esac
   rm -rf "$work/out"
   begin=$EPOCHREALTIME
-  /usr/bin/time -v -o "$work/time" timeout --foreground "$timeout" "${command[@]}" >"$work/told" || status=$?
+  /usr/bin/time -v -o "$work/time" timeout --foreground "$timeout" "${command[@]}" >"$work/printed" || status=$?
   end=$EPOCHREALTIME
   if ((status != 0)); then
-    cat "$work/told" >&2
+    cat "$work/printed" >&2
     ((status != 124)) || echo "bench.sh: more than $timeout seconds" >&2
     echo "bench.sh: ended with status $status: ${command[*]}" >&2
     return 1
   fi
   [[ $run != warm-up ]] || return 0
-  python3 bench/record.py --csv "$csv" --case "$case" --order "$order" --program "$program" \
-    --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
-    --time "$work/time" --told "$work/told" --report "$work/out/holes.json"
+  python3 bench/record.py --csv "$csv" --case "$case" --positions "$kind" --order "$order" \
+    --program "$program" --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
+    --time "$work/time" --printed "$work/printed" --report "$work/out/holes.json"
 }
 
 failures=()
 
-# All programs on one case in turns, A A B B A A B B, so that a slow minute of the machine meets all of them. The
+# All programs on one case in turns, A A B B A A B B, so that a slow minute of the machine is one of all. The
 # first run of a turn warms up: when a program of many gigabytes ends, a virtual machine gives them back to its
 # host, and whoever comes next would wait for every page. What fails on a case is left out of the rest of it.
 run_case() {
@@ -165,34 +172,37 @@ run_case() {
     for turn in "${turns[@]}"; do
       [[ -z ${failed[$turn]-} ]] || continue
       read -r program limit <<<"$turn"
-      echo "bench.sh: $case, $order, $thread_count threads: $program ($limit), run $run" >&2
+      echo "bench.sh: $case, $kind positions, $order order, $thread_count threads: $program ($limit), run $run" >&2
       run_once "$program" "$limit" warm-up && run_once "$program" "$limit" "$run" && continue
       failed[$turn]=yes
-      failures+=("$program ($limit) on $case, $order, $thread_count threads")
+      failures+=("$program ($limit) on $case, $kind positions, $order order, $thread_count threads")
     done
   done
 }
 
 for millions in "${points[@]}"; do
   for order in "${orders[@]}"; do
-    make_scan "$millions" "$order"
-    case=waves-${millions}M
-    for thread_count in "${threads[@]}"; do
-      run_case "$(at_most "$millions" "$peer_points" && echo 1 || echo 0)"
+    for kind in "${positions[@]}"; do
+      make_scan "$millions" "$kind" "$order"
+      case=waves-${millions}M
+      for thread_count in "${threads[@]}"; do
+        run_case "$(at_most "$millions" "$peer_points" && echo 1 || echo 0)"
+      done
     done
   done
 done
 
 if ((real)); then
-  order="file"
+  order=file
+  kind=file
   found=0
-  for scan in "$root"/../shared/data/*.ply; do
+  for scan in "$data"/*.ply; do
     [[ -e $scan ]] || continue
     found=1
     case=$(basename "$scan" .ply)
     for thread_count in "${threads[@]}"; do run_case 1; done
   done
-  ((found)) || echo "bench.sh: no scans in $root/../shared/data" >&2
+  ((found)) || echo "bench.sh: no scans in $data" >&2
 fi
 
 # ---- what came of it
@@ -208,6 +218,7 @@ fi
 } | tee "$stem.txt"
 
 if [[ -e $csv ]]; then
+  python3 bench/summarise.py readme "$csv" >"$stem.md"
   # Paths as arguments: they may hold what gnuplot takes for its own.
   python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
   [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"

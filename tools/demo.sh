@@ -14,6 +14,7 @@ cat <<END
 
 Look at it in CloudCompare or MeshLab:
   $PWD/demo/holes/points.ply    every point, with its boundary probability
+  $PWD/demo/holes/boundary.ply  the boundary points
   $PWD/demo/holes/loops.ply     the loops around the holes
 and at $PWD/demo/holes/holes.json for their measures.
 On a scan of your own:

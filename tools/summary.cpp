@@ -98,8 +98,8 @@ std::string print_loops(const Detection& detection) {
   return text;
 }
 
-std::string counted(std::size_t count, const std::string& word) {
-  return print_count(count) + " " + word + (count == 1 ? "" : "s");
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return print_count(count) + " " + (count == 1 ? one : several);
 }
 
 }  // namespace
@@ -114,8 +114,9 @@ std::string print_summary(const Detection& detection, const std::vector<std::fil
   std::string text = print_input(summary.counts, scans) + print_findings(summary) + "\n";
   text += print_times(summary, times);
   text += "  peak memory " + print_size(peak_memory()) + " of " + print_size(summary.memory_limit) + ", " +
-          counted(summary.threads, "thread") + "\n\n";
-  text += counted(holes, "hole") + ", " + counted(loops.size() - holes, "outer boundary") + "\n";
+          counted(summary.threads, "thread", "threads") + "\n\n";
+  text += counted(holes, "hole", "holes") + ", " +
+          counted(loops.size() - holes, "outer boundary", "outer boundaries") + "\n";
   if (!loops.empty()) text += print_loops(detection);
   return text + "\n";
 }

@@ -1,5 +1,6 @@
 #include "tools/synth_command.hpp"
 
+#include "engine/run/error.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/value_options.hpp"
@@ -25,6 +26,8 @@ constexpr std::array<Choice<SurfaceKind>, 7> kKinds{{{"plane", SurfaceKind::kPla
                                                      {"sphere-cap", SurfaceKind::kSphereCap},
                                                      {"sphere", SurfaceKind::kSphere},
                                                      {"cube", SurfaceKind::kCube}}};
+constexpr std::array<Choice<PositionKind>, 2> kPositions{
+    {{"jittered", PositionKind::kJittered}, {"random", PositionKind::kRandom}}};
 constexpr std::array<Choice<SceneKind>, 3> kScenes{
     {{"room", SceneKind::kRoom}, {"court", SceneKind::kCourt}, {"hall", SceneKind::kHall}}};
 constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, {"random", Order::kRandom}}};
@@ -65,9 +68,13 @@ void add_surface(CLI::App& synth) {
                  "smallest and largest radius of a hole, spacings, from 1.5 on")
       ->type_name("MIN MAX")
       ->default_str("4 12");
-  app.add_option("--jitter", o.jitter,
-                 "how far a point may be off its grid node, fraction of the spacing, 0 to 0.5")
-      ->capture_default_str();
+  add_choice(app, "--positions", kPositions, o.positions,
+             "near the nodes of a grid, or anywhere on the surface with the same density")
+      ->default_str("jittered");
+  const CLI::Option* const jitter =
+      app.add_option("--jitter", o.jitter,
+                     "how far a point may be off its grid node, fraction of the spacing, 0 to 0.5")
+          ->capture_default_str();
   app.add_option("--noise", o.noise, "Gaussian noise along the normal, standard deviation in spacings")
       ->capture_default_str();
   app.add_option(
@@ -79,7 +86,9 @@ void add_surface(CLI::App& synth) {
       ->capture_default_str();
   app.add_option("--truth", o.truth, "file of the true loops, 0-based point ids")
       ->default_str("OUT.loops.txt");
-  app.callback([options] {
+  app.callback([options, jitter] {
+    if (options->positions == PositionKind::kRandom && jitter->count() > 0)
+      throw Error("--jitter: random positions have no grid to be off; allowed with --positions jittered");
     const SurfaceSummary made = write_surface(*options);
     std::cout << visible(options->out.string()) << ": " << made.points << " points; "
               << visible(made.truth.string()) << ": " << made.loops << " true loops\n";

@@ -22,6 +22,7 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
+using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
@@ -42,10 +43,6 @@ std::string binary_ply(const Cloud& cloud) {
     for (const double coordinate : p) put(bytes, static_cast<float>(coordinate));
   }
   return bytes;
-}
-
-std::size_t count_entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
 }
 
 void check_failure(const ProgramResult& result, const std::string& named) {

@@ -1,10 +1,10 @@
 #include "engine/config.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/sheet.hpp"
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -19,24 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
-
-// A wavy sheet of n by n points with a square hole in its middle.
-std::string sheet(int n) {
-  std::ostringstream out;
-  out << "x y z\n";
-  const int from = n / 2 - n / 8;
-  const int to = n / 2 + n / 8;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const bool in_hole = from <= i && i < to && from <= j && j < to;
-      if (!in_hole) out << i + 0.1 * ((i * 7 + j * 3) % 5) << ' ' << j + 0.1 * ((i + j * 5) % 7) << " 0\n";
-    }
-  }
-  return out.str();
-}
+using test::sheet;
 
 void check_failure(const ProgramResult& result, int exit_code, const std::string& named) {
   INFO(result.err);
@@ -46,8 +33,15 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   CHECK(test::count_lines(result.err) == 1);
 }
 
-std::size_t count_entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
+TEST_CASE("a run counts its loops in words") {
+  const ScratchFolder scratch;
+  const auto summary_of = [&](const char* kind) {
+    const std::string scan = (scratch / (std::string(kind) + ".ply")).string();
+    run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
+    return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
+  };
+  CHECK_THAT(summary_of("plane"), Contains("\n1 hole, 1 outer boundary\n"));
+  CHECK_THAT(summary_of("torus"), Contains("\n1 hole, 0 outer boundaries\n"));
 }
 
 TEST_CASE("help is for everything and version is one line") {

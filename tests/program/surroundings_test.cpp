@@ -1,5 +1,6 @@
 // What the system, the terminal and other programs may do to a run.
 #include "tests/support/run_program.hpp"
+#include "tests/support/sheet.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -23,21 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
-
-std::string sheet(int n) {
-  std::string text;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) text += std::to_string(i) + ' ' + std::to_string(j + 0.3 * (i % 2)) + " 0\n";
-  }
-  return text;
-}
-
-std::size_t count_entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
-}
+using test::sheet;
 
 void check_failure(const ProgramResult& result, const std::string& named) {
   INFO(result.err);

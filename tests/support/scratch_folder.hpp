@@ -1,6 +1,7 @@
 // A folder of its own for a test, and files in it.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,6 +25,8 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
+
+std::size_t count_entries(const std::filesystem::path& folder);
 
 std::string read_file(const std::filesystem::path& file);
 

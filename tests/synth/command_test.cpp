@@ -48,6 +48,12 @@ TEST_CASE("the synth command makes what the options say") {
   CHECK(loops_of(out + ".txt") == loops_of(folder / "again.loops.txt"));
   CHECK(folder.names().size() == 4);
 
+  run("synth surface " + quoted(out) + " --points 10000 --holes 2 --positions random --truth " +
+      quoted(out + ".txt"));
+  options = {.out = options.out, .points = 10'000, .holes = 2, .positions = PositionKind::kRandom};
+  write_surface(options);
+  CHECK(read_file(out) == read_file(options.out));
+
   run("synth scan " + quoted(out) +
       " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20");
   CHECK(rows_of(out, 17).size() == Approx(5000).epsilon(0.1));
@@ -58,6 +64,10 @@ TEST_CASE("the synth command refuses an unknown kind with the kinds that there a
   const std::string out = (folder / "made.ply").string();
   CHECK_THROWS_WITH(run("synth surface " + quoted(out) + " --kind bottle"),
                     Catch::Contains("torus") && Catch::Contains("bottle"));
+  CHECK_THROWS_WITH(run("synth surface " + quoted(out) + " --positions near"),
+                    Catch::Contains("jittered, random"));
+  CHECK_THROWS_WITH(run("synth surface " + quoted(out) + " --positions random --jitter 0.1"),
+                    Catch::Contains("--jitter") && Catch::Contains("--positions jittered"));
   CHECK_THROWS_WITH(run("synth scan " + quoted(out) + " --scene moon"), Catch::Contains("court"));
   CHECK_THROWS_AS(run("synth scan " + quoted(out) + " --points many"), CLI::ParseError);
   CHECK(folder.names().empty());

@@ -24,13 +24,18 @@ long status_kilobytes(const std::string& field) {
 
 TEST_CASE("a surface of the same seed has the same bytes, of another seed other bytes") {
   const ScratchFolder folder;
-  check_seed(small_surface(folder), write_surface);
+  for (const PositionKind positions : kAllPositions) {
+    SurfaceOptions options = small_surface(folder);
+    options.positions = positions;
+    check_seed(options, write_surface);
+  }
 }
 
 TEST_CASE("a surface has the bytes that it had on the machine where this test was written") {
   const ScratchFolder folder;
-  const auto hash = [&](SurfaceKind kind, Order order) {
+  const auto hash = [&](SurfaceKind kind, Order order, PositionKind positions = PositionKind::kJittered) {
     SurfaceOptions options = small_surface(folder, kind);
+    options.positions = positions;
     options.order = order;
     options.noise = 0.2;
     options.density_factor = 3;
@@ -44,6 +49,9 @@ TEST_CASE("a surface has the bytes that it had on the machine where this test wa
   CHECK(hash(SurfaceKind::kSphereCap, Order::kScanline) == 0x4b9de0821496cf48u);
   CHECK(hash(SurfaceKind::kSphere, Order::kRandom) == 0xe52e054e9a81dc15u);
   CHECK(hash(SurfaceKind::kCube, Order::kScanline) == 0x7d417f894d909c2au);
+  CHECK(hash(SurfaceKind::kWaves, Order::kScanline, PositionKind::kRandom) == 0x7cd9b3d156d856bdu);
+  CHECK(hash(SurfaceKind::kTorus, Order::kRandom, PositionKind::kRandom) == 0x5bd12665ec7b503au);
+  CHECK(hash(SurfaceKind::kSphere, Order::kScanline, PositionKind::kRandom) == 0x31666ed3485e1f4bu);
 }
 
 TEST_CASE("a cube has as many points on each face, none beyond it and none in its edges") {
@@ -111,30 +119,32 @@ TEST_CASE("panels meet without a gap and without an overlap") {
 }
 
 TEST_CASE("past the density step there is the promised part of the points, and the holes are before it") {
-  for (const std::uint32_t step : {4u, 9u}) {
-    const ScratchFolder folder;
-    SurfaceOptions options = small_surface(folder);
-    options.density_step = step;
-    options.points = 40'000;
-    options.holes = 3;
-    write_surface(options);
-    const auto points = positions_of(options.out);
-    float width = 0;
-    for (const Position& p : points) width = std::max(width, p[0]);
-    const auto between = [&](double low, double high) {
-      return double(std::count_if(points.begin(), points.end(), [&](const Position& p) {
-        return p[0] > low * width && p[0] < high * width;
-      }));
-    };
-    CHECK(between(0.05, 0.45) / between(0.55, 0.95) == Approx(step).epsilon(0.05));
-    const auto loops = loops_of(options.truth);
-    CHECK(loops.size() == 4);
-    std::size_t past = 0;
-    for (const auto& loop : loops)
-      past += std::any_of(loop.begin(), loop.end(),
-                          [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
-    CHECK(past == 1);  // the rim
-  }
+  for (const PositionKind positions : kAllPositions)
+    for (const std::uint32_t step : {4u, 9u}) {
+      const ScratchFolder folder;
+      SurfaceOptions options = small_surface(folder);
+      options.positions = positions;
+      options.density_step = step;
+      options.points = 40'000;
+      options.holes = 3;
+      write_surface(options);
+      const auto points = positions_of(options.out);
+      float width = 0;
+      for (const Position& p : points) width = std::max(width, p[0]);
+      const auto between = [&](double low, double high) {
+        return double(std::count_if(points.begin(), points.end(), [&](const Position& p) {
+          return p[0] > low * width && p[0] < high * width;
+        }));
+      };
+      CHECK(between(0.05, 0.45) / between(0.55, 0.95) == Approx(step).epsilon(0.05));
+      const auto loops = loops_of(options.truth);
+      CHECK(loops.size() == 4);
+      std::size_t past = 0;
+      for (const auto& loop : loops)
+        past += std::any_of(loop.begin(), loop.end(),
+                            [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
+      CHECK(past == 1);  // the rim
+    }
 }
 
 TEST_CASE("the density factor is the ratio of the densities at two corners") {

@@ -10,32 +10,35 @@ using namespace lacuna;
 using namespace lacuna::synth;
 
 TEST_CASE("every planted hole and every rim is one closed true loop in canonical form") {
-  for (const SurfaceKind kind : kAllKinds)
-    for (const Order order : {Order::kScanline, Order::kRandom}) {
-      const ScratchFolder folder;
-      SurfaceOptions options = small_surface(folder, kind);
-      options.order = order;
-      const SurfaceSummary made = write_surface(options);
-      const auto points = positions_of(options.out);
-      const auto loops = loops_of(options.truth);
-      CHECK(points.size() == made.points);
-      CHECK(std::fabs(double(made.points) - 20'000) < 500);
-      REQUIRE(loops.size() == 5 + rims_of(kind));
-      CHECK(std::is_sorted(loops.begin(), loops.end()));
-      std::set<std::uint64_t> seen;
-      double widest = 0;
-      for (const auto& loop : loops) {
-        REQUIRE(loop.size() >= 8);
-        CHECK(*std::min_element(loop.begin(), loop.end()) == loop.front());
-        CHECK(loop[1] < loop.back());
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          REQUIRE(loop[i] < points.size());
-          CHECK(seen.insert(loop[i]).second);
-          widest = std::max(widest, distance(points[loop[i]], points[loop[(i + 1) % loop.size()]]));
-        }
+  const auto check = [](SurfaceKind kind, Order order, PositionKind positions) {
+    const ScratchFolder folder;
+    SurfaceOptions options = small_surface(folder, kind);
+    options.order = order;
+    options.positions = positions;
+    const SurfaceSummary made = write_surface(options);
+    const auto points = positions_of(options.out);
+    const auto loops = loops_of(options.truth);
+    CHECK(points.size() == made.points);
+    CHECK(std::fabs(double(made.points) - 20'000) < 500);
+    REQUIRE(loops.size() == 5 + rims_of(kind));
+    CHECK(std::is_sorted(loops.begin(), loops.end()));
+    std::set<std::uint64_t> seen;
+    double widest = 0;
+    for (const auto& loop : loops) {
+      REQUIRE(loop.size() >= 8);
+      CHECK(*std::min_element(loop.begin(), loop.end()) == loop.front());
+      CHECK(loop[1] < loop.back());
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        REQUIRE(loop[i] < points.size());
+        CHECK(seen.insert(loop[i]).second);
+        widest = std::max(widest, distance(points[loop[i]], points[loop[(i + 1) % loop.size()]]));
       }
-      CHECK(widest < 3 * options.spacing);
     }
+    CHECK(widest < (positions == PositionKind::kRandom ? 6 : 3) * options.spacing);
+  };
+  for (const SurfaceKind kind : kAllKinds)
+    for (const Order order : {Order::kScanline, Order::kRandom})
+      for (const PositionKind positions : kAllPositions) check(kind, order, positions);
 }
 
 TEST_CASE("the true loops are the edges with exactly one whole quad, all of them") {
@@ -127,30 +130,33 @@ TEST_CASE("many small holes give as many loops, none of which touch") {
   }
 }
 
-TEST_CASE("random order has the points of scanline order, in another order") {
-  const ScratchFolder folder;
-  SurfaceOptions options = small_surface(folder, SurfaceKind::kWaves);
-  write_surface(options);
-  auto in_scanlines = positions_of(options.out);
-  const auto loops_in_scanlines = loops_of(options.truth);
-  options.order = Order::kRandom;
-  write_surface(options);
-  auto at_random = positions_of(options.out);
-  CHECK(in_scanlines != at_random);
-
-  const auto lengths = [](const auto& loops, const std::vector<Position>& points) {
+TEST_CASE("random order has the points and the true loops of scanline order, in another order") {
+  const auto places_of = [](const SurfaceOptions& options) {
+    const auto points = positions_of(options.out);
     std::multiset<std::set<Position>> all;
-    for (const auto& loop : loops) {
+    for (const auto& loop : loops_of(options.truth)) {
       std::set<Position> places;
       for (const std::uint64_t id : loop) places.insert(points[id]);
       all.insert(places);
     }
     return all;
   };
-  CHECK(lengths(loops_in_scanlines, in_scanlines) == lengths(loops_of(options.truth), at_random));
-  std::sort(in_scanlines.begin(), in_scanlines.end());
-  std::sort(at_random.begin(), at_random.end());
-  CHECK(in_scanlines == at_random);
+  for (const PositionKind positions : kAllPositions) {
+    const ScratchFolder folder;
+    SurfaceOptions options = small_surface(folder, SurfaceKind::kWaves);
+    options.positions = positions;
+    write_surface(options);
+    auto in_scanlines = positions_of(options.out);
+    const auto loops_in_scanlines = places_of(options);
+    options.order = Order::kRandom;
+    write_surface(options);
+    auto at_random = positions_of(options.out);
+    CHECK(in_scanlines != at_random);
+    CHECK(loops_in_scanlines == places_of(options));
+    std::sort(in_scanlines.begin(), in_scanlines.end());
+    std::sort(at_random.begin(), at_random.end());
+    CHECK(in_scanlines == at_random);
+  }
 }
 
 TEST_CASE("a density step on closed surfaces leaves no further loops") {

@@ -3,6 +3,7 @@
 #include "engine/run/error.hpp"
 #include "tools/synth/trig.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -63,35 +64,39 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
     const auto [sin, cos] = sin_cos(0.5 * random.uniform(5 * hole + 2));
     const double along = 1 / (radius * radius * elongation);
     const double across = elongation / (radius * radius);
-    const double near = 1 + std::sqrt(2 * across);
     holes_.push_back({.row = top + random.uniform(5 * hole + 3, reach, cell_rows_ - reach),
                       .column = left + random.uniform(5 * hole + 4, reach, cell_columns_ - reach),
                       .a = along * cos * cos + across * sin * sin,
                       .b = (along - across) * sin * cos,
-                      .c = along * sin * sin + across * cos * cos,
-                      .near = near * near * 1.000001});
+                      .c = along * sin * sin + across * cos * cos});
   }
 }
 
-NodeState HoleField::state(std::uint32_t row, std::uint32_t column) const {
-  const std::uint32_t down = row / cell_rows_;
-  const std::uint32_t across = column % grid_.panel_columns() / cell_columns_;
-  if (down >= down_ || across >= across_) return NodeState::kSurface;
-  const std::size_t panel = column / grid_.panel_columns();
+// A hole is far from the edges of its cell, so it does not matter which of two cells a place between them
+// has.
+bool HoleField::takes(double row, double column) const {
+  const std::uint32_t down = static_cast<std::uint32_t>(std::max(row, 0.0)) / cell_rows_;
+  const auto from_left = static_cast<std::uint32_t>(std::max(column, 0.0));
+  const std::uint32_t across = from_left % grid_.panel_columns() / cell_columns_;
+  const std::size_t panel = from_left / grid_.panel_columns();
+  if (down >= down_ || across >= across_ || panel >= grid_.panels) return false;
   const std::int32_t index = hole_of_cell_[(panel * down_ + down) * across_ + across];
-  if (index < 0) return NodeState::kSurface;
-  const Ellipse& hole = holes_[static_cast<std::size_t>(index)];
-  const double form = hole.form(row, column);
-  if (form <= 1) return NodeState::kRemoved;
-  if (form > hole.near) return NodeState::kSurface;
-  for (std::int64_t top : {std::int64_t{row} - 1, std::int64_t{row}})
-    for (std::int64_t left : {std::int64_t{column} - 1, std::int64_t{column}})
-      if (!hole.quad_is_whole(top, left)) return NodeState::kOnLoop;
-  return NodeState::kSurface;
+  return index >= 0 && holes_[static_cast<std::size_t>(index)].form(row, column) <= 1;
+}
+
+Outline HoleField::outline(std::size_t hole) const {
+  const Ellipse& ellipse = holes_[hole];
+  // The sum of the squared half axes is the trace of the inverse form.
+  const double squares = (ellipse.a + ellipse.c) / (ellipse.a * ellipse.c - ellipse.b * ellipse.b);
+  return {kTwoPi * std::sqrt(0.5 * squares), [ellipse](double t) {
+            const auto [sin, cos] = sin_cos(t);
+            const double scale = 1 / std::sqrt(ellipse.form(ellipse.row + sin, ellipse.column + cos));
+            return Place{ellipse.row + scale * sin, ellipse.column + scale * cos};
+          }};
 }
 
 // From a node of the loop along its boundary edges, never back, until it is reached again.
-NodeLoop HoleField::trace(const Ellipse& hole) const {
+NumberLoop HoleField::trace(const Ellipse& hole) const {
   struct Step {
     int row, column;
   };
@@ -100,7 +105,7 @@ NodeLoop HoleField::trace(const Ellipse& hole) const {
   auto row0 = static_cast<std::int64_t>(std::floor(hole.row + 0.5));
   while (hole.takes(row0, column0)) --row0;
 
-  NodeLoop loop;
+  NumberLoop loop;
   std::int64_t row = row0, column = column0;
   std::size_t came = kSteps.size();
   do {
@@ -123,8 +128,8 @@ NodeLoop HoleField::trace(const Ellipse& hole) const {
   return loop;
 }
 
-std::vector<NodeLoop> HoleField::loops() const {
-  std::vector<NodeLoop> all;
+std::vector<NumberLoop> HoleField::loops() const {
+  std::vector<NumberLoop> all;
   all.reserve(holes_.size());
   for (const Ellipse& hole : holes_) all.push_back(trace(hole));
   return all;

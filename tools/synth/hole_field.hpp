@@ -1,39 +1,41 @@
-// The holes planted in a synthetic surface: which nodes of its grid they take, and their true loops.
+// The holes planted in a synthetic surface: which part of its grid they take, and their true loops.
 #pragma once
 
 #include "tools/synth/surface_grid.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace lacuna::synth {
 
-enum class NodeState { kSurface, kOnLoop, kRemoved };
-
 // Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it, so that
 // none comes near another, the rim, a density step or the edge of a panel.
 //
-// The surface is the quads whose four nodes exist; a loop is the closed chain of edges with exactly one such
-// quad. A hole has exactly one loop, which visits no node twice, because the nodes that it takes are those
-// inside a convex curve: a line through a node beside it has one of the node's quads on its far side, so no
-// node is left without a quad; and were a node's only quads two opposite ones, it would lie between two
-// removed nodes, so inside.
+// On a jittered grid, the surface is the quads whose four nodes exist; a loop is the closed chain of edges
+// with exactly one such quad. A hole has exactly one loop, which visits no node twice, because the nodes that
+// it takes are those inside a convex curve: a line through a node beside it has one of the node's quads on
+// its far side, so no node is left without a quad; and were a node's only quads two opposite ones, it would
+// lie between two removed nodes, so inside.
 class HoleField {
  public:
   // Throws `Error` when the holes do not fit.
   HoleField(const SurfaceGrid& grid, const SurfaceOptions& options);
 
-  NodeState state(std::uint32_t row, std::uint32_t column) const;
+  std::size_t size() const { return holes_.size(); }
+  bool takes(double row, double column) const;
+
+  // The hole's edge.
+  Outline outline(std::size_t hole) const;
 
   // One per hole, each closed, in the order of its edges.
-  std::vector<NodeLoop> loops() const;
+  std::vector<NumberLoop> loops() const;
 
  private:
   // a dx^2 + 2 b dx dy + c dy^2 <= 1, dx along the columns.
   struct Ellipse {
     double row, column;
     double a, b, c;
-    double near;  // the form's value within a diagonal of the ellipse: at most this
 
     double form(double at_row, double at_column) const {
       const double dx = at_column - column;
@@ -47,7 +49,7 @@ class HoleField {
       return !takes(top, left) && !takes(top, left + 1) && !takes(top + 1, left) && !takes(top + 1, left + 1);
     }
   };
-  NodeLoop trace(const Ellipse& hole) const;
+  NumberLoop trace(const Ellipse& hole) const;
 
   SurfaceGrid grid_;
   std::uint32_t cell_rows_ = 1, cell_columns_ = 1;  // nodes per cell

@@ -2,11 +2,14 @@
 
 #include "engine/run/error.hpp"
 #include "tools/synth/hole_field.hpp"
+#include "tools/synth/positions.hpp"
 #include "tools/synth/surface_shape.hpp"
 #include "tools/synth/truth_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace lacuna::synth {
@@ -48,32 +51,26 @@ void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
               " at coordinates of " + std::to_string(reach) + "; add --double");
 }
 
+// Places on the surface, with noise along its normal.
 class PointMaker {
  public:
   PointMaker(const SurfaceGrid& grid, const SurfaceOptions& options)
-      : grid_(grid),
-        shape_(grid, options),
-        jitter_(options.jitter),
+      : shape_(grid, options),
         noise_(options.noise * options.spacing),
         translate_{options.translate[0], options.translate[1], options.translate[2]},
-        place_(options.seed, 1),
         height_(options.seed, 2) {}
 
-  Vec3 at(std::uint32_t row, std::uint32_t column) const {
-    const std::uint64_t node = grid_.node(row, column);
-    const double jitter = grid_.thinned(column) ? jitter_ * grid_.stride : jitter_;
-    const SurfacePoint p = shape_.at(row + place_.uniform(2 * node, -jitter, jitter),
-                                     column + place_.uniform(2 * node + 1, -jitter, jitter));
+  Vec3 at(Place place, std::uint64_t number) const {
+    const SurfacePoint p = shape_.at(place.row, place.column);
     if (noise_ == 0) return p.position + translate_;
-    return p.position + noise_ * height_.normal(node) * p.normal + translate_;
+    return p.position + noise_ * height_.normal(number) * p.normal + translate_;
   }
 
  private:
-  const SurfaceGrid& grid_;
   SurfaceShape shape_;
-  double jitter_, noise_;
+  double noise_;
   Vec3 translate_;
-  Random place_, height_;
+  Random height_;
 };
 
 // How each file of true loops begins: an earlier one is recognised by it.
@@ -109,22 +106,17 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   const SurfaceGrid grid = lay_grid(options);
   check_precision(grid, options);
   const HoleField holes(grid, options);
+  const std::unique_ptr<Positions> positions = make_positions(grid, holes, options);
   const PointMaker points(grid, options);
-  const Permutation shuffled(grid.nodes(), options.seed);
+  const Permutation shuffled(positions->size(), options.seed);
+  TruthLoops truth(positions->true_loops());
 
-  std::vector<NodeLoop> loops = holes.loops();
-  for (NodeLoop& rim : rims(grid)) loops.push_back(std::move(rim));
-  TruthLoops truth(std::move(loops));
-
-  for (std::uint64_t turn = 0; turn < grid.nodes(); ++turn) {
-    const std::uint64_t node = options.order == Order::kRandom ? shuffled(turn) : turn;
-    const auto row = static_cast<std::uint32_t>(node / grid.columns);
-    const auto column = static_cast<std::uint32_t>(node % grid.columns);
-    if (!grid.exists(row, column)) continue;
-    const NodeState state = holes.state(row, column);
-    if (state == NodeState::kRemoved) continue;
-    if (state == NodeState::kOnLoop || grid.on_rim(row, column)) truth.note(node, ply.count());
-    ply.add(points.at(row, column));
+  for (std::uint64_t turn = 0; turn < positions->size(); ++turn) {
+    const std::uint64_t number = options.order == Order::kRandom ? shuffled(turn) : turn;
+    const std::optional<Place> place = positions->at(number);
+    if (!place) continue;
+    truth.note(number, ply.count());
+    ply.add(points.at(*place, number));
   }
 
   const auto in_ids = truth.in_ids();

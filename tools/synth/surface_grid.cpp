@@ -81,23 +81,49 @@ SurfaceGrid lay_grid(const SurfaceOptions& options) {
   return grid;
 }
 
-std::vector<NodeLoop> rims(const SurfaceGrid& grid) {
+std::vector<NumberLoop> rims(const SurfaceGrid& grid) {
   if (grid.wrap_rows) return {};
   const std::uint32_t bottom = grid.rows - 1;
   const std::uint32_t right = grid.columns - 1;
-  NodeLoop first, last;
+  NumberLoop first, last;
   for (std::uint32_t column = 0; column < grid.columns; ++column) {
     if (!grid.exists(0, column)) continue;
     first.push_back(grid.node(0, column));
     last.push_back(grid.node(bottom, column));
   }
   if (grid.wrap_columns) return {first, last};
-  NodeLoop around = first;
+  NumberLoop around = first;
   for (std::uint32_t row = 1; row < bottom; ++row)
     if (grid.exists(row, right)) around.push_back(grid.node(row, right));
   around.insert(around.end(), last.rbegin(), last.rend());
   for (std::uint32_t row = bottom - 1; row > 0; --row) around.push_back(grid.node(row, 0));
   return {around};
+}
+
+std::vector<Outline> outer_edges(const SurfaceGrid& grid) {
+  if (grid.wrap_rows) return {};
+  const double height = grid.rows - 1.0;
+  if (grid.wrap_columns) {
+    const double around = grid.columns;
+    return {{around,
+             [=](double t) {
+               return Place{0, t * around};
+             }},
+            {around, [=](double t) {
+               return Place{height, t * around};
+             }}};
+  }
+  const double width = grid.columns - 1.0;
+  const double around = 2 * (height + width);
+  // From the middle of the first row: no corner is cut in two.
+  return {{around, [=](double t) {
+             double way = t * around + 0.5 * width;
+             if (way >= around) way -= around;
+             if (way < width) return Place{0, way};
+             if (way < width + height) return Place{way - width, width};
+             if (way < 2 * width + height) return Place{height, 2 * width + height - way};
+             return Place{around - way, 0};
+           }}};
 }
 
 }  // namespace lacuna::synth

@@ -4,6 +4,7 @@
 #include "tools/synth/surface_options.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace lacuna::synth {
@@ -28,21 +29,31 @@ struct SurfaceGrid {
   bool exists(std::uint32_t row, std::uint32_t column) const {
     return !thinned(column) || (row % stride == 0 && (column - step_column) % stride == 0);
   }
-  bool on_rim(std::uint32_t row, std::uint32_t column) const {
-    return (!wrap_rows && (row == 0 || row + 1 == rows)) ||
-           (!wrap_columns && (column == 0 || column + 1 == columns));
-  }
 };
 
-using NodeLoop = std::vector<std::uint64_t>;
+// Between the nodes: fractions of rows and columns.
+struct Place {
+  double row = 0, column = 0;
+};
+
+// A closed curve in the plane of the grid, from 0 to 1.
+struct Outline {
+  double length = 0;  // nodes; of an ellipse a bound from above
+  std::function<Place(double)> at;
+};
+
+// The numbers of points, or of the nodes that they stand for, in the order of a closed loop.
+using NumberLoop = std::vector<std::uint64_t>;
 
 // A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that
 // is too few or too many.
 SurfaceGrid lay_grid(const SurfaceOptions& options);
 
 // The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus, a sphere
-// or a cube. Where the
-// density steps, fine and coarse quads meet without a gap.
-std::vector<NodeLoop> rims(const SurfaceGrid& grid);
+// or a cube. Where the density steps, fine and coarse quads meet without a gap.
+std::vector<NumberLoop> rims(const SurfaceGrid& grid);
+
+// The same as curves.
+std::vector<Outline> outer_edges(const SurfaceGrid& grid);
 
 }  // namespace lacuna::synth

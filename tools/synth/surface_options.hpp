@@ -11,6 +11,7 @@
 
 namespace lacuna::synth {
 
+enum class PositionKind { kJittered, kRandom };
 enum class SurfaceKind { kPlane, kWaves, kCylinder, kTorus, kSphereCap, kSphere, kCube };
 
 struct SurfaceOptions {
@@ -21,7 +22,8 @@ struct SurfaceOptions {
   double spacing = 0.01;                     // mean distance of grid neighbours, units of the scan
   std::uint64_t holes = 8;                   // none touches another or the rim
   std::array<double, 2> hole_radius{4, 12};  // spacings, [1.5, ..), smallest and largest
-  double jitter = 0.25;                      // of the local spacing, [0, 0.5]
+  PositionKind positions = PositionKind::kJittered;
+  double jitter = 0.25;                      // of the local spacing, [0, 0.5]; not of random positions
   double noise = 0;                          // along the normal, spacings, standard deviation
   std::uint32_t density_step = 1;            // 1, 4, 9, 16, ...: one half has 1/F of the density
   double density_factor = 1;                 // [1, 100]: densest over sparsest, changing smoothly

@@ -4,6 +4,7 @@
 #include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
+#include "tests/support/record.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
@@ -12,18 +13,14 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <malloc.h>
 #include <unistd.h>
 
 namespace lacuna {
 namespace {
 
+using test::heap_in_use;
+using test::Record;
 using test::ScratchFolder;
-
-struct Record {
-  std::uint64_t key, payload;
-  friend auto operator<=>(const Record&, const Record&) = default;
-};
 
 TEST_CASE("lists beyond the budget read back all that was appended, each its own") {
   const ScratchFolder folder;
@@ -92,12 +89,11 @@ TEST_CASE("appends from many threads lose nothing") {
 
 TEST_CASE("many lists on disk in many small pieces take no more memory than their budget and a table") {
   const ScratchFolder folder;
-  const auto in_use = [] { return ::mallinfo2().uordblks + ::mallinfo2().hblkhd; };
-  const std::size_t before = in_use();
+  const std::size_t before = heap_in_use();
   constexpr std::uint64_t kLists = 500, kRecords = 500'000;
   AppendLists<std::uint64_t> lists(folder / "lists", kLists, 0);
   for (std::uint64_t i = 0; i < kRecords; ++i) lists.append(i % kLists, i);
-  CHECK(in_use() - before < 160 << 10);
+  CHECK(heap_in_use() - before < 160 << 10);
   for (const std::size_t list : {0, 1, 499}) {
     const std::vector<std::uint64_t> read = lists.read(list);
     REQUIRE(read.size() == kRecords / kLists);

@@ -4,24 +4,21 @@
 #include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
+#include "tests/support/record.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <malloc.h>
 #include <unistd.h>
 
 namespace lacuna {
 namespace {
 
+using test::heap_in_use;
+using test::Record;
 using test::ScratchFolder;
-
-struct Record {
-  std::uint64_t key, payload;
-  friend auto operator<=>(const Record&, const Record&) = default;
-};
 
 constexpr std::size_t kRun = (64 << 10) / sizeof(Record);  // within the least budget
 
@@ -50,12 +47,11 @@ TEST_CASE("a sort of very many runs stays within its budget while it merges them
   SortedRuns<Record> sort(folder / "sort", 0);
   constexpr std::size_t kRuns = 500;
   Random random(1);
-  const auto in_use = [] { return ::mallinfo2().uordblks + ::mallinfo2().hblkhd; };
-  const std::size_t before = in_use();
+  const std::size_t before = heap_in_use();
   std::size_t most = 0, visited = 0;
   for (std::size_t i = 0; i < kRuns * kRun; ++i) sort.add({random.next(), i});
   sort.for_each([&](const Record&) {
-    if (visited++ % kRun == 0) most = std::max(most, in_use() - before);
+    if (visited++ % kRun == 0) most = std::max(most, heap_in_use() - before);
   });
   CHECK(visited == kRuns * kRun);
   CHECK(most < 100 << 10);  // 64 KiB, and where each run is

@@ -7,6 +7,8 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -88,6 +90,102 @@ TEST_CASE("points that come from several threads are in their tile once each, be
       expected.push_back(id);
     CHECK(ids == expected);
   }
+}
+
+// A point of cell c has x in [c, c + 1), so order in the store and place in space agree.
+std::vector<StoredPoint> points_of_cell(std::uint32_t cell, std::uint64_t count, std::uint64_t first_id) {
+  Random random(cell + 1);
+  std::vector<StoredPoint> points;
+  for (std::uint64_t i = 0; i < count; ++i)
+    points.push_back({cell + random.uniform(), random.uniform(), random.uniform(), PointId{first_id + i}});
+  return points;
+}
+
+using Values = std::vector<std::array<double, 4>>;
+
+// Coordinates and id of each point, in order.
+void append_values(Values& values, std::span<const StoredPoint> points) {
+  for (const StoredPoint& p : points) values.push_back({p.x, p.y, p.z, double(value(p.id))});
+}
+
+TEST_CASE("points come back in tile order, and in cell order within a tile, with their ids and coordinates") {
+  // By tile, the points of its cells. The second is longer than a part of for_each_point; the last is added
+  // behind the others. Of each tile but the last, one point is a copy.
+  const std::vector<std::vector<std::uint64_t>> cells_of_tile = {{40, 25}, {3000, 1, 2999}, {7}, {10, 2}};
+  const ScratchFolder folder;
+  std::vector<Tile> tiles;
+  std::vector<std::vector<Cell>> cells;
+  std::vector<std::vector<StoredPoint>> points;
+  Values expected;
+  std::uint64_t id = 100'000;  // ids fall while rows rise
+  std::uint32_t cell = 0;
+  for (const std::vector<std::uint64_t>& counts : cells_of_tile) {
+    cells.emplace_back();
+    points.emplace_back();
+    for (const std::uint64_t count : counts) {
+      const std::vector<StoredPoint> of_cell = points_of_cell(cell++, count, id -= count);
+      cells.back().push_back({.points = count});
+      for (const StoredPoint& p : of_cell) cells.back().back().box.extend(p.position());
+      points.back().insert(points.back().end(), of_cell.begin(), of_cell.end());
+    }
+    append_values(expected, points.back());
+    const std::uint64_t first = tiles.empty() ? 0 : value(tiles.back().first_row) + tiles.back().raw;
+    tiles.push_back({.first_row = Row{aligned_row(first)}, .raw = points.back().size() + 1});
+  }
+  tiles.pop_back();
+  TileStore store(folder / "", tiles, 4, Precision::kDouble, false, 1 << 16);
+  for (const TileIndex tile : {2, 0, 1}) {
+    store.put(tile, points[tile], {}, cells[tile]);
+    const Duplicate copy{PointId{tile}, LocalIndex{5}};
+    store.add_duplicates(tile, {&copy, 1});
+  }
+  CHECK(store.next_tile() == 3);
+  store.add_tile(points[3], {}, cells[3]);
+  store.seal();
+
+  const Tiling& tiling = store.tiling();
+  REQUIRE(tiling.check());
+  REQUIRE(tiling.cells.size() == cell);
+  CHECK(tiling.points() == expected.size());
+  Values by_tile, by_part, by_cell, by_run;
+  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
+    append_values(by_tile, store.points(tile));
+    store.for_each_point(tile, [&](const StoredPoint& p) { append_values(by_part, {&p, 1}); });
+    std::vector<PointId> copies;
+    store.for_each_duplicate(tile, [&](const Duplicate& d) {
+      copies.push_back(d.id);
+      CHECK(d.of == 5);
+    });
+    CHECK(copies == (tile < 3 ? std::vector{PointId{tile}} : std::vector<PointId>{}));
+  }
+  std::vector<std::uint32_t> all_cells;
+  for (std::uint32_t c = 0; c < cell; ++c) {
+    append_values(by_cell, store.cell(c));
+    all_cells.push_back(c);
+  }
+  CHECK(by_tile == expected);
+  CHECK(by_part == expected);
+  CHECK(by_cell == expected);
+
+  std::vector<StoredPoint> read;
+  std::vector<Row> rows;
+  store.read_cells(all_cells, read, rows);
+  append_values(by_run, read);
+  CHECK(by_run == expected);
+
+  store.read_cells(std::vector<std::uint32_t>{1, 2, 4, 7}, read, rows);
+  Values some, expected_some;
+  append_values(some, read);
+  std::vector<Row> expected_rows;
+  for (const std::uint32_t c : {1, 2, 4, 7}) {
+    append_values(expected_some, store.cell(c));
+    for (std::uint64_t i = 0; i < tiling.cells[c].points; ++i)
+      expected_rows.push_back(Row{value(tiling.cells[c].first_row) + i});
+  }
+  CHECK(some == expected_some);
+  CHECK(rows == expected_rows);
+  CHECK(tiling.cells[2].first_row == tiling.tiles[1].first_row);
+  CHECK(value(tiling.cells[4].first_row) == value(tiling.tiles[1].first_row) + 3001);
 }
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {

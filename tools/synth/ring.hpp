@@ -1,0 +1,16 @@
+// The points along a closed curve.
+#pragma once
+
+#include "tools/synth/surface_grid.hpp"
+
+#include <cstdint>
+#include <functional>
+
+namespace lacuna::synth {
+
+// The values of `nearest` as its argument goes around the outline, each once, in that order. A value that
+// comes back later keeps one visit, and the shorter way from one to the other is left out: at a corner, the
+// nearest points of both sides can be one point, and the point in the corner another.
+NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest);
+
+}  // namespace lacuna::synth
