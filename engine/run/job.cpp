@@ -42,6 +42,7 @@ Job::Job(const Config& config, std::filesystem::path workspace, Progress& progre
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 256, kMiB, 32 * kMiB)));
   ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 32, kMiB, 512 * kMiB)));
   ::mallopt(M_ARENA_MAX, static_cast<int>(std::min<std::size_t>(arena.threads(), 4)));
+  release_symbol_tables();
 }
 
 std::uint64_t Job::tile_bytes(std::uint64_t points) const {

@@ -20,4 +20,8 @@ struct ResidentMemory {
 };
 ResidentMemory resident_memory();
 
+// Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The system
+// reads them again if they are needed.
+void release_symbol_tables();
+
 }  // namespace lacuna

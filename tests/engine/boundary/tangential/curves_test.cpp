@@ -1,6 +1,10 @@
 #include "engine/boundary/tangential/curves.hpp"
 
+#include "tests/support/clouds.hpp"
+#include "tests/support/scratch_folder.hpp"
+
 #include <algorithm>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -40,6 +44,31 @@ std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids, const st
   for (std::size_t i = 0; i < ids.size(); ++i)
     curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, excess.empty() ? 0 : excess[i]});
   return curve;
+}
+
+// The results in memory, and in mapped arrays of no budget.
+std::vector<CurvePoint> normalised(const std::vector<CurvePoint>& curve) {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder.path(), 1 << 20);
+  std::vector<CurvePoint> turned(curve.size());
+  normalise(curve, turned, scratch);
+  return turned;
+}
+
+std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve, std::uint64_t budget = 1 << 20) {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder.path(), budget);
+  std::vector<std::vector<CurvePoint>> curves;
+  split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
+    curves.emplace_back(simple.begin(), simple.end());
+  });
+  return curves;
+}
+
+double confidence_of(const std::vector<CurvePoint>& curve, const TangentialConfig& config) {
+  const test::ScratchFolder folder;
+  Scratch scratch(folder.path(), 1 << 20);
+  return confidence(curve, config, scratch);
 }
 
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
@@ -113,30 +142,55 @@ TEST_CASE("no wedges: no curve") {
 TEST_CASE("a curve starts at its smallest id and goes on to the smaller neighbour") {
   for (const std::vector<std::uint64_t>& way :
        {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
-    std::vector<CurvePoint> curve = curve_of(way);
-    normalise(curve);
-    CHECK(ids(curve) == std::vector<std::uint64_t>{2, 5, 7, 9});
+    CHECK(ids(normalised(curve_of(way))) == std::vector<std::uint64_t>{2, 5, 7, 9});
   }
-  std::vector<CurvePoint> twice = curve_of({2, 8, 4, 2, 6, 5});  // the smallest id is passed twice
-  normalise(twice);
+  const std::vector<CurvePoint> twice = normalised(curve_of({2, 8, 4, 2, 6, 5}));  // passes the smallest id twice
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
 TEST_CASE("a curve is split where it passes a point again, into curves that pass each point once") {
-  const auto split = [](const std::vector<std::uint64_t>& curve) {
+  const auto parts = [](const std::vector<std::uint64_t>& curve) {
     std::vector<std::vector<std::uint64_t>> curves;
-    for (const auto& simple : split_at_pinches(curve_of(curve))) curves.push_back(ids(simple));
+    for (const auto& simple : split(curve_of(curve))) curves.push_back(ids(simple));
     return curves;
   };
   using Curves = std::vector<std::vector<std::uint64_t>>;
-  CHECK(split({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
-  CHECK(split({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
-  CHECK(split({1, 5, 4, 1, 2, 3}) == Curves{{1, 4, 5}, {1, 2, 3}});
-  CHECK(split({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
-  CHECK(split({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
-  const auto excesses = split_at_pinches(curve_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
+  CHECK(parts({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
+  CHECK(parts({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
+  CHECK(parts({1, 5, 4, 1, 2, 3}) == Curves{{1, 2, 3}, {1, 4, 5}});
+  CHECK(parts({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
+  CHECK(parts({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
+  const auto excesses = split(curve_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
   REQUIRE(excesses.size() == 2);
   CHECK(excesses[1][1].excess == 4);  // of the pass that stays on the curve
+}
+
+// Whatever the curve, its parts pass each point once and have all its points, the same in mapped arrays.
+TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
+  Random random(11);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, round < 50 ? 200 : 30'000)));
+    const auto points = static_cast<std::int64_t>(passed.size()) / random.whole(1, 8) + 3;
+    for (auto& p : passed) p = static_cast<std::uint64_t>(random.whole(0, points));
+    const std::vector<CurvePoint> curve = curve_of(passed);
+    const std::vector<std::vector<CurvePoint>> parts = split(curve);
+    std::vector<std::uint64_t> all;
+    std::size_t wrong = 0;
+    for (const auto& part : parts) {
+      const std::vector<std::uint64_t> of_part = ids(part);
+      wrong += std::set(of_part.begin(), of_part.end()).size() != of_part.size();
+      wrong += of_part != ids(normalised(part));
+      all.insert(all.end(), of_part.begin(), of_part.end());
+    }
+    std::sort(all.begin(), all.end());
+    std::sort(passed.begin(), passed.end());
+    CHECK(wrong == 0);
+    CHECK(all == passed);
+    const std::vector<std::vector<CurvePoint>> mapped = split(curve, 1);
+    const bool same = std::equal(parts.begin(), parts.end(), mapped.begin(), mapped.end(),
+                                 [](const auto& a, const auto& b) { return ids(a) == ids(b); });
+    CHECK(same);
+  }
 }
 
 TEST_CASE(
@@ -144,20 +198,20 @@ TEST_CASE(
   const TangentialConfig config{.clear_excess = 2, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
   const double points = 20 + 4;
-  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
-  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
-  CHECK(confidence(curve_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
-  CHECK(confidence(curve_of(twenty), config) == 0);
+  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
+  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
+  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
+  CHECK(confidence_of(curve_of(twenty), config) == 0);
   std::vector<float> half(20, 0);
   std::fill(half.begin(), half.begin() + 10, 3.0f);
-  CHECK(confidence(curve_of(twenty, half), config) == 10 / points);
+  CHECK(confidence_of(curve_of(twenty, half), config) == 10 / points);
 }
 
 TEST_CASE("the more points a curve has, the surer it is") {
   double before = 0;
   for (std::size_t count = 3; count < 40; ++count) {
     const double now =
-        confidence(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
+        confidence_of(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
     CHECK(now > before);
     before = now;
   }
