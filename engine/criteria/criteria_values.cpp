@@ -5,11 +5,13 @@
 #include "engine/criteria/criteria_values.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/criteria/angle-inl.hpp"
-#include "engine/criteria/halfdisc-inl.hpp"
 #include "engine/criteria/largest_gaps-inl.hpp"
-#include "engine/criteria/shape-inl.hpp"
+#include "engine/criteria/table-inl.hpp"
 // clang-format on
+
+#include "engine/criteria/criteria.hpp"
+
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
@@ -206,12 +208,12 @@ HWY_INLINE V round_to_step(V probability) {
   return (probability + shift) - shift;
 }
 
+template <std::size_t... kRow>
 void combine(const Slice& slice, const CriteriaParameters& parameters, const Surface<V>& surface,
-             CriteriaValues& values) {
-  const V criteria[3] = {angle_probability(surface), halfdisc_probability(surface),
-                         shape_probability(surface)};
+             CriteriaValues& values, std::index_sequence<kRow...>) {
+  const V criteria[] = {kTable[kRow].formula(surface)...};
   V sum = all<V>(0);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < kCriteria; ++i) {
     sum = sum + all<V>(parameters.shares[i]) * criteria[i];
     slice.set(values.criteria[i], criteria[i]);
   }
@@ -243,7 +245,9 @@ void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& pa
   find_largest_gaps(batch, planes, gaps);
   for (std::size_t i = 0; i < kSlices; ++i) surfaces[i].gap = gap_of(slice_of(batch, i), gaps);
   turn_at_creases(batch, parameters, estimated, planes, surfaces);
-  for (std::size_t i = 0; i < kSlices; ++i) combine(slice_of(batch, i), parameters, surfaces[i], values);
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    combine(slice_of(batch, i), parameters, surfaces[i], values, std::make_index_sequence<kCriteria>());
+  }
 }
 
 }  // namespace lacuna::HWY_NAMESPACE
@@ -256,6 +260,27 @@ HWY_EXPORT(evaluate_criteria);
 void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& parameters,
                        CriteriaValues& values) {
   HWY_DYNAMIC_DISPATCH(evaluate_criteria)(batch, parameters, values);
+}
+
+// The names are the same for each target.
+static_assert(HWY_NAMESPACE::kCriteria <= kMostCriteria);
+
+const std::vector<Criterion>& criteria() {
+  static const std::vector<Criterion> all = [] {
+    std::vector<Criterion> criteria;
+    for (const HWY_NAMESPACE::CriterionRow& row : HWY_NAMESPACE::kTable) {
+      const std::string name = row.name;
+      criteria.push_back({name, "weight_" + name, "scalar_" + name, row.default_weight, row.help});
+    }
+    return criteria;
+  }();
+  return all;
+}
+
+std::vector<double> default_weights() {
+  std::vector<double> weights;
+  for (const Criterion& criterion : criteria()) weights.push_back(criterion.default_weight);
+  return weights;
 }
 
 }  // namespace lacuna

@@ -1,5 +1,6 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
+#include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/halo/distance_bound.hpp"
 #include "engine/halo/eps_balls.hpp"
@@ -185,15 +186,16 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
     std::vector<HaloEdge>().swap(inbox);
     const Rows neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
-    const std::vector<Evaluation> evaluations =
-        evaluate(points, neighbourhoods, store.normals(index), job.config.normals, job.config.criteria);
+    std::vector<double> values(job.config.output.points ? points.owned * criteria().size() : 0);
+    const std::vector<Evaluation> evaluations = evaluate(points, neighbourhoods, store.normals(index),
+                                                         job.config.normals, job.config.criteria, values);
 
     std::vector<LocalIndex> candidates;
     const Totals sums =
         sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
     for (TileConsumer* const consumer : consumers)
-      consumer->take({index, tile, points, neighbourhoods, evaluations, candidates, is_border});
+      consumer->take({index, tile, points, neighbourhoods, evaluations, values, candidates, is_border});
     {
       const std::lock_guard lock(mutex);
       totals += sums;

@@ -8,6 +8,7 @@
 // triangles all points are active, which is what closes the rims.
 #pragma once
 
+#include "engine/config.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/points.hpp"
