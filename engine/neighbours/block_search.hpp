@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/model/neighbourhoods.hpp"
+#include "engine/neighbours/block_tree.hpp"
 #include "engine/neighbours/candidates.hpp"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,7 +24,6 @@ class BlockSearch {
  public:
   // Over distinct points, which must outlive it.
   BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids);
-  ~BlockSearch();
 
   // For each query of [first, last), in order: visit(query, neighbours) with the first k in neighbour order,
   // all where fewer exist. Not from several threads at once. Throws `Error` if a squared distance
@@ -69,8 +68,6 @@ class BlockSearch {
 
  private:
   static constexpr std::size_t kRun = 2 * kQueries;  // queries that are looked around together
-  struct Box;
-  struct Boxes;
   void find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
   void prepare(std::size_t neighbours);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
@@ -82,21 +79,18 @@ class BlockSearch {
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
   void find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);
-  void descend(LocalIndex query, std::size_t level, std::size_t group);
-  void meet(LocalIndex query, LocalIndex other);
+  void keep_if_near(LocalIndex query, LocalIndex other);
   void list_balls(LocalIndex first, LocalIndex last, double radius);
   void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
-  void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
   void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
   template <class Radius, class Visit>
   void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
   bool look_around(LocalIndex first, LocalIndex last, double radius);
-  bool set_origin(const Box& run, double radius);
+  bool set_origin(const BlockBox& run, double radius);
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const PointId> ids_;
-  std::vector<Block> blocks_;
-  std::vector<Boxes> levels_;  // of blocks, of groups of eight, of groups of these, ...
+  BlockTree tree_;
 
   double guess_ = 0;     // radius for the next query; 0: none yet
   double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
