@@ -78,7 +78,7 @@ struct SelectionConfig {
   double min_perimeter = 0.0;   // lengths in units of the scan
   double max_perimeter = 0.0;   // 0: no limit
   std::int64_t min_points = 0;
-  bool holes_only = false;  // no outer rims
+  bool holes_only = false;  // no outer boundaries
 };
 
 struct InputConfig {

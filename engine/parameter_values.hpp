@@ -13,7 +13,7 @@ namespace lacuna {
 
 bool in_range(const Parameter& parameter, double value);
 
-// As TOML: 1.0, never 1, since TOML tells real from whole numbers by the point.
+// As TOML: 1.0, never 1, since the point makes a number a real one in TOML.
 std::string print_number(double value);
 
 // A TOML basic string.

@@ -96,7 +96,7 @@ std::vector<Parameter> parameters(Config& config) {
       {"selection", "min_points", &selection.min_points, 0, 1e15, "a whole number from 0 to 10^15",
        "Loops with fewer points are not reported.", kNothing},
       {"selection", "holes_only", &selection.holes_only, 0, 1, "true or false",
-       "Report holes only, not the outer rims of open surfaces.", kNothing},
+       "Report holes only, not the outer boundaries of open surfaces.", kNothing},
 
       {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
        "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line.", kNothing},

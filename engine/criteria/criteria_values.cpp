@@ -25,10 +25,10 @@ HWY_INLINE Vector<V> vectors(double value) {
 
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
-// Sets the mean; returns exp(-d^2 / sigma^2)-weighted covariance as xx, yy, zz and xy, xz, yz, and whether
-// the nearest neighbour's weight can be told from nothing.
+// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz; and whether the weight of
+// the nearest neighbour is larger than nothing.
 struct Covariance {
-  Vector<V> diagonal, beside;
+  Vector<V> diagonal, off_diagonal;
   Mask counts_for_something;
 };
 
@@ -51,7 +51,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
   for (std::size_t i = 0; i < batch.rows; ++i) {
     const Vector<V> d = mean - slice.offset(i), weighted = d * slice.get(batch.weight[i]);
     c.diagonal = c.diagonal + Vector<V>{weighted.x * d.x, weighted.y * d.y, weighted.z * d.z};
-    c.beside = c.beside + Vector<V>{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
+    c.off_diagonal = c.off_diagonal + Vector<V>{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
   }
   return c;
 }
@@ -60,7 +60,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
 // smallest are so near each other that digits are lost.
 Mask eigen(const Covariance& c, Surface<V>& surface) {
   const V sum = (c.diagonal.x + c.diagonal.y) + c.diagonal.z;
-  const Vector<V> a = c.diagonal / sum, b = c.beside / sum;
+  const Vector<V> a = c.diagonal / sum, b = c.off_diagonal / sum;
 
   // With B = A - 1/3, the characteristic polynomial is x^3 - 3 m x - 2 q; x = 2 sqrt(m) cos(phi + 2 pi i /
   // 3).
@@ -102,7 +102,7 @@ void fit_ambiguous_planes(const Covariance& c, Surface<V>& surface) {
   };
   Each covariances[6], eigenvalues[3], normals[3], is_fitted;
   store(c.diagonal, covariances);
-  store(c.beside, covariances + 3);
+  store(c.off_diagonal, covariances + 3);
   store(surface.eigenvalues, eigenvalues);
   store(surface.normal, normals);
   hn::StoreU(hn::IfThenElseZero(surface.has_normal, all<V>(1)), d, is_fitted);
@@ -171,8 +171,8 @@ Crease find_crease(const Slice& slice, double threshold, Mask estimated, const S
   return crease;
 }
 
-// At a sharp crease the estimated normal halves the angle between the two faces, and the faces look like a
-// boundary; a quarter turn about the crease may show a surface on both sides (4.6).
+// At a sharp crease the estimated normal halves the angle between the two faces, which then resemble a
+// boundary. A quarter turn about the crease may show a surface on both sides (4.6).
 void turn_at_creases(const NeighbourBatch& batch, const CriteriaParameters& parameters,
                      const Mask (&estimated)[kSlices], TangentPlanes& planes,
                      Surface<V> (&surfaces)[kSlices]) {

@@ -19,10 +19,10 @@ constexpr double kRunGuess = 1.3;
 // Bounds are widened by more than rounding can have narrowed them.
 constexpr double kSlack = 1 + 1e-12;
 
-// Where runs extend farther than this, in units of the radius, single precision tells too little of them.
+// Where runs extend farther than this, in units of the radius, single precision has too few digits for them.
 constexpr double kLargestRun = 64;
 
-// Squared radii in between leave digits for all distances in sight.
+// Squared radii in between leave digits for all distances in the surroundings.
 constexpr double kLeastSquared = 1e-290, kMostSquared = 1e290;
 
 // So many candidates that most likely all neighbours are among them: more take longer to rank, fewer fail
@@ -61,11 +61,11 @@ void BlockSearch::prepare(std::size_t neighbours) {
     next_guess_[found] = (1 + std::sqrt(wanted_candidates(neighbours) / static_cast<double>(found))) / 2;
 }
 
-// visit(first, last): queries whose surroundings are in sight. Where the order of points jumps, fewer of them
-// are looked around together; of one alone there may be nothing in sight.
+// visit(first, last): queries that share surroundings. Where the order of points jumps, fewer queries share
+// them. The surroundings of one query alone may be empty.
 template <class Radius, class Visit>
 void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
-  if (!look_around(first, last, radius()) && last - first > 1) {
+  if (!find_surroundings(first, last, radius()) && last - first > 1) {
     const LocalIndex middle = first + (last - first) / 2;
     for_each_part(first, middle, radius, visit);
     for_each_part(middle, last, radius, visit);
@@ -80,7 +80,7 @@ void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
   for_each_part(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex query = begin; query < end; ++query) {
       list_candidates(query, end, lists_[query - run]);
-      if (in_sight_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
+      if (covered_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
     }
   });
 }
@@ -89,8 +89,8 @@ void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
 // radius at hand.
 void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateList& list) {
   constexpr int kAttempts = 4;
-  for (int attempt = 0; attempt < kAttempts && in_sight_ > 0; ++attempt) {
-    const double radius = std::min(guess_, in_sight_);
+  for (int attempt = 0; attempt < kAttempts && covered_ > 0; ++attempt) {
+    const double radius = std::min(guess_, covered_);
     list_within(query, radius, 0, list);
     if (list.count > kMostCandidates) {
       guess_ = 0.6 * radius;
@@ -100,7 +100,7 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
       return;
     } else {
       guess_ = 1.4 * radius;
-      if (guess_ > in_sight_) look_around(query, last, kRunGuess * guess_);
+      if (guess_ > covered_) find_surroundings(query, last, kRunGuess * guess_);
     }
   }
   list.count = 0;
@@ -113,22 +113,24 @@ void BlockSearch::narrow(CandidateList& list) {
   if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
   const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
   narrow_list(limit, neighbours_ + 1, list);
-  set_reach(list);
+  set_distance_bound(list);
 }
 
-// The points within the radius, by squared distances in sight that are `more` at most beyond it.
+// The points within the radius, and those whose scaled squared distance exceeds it by at most `more`.
 void BlockSearch::list_within(LocalIndex query, double radius, double more, CandidateList& list) {
-  float seen[3];
+  float at[3];
   for (int axis = 0; axis < 3; ++axis)
-    seen[axis] = static_cast<float>((positions_[query][axis] - sight_.origin[axis]) * sight_.scale);
-  const double scaled = radius * sight_.scale;
+    at[axis] =
+        static_cast<float>((positions_[query][axis] - surroundings_.origin[axis]) * surroundings_.scale);
+  const double scaled = radius * surroundings_.scale;
   const auto limit = static_cast<float>(scaled * scaled + more);
-  find_within(sight_, seen, limit, list);
-  set_reach(list);
+  find_within(surroundings_, at, limit, list);
+  set_distance_bound(list);
 }
 
-void BlockSearch::set_reach(CandidateList& list) const {
-  list.squared_distance_bound = (list.limit - sight_.margin) / (sight_.scale * sight_.scale);
+void BlockSearch::set_distance_bound(CandidateList& list) const {
+  list.squared_distance_bound =
+      (list.limit - surroundings_.margin) / (surroundings_.scale * surroundings_.scale);
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.
@@ -156,7 +158,7 @@ void BlockSearch::rank_lists(std::size_t count, std::size_t wanted, bool ends_at
                     rankings_[place / kQueries]);
 }
 
-// By the distances themselves, of listed candidates or of what a walk through the tree finds.
+// The exact fallback: distances in double precision, of listed candidates or of a walk through the tree.
 void BlockSearch::find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
   nearest_.clear();
   for (std::size_t i = 0; i < list.count; ++i) keep_if_near(query, list.points[i]);
@@ -200,7 +202,7 @@ void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
     for (LocalIndex query = begin; query < end; ++query) {
       CandidateList& list = lists_[query - first];
       list.count = kMostCandidates + 1;
-      if (in_sight_ > 0) list_within(query, radius, 2 * sight_.margin, list);
+      if (covered_ > 0) list_within(query, radius, 2 * surroundings_.margin, list);
       if (list.count <= kMostCandidates) most = std::max(most, list.count);
     }
   });
@@ -241,35 +243,35 @@ void BlockSearch::collect_point(LocalIndex query, LocalIndex other, double squar
 
 // Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many or
 // single precision does not do.
-bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) {
-  in_sight_ = 0;
-  sight_.count = 0;
+bool BlockSearch::find_surroundings(LocalIndex first, LocalIndex last, double radius) {
+  covered_ = 0;
+  surroundings_.count = 0;
   BlockBox run;
   for (LocalIndex q = first; q < last; ++q) run.extend(positions_[q]);
   const double squared_radius = radius * radius * kSlack;
   if (!(squared_radius > kLeastSquared && squared_radius < kMostSquared) || !set_origin(run, radius))
     return false;
-  if (!tree_.find_near(run, squared_radius, sight_)) return false;
-  tree_.look_closely(sight_);
-  in_sight_ = radius;
+  if (!tree_.find_near(run, squared_radius, surroundings_)) return false;
+  tree_.fill_surroundings(surroundings_);
+  covered_ = radius;
   return true;
 }
 
-// From where the queries of a run look, and how well they see. False if that is not well enough.
+// Sets origin, scale and margin of the surroundings. False where single precision has too few digits.
 bool BlockSearch::set_origin(const BlockBox& run, double radius) {
-  sight_.scale = std::ldexp(1.0, -std::ilogb(radius));
-  const double scaled = radius * sight_.scale;
+  surroundings_.scale = std::ldexp(1.0, -std::ilogb(radius));
+  const double scaled = radius * surroundings_.scale;
   double extent = 0;  // of the run, from the origin, along an axis
   for (int axis = 0; axis < 3; ++axis) {
-    sight_.origin[axis] = (run.low[axis] + run.high[axis]) / 2;
-    extent = std::max({extent, (run.high[axis] - sight_.origin[axis]) * sight_.scale,
-                       (sight_.origin[axis] - run.low[axis]) * sight_.scale});
+    surroundings_.origin[axis] = (run.low[axis] + run.high[axis]) / 2;
+    extent = std::max({extent, (run.high[axis] - surroundings_.origin[axis]) * surroundings_.scale,
+                       (surroundings_.origin[axis] - run.low[axis]) * surroundings_.scale});
   }
   // Rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
   // point at d from it: 2 u (extent + d) of each difference of coordinates, so 4 u (sqrt(3) extent d + d^2)
   // of the squares' sum, and 3 u d^2 of squaring and adding. That is below 7 u d (extent + d).
   constexpr double kRounding = 0x1p-24;
-  sight_.margin = 8 * kRounding * scaled * (extent + scaled);
+  surroundings_.margin = 8 * kRounding * scaled * (extent + scaled);
   return extent <= kLargestRun * scaled;
 }
 

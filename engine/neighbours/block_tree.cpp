@@ -62,14 +62,14 @@ BlockTree::BlockTree(std::span<const Eigen::Vector3d> positions)
   }
 }
 
-bool BlockTree::find_near(const BlockBox& box, double squared_radius, Sight& sight) const {
+bool BlockTree::find_near(const BlockBox& box, double squared_radius, Surroundings& surroundings) const {
   struct Place {
     std::size_t level, group;
   };
   std::array<Place, 128> stack;
   std::size_t depth = 0;
   stack[depth++] = {levels_.size() - 1, 0};
-  sight.count = 0;
+  surroundings.count = 0;
   while (depth > 0) {
     const auto [level, group] = stack[--depth];
     for (std::uint32_t within = levels_[level].within(group, box, squared_radius); within != 0;
@@ -79,16 +79,16 @@ bool BlockTree::find_near(const BlockBox& box, double squared_radius, Sight& sig
         stack[depth++] = {level - 1, index};
         continue;
       }
-      if (sight.count == kMostBlocks) return false;
-      sight.blocks[sight.count++] = static_cast<std::uint32_t>(index);
+      if (surroundings.count == kMostBlocks) return false;
+      surroundings.blocks[surroundings.count++] = static_cast<std::uint32_t>(index);
     }
   }
   return true;
 }
 
-void BlockTree::look_closely(Sight& sight) const {
+void BlockTree::fill_surroundings(Surroundings& surroundings) const {
   const Level::Sides boxes = levels_[0].sides(0);
-  lacuna::look_closely(blocks_.data(), boxes.lows, boxes.highs, sight);
+  lacuna::fill_surroundings(blocks_.data(), boxes.lows, boxes.highs, surroundings);
 }
 
 }  // namespace lacuna

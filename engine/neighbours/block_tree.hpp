@@ -36,11 +36,12 @@ class BlockTree {
  public:
   explicit BlockTree(std::span<const Eigen::Vector3d> positions);
 
-  // Sets `sight.blocks` to all blocks within the radius of a box. False where they are more than kMostBlocks.
-  bool find_near(const BlockBox& box, double squared_radius, Sight& sight) const;
+  // Sets `surroundings.blocks` to all blocks within the radius of a box. False where they are more than
+  // kMostBlocks.
+  bool find_near(const BlockBox& box, double squared_radius, Surroundings& surroundings) const;
 
-  // Fills the boxes and coordinates of the blocks in sight.
-  void look_closely(Sight& sight) const;
+  // Fills the boxes and coordinates of the blocks in `surroundings.blocks`.
+  void fill_surroundings(Surroundings& surroundings) const;
 
   // Calls visit(first, last) for the points of each block whose squared distance is at most bound(), mostly
   // the nearest block first. The bound may shrink on the way.
