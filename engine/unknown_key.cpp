@@ -92,7 +92,7 @@ std::string unknown_section(const std::vector<Parameter>& all, std::string_view 
   }
   const Parameter* parameter = find_key(all, name);
   const std::string hint = parameter ? " (" + belongs_in(*parameter) + ")" : "";
-  return "key " + quoted + " is outside of all sections" + hint + "; allowed: " + join(sections);
+  return "key " + quoted + " is outside of a section" + hint + "; allowed: " + join(sections);
 }
 
 }  // namespace lacuna
