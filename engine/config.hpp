@@ -3,6 +3,8 @@
 // and the printed config come from that list.
 #pragma once
 
+#include "engine/criteria/criteria.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -24,11 +26,9 @@ struct NormalsConfig {
 };
 
 struct CriteriaConfig {
-  double sigma = 1.0;         // sigma / r_p, > 0
-  double cone = 15.0;         // degrees around the normal line in which directions are not used, [0, 90)
-  double weight_angle = 1.0;  // weights are divided by their sum; >= 0, not all 0
-  double weight_halfdisc = 1.0;
-  double weight_shape = 1.0;
+  double sigma = 1.0;  // sigma / r_p, > 0
+  double cone = 15.0;  // degrees around the normal line in which directions are not used, [0, 90)
+  std::vector<double> weights = default_weights();  // in the order of the table; >= 0, not all 0
 };
 
 struct CoherenceConfig {
@@ -78,7 +78,7 @@ struct SelectionConfig {
   double min_perimeter = 0.0;   // lengths in units of the scan
   double max_perimeter = 0.0;   // 0: no limit
   std::int64_t min_points = 0;
-  bool holes_only = false;  // no outer rims
+  bool holes_only = false;  // no outer boundaries
 };
 
 struct InputConfig {

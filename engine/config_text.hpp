@@ -1,4 +1,4 @@
-// What a config file may look like, before toml++ reads it.
+// Checks of a config file before toml++ reads it.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+#include "engine/criteria/criteria.hpp"
 #include "engine/run/error.hpp"
 #include "io/ply_writer.hpp"
 #include "io/results.hpp"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -19,20 +21,21 @@ constexpr std::size_t kBlockRows = std::size_t{1} << 14;
 struct ResultColumn {
   std::string name;
   Scalar type;
-  const void* (*find)(const PointResult& result);
+  std::function<const void*(const PointResult& result)> find;
 };
 
 std::vector<ResultColumn> result_columns(bool with_normals) {
   using R = const PointResult&;
   using P = const void*;
   std::vector<ResultColumn> columns = {
-      {"scalar_probability", Scalar::kFloat32, [](R r) -> P { return &r.probability; }},
-      {"scalar_angle", Scalar::kFloat32, [](R r) -> P { return &r.angle; }},
-      {"scalar_halfdisc", Scalar::kFloat32, [](R r) -> P { return &r.halfdisc; }},
-      {"scalar_shape", Scalar::kFloat32, [](R r) -> P { return &r.shape; }},
-      {"scalar_boundary", Scalar::kUint8, [](R r) -> P { return &r.boundary; }},
-      {"scalar_coherent", Scalar::kUint8, [](R r) -> P { return &r.coherent; }},
-      {"scalar_loop", Scalar::kInt32, [](R r) -> P { return &r.loop; }}};
+      {"scalar_probability", Scalar::kFloat32, [](R r) -> P { return &r.probability; }}};
+  for (const Criterion& criterion : criteria()) {
+    const std::size_t i = columns.size() - 1;
+    columns.push_back({criterion.column, Scalar::kFloat32, [i](R r) -> P { return &r.criteria[i]; }});
+  }
+  columns.push_back({"scalar_boundary", Scalar::kUint8, [](R r) -> P { return &r.boundary; }});
+  columns.push_back({"scalar_coherent", Scalar::kUint8, [](R r) -> P { return &r.coherent; }});
+  columns.push_back({"scalar_loop", Scalar::kInt32, [](R r) -> P { return &r.loop; }});
   if (with_normals) {
     columns.push_back({"nx", Scalar::kFloat32, [](R r) -> P { return &r.normal.x(); }});
     columns.push_back({"ny", Scalar::kFloat32, [](R r) -> P { return &r.normal.y(); }});
@@ -119,13 +122,14 @@ class RowStream {
 
 void copy_results(std::span<const PointResult> results, const std::vector<ResultColumn>& columns,
                   const RowLayout& to, std::byte* out) {
+  if (results.empty()) return;
   const std::size_t before = to.properties.size() - columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::size_t bytes = size_of(columns[i].type);
-    std::byte* place = out + to.properties[before + i].offset;
-    for (const PointResult& result : results) {
-      std::memcpy(place, columns[i].find(result), bytes);
-      place += to.stride;
+    std::byte* const place = out + to.properties[before + i].offset;
+    const auto* from = static_cast<const std::byte*>(columns[i].find(results.front()));
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      std::memcpy(place + row * to.stride, from + row * sizeof(PointResult), bytes);
     }
   }
 }

@@ -5,11 +5,13 @@
 #include "engine/criteria/criteria_values.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/criteria/angle-inl.hpp"
-#include "engine/criteria/halfdisc-inl.hpp"
 #include "engine/criteria/largest_gaps-inl.hpp"
-#include "engine/criteria/shape-inl.hpp"
+#include "engine/criteria/table-inl.hpp"
 // clang-format on
+
+#include "engine/criteria/criteria.hpp"
+
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
@@ -23,10 +25,10 @@ HWY_INLINE Vector<V> vectors(double value) {
 
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
-// Sets the mean; returns exp(-d^2 / sigma^2)-weighted covariance as xx, yy, zz and xy, xz, yz, and whether
-// the nearest neighbour's weight can be told from nothing.
+// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz; and whether the weight of
+// the nearest neighbour is larger than nothing.
 struct Covariance {
-  Vector<V> diagonal, beside;
+  Vector<V> diagonal, off_diagonal;
   Mask counts_for_something;
 };
 
@@ -49,7 +51,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
   for (std::size_t i = 0; i < batch.rows; ++i) {
     const Vector<V> d = mean - slice.offset(i), weighted = d * slice.get(batch.weight[i]);
     c.diagonal = c.diagonal + Vector<V>{weighted.x * d.x, weighted.y * d.y, weighted.z * d.z};
-    c.beside = c.beside + Vector<V>{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
+    c.off_diagonal = c.off_diagonal + Vector<V>{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
   }
   return c;
 }
@@ -58,7 +60,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
 // smallest are so near each other that digits are lost.
 Mask eigen(const Covariance& c, Surface<V>& surface) {
   const V sum = (c.diagonal.x + c.diagonal.y) + c.diagonal.z;
-  const Vector<V> a = c.diagonal / sum, b = c.beside / sum;
+  const Vector<V> a = c.diagonal / sum, b = c.off_diagonal / sum;
 
   // With B = A - 1/3, the characteristic polynomial is x^3 - 3 m x - 2 q; x = 2 sqrt(m) cos(phi + 2 pi i /
   // 3).
@@ -100,7 +102,7 @@ void fit_ambiguous_planes(const Covariance& c, Surface<V>& surface) {
   };
   Each covariances[6], eigenvalues[3], normals[3], is_fitted;
   store(c.diagonal, covariances);
-  store(c.beside, covariances + 3);
+  store(c.off_diagonal, covariances + 3);
   store(surface.eigenvalues, eigenvalues);
   store(surface.normal, normals);
   hn::StoreU(hn::IfThenElseZero(surface.has_normal, all<V>(1)), d, is_fitted);
@@ -169,8 +171,8 @@ Crease find_crease(const Slice& slice, double threshold, Mask estimated, const S
   return crease;
 }
 
-// At a sharp crease the estimated normal halves the angle between the two faces, and the faces look like a
-// boundary; a quarter turn about the crease may show a surface on both sides (4.6).
+// At a sharp crease the estimated normal halves the angle between the two faces, which then resemble a
+// boundary. A quarter turn about the crease may show a surface on both sides (4.6).
 void turn_at_creases(const NeighbourBatch& batch, const CriteriaParameters& parameters,
                      const Mask (&estimated)[kSlices], TangentPlanes& planes,
                      Surface<V> (&surfaces)[kSlices]) {
@@ -206,12 +208,12 @@ HWY_INLINE V round_to_step(V probability) {
   return (probability + shift) - shift;
 }
 
+template <std::size_t... kRow>
 void combine(const Slice& slice, const CriteriaParameters& parameters, const Surface<V>& surface,
-             CriteriaValues& values) {
-  const V criteria[3] = {angle_probability(surface), halfdisc_probability(surface),
-                         shape_probability(surface)};
+             CriteriaValues& values, std::index_sequence<kRow...>) {
+  const V criteria[] = {kTable[kRow].formula(surface)...};
   V sum = all<V>(0);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < kCriteria; ++i) {
     sum = sum + all<V>(parameters.shares[i]) * criteria[i];
     slice.set(values.criteria[i], criteria[i]);
   }
@@ -243,7 +245,9 @@ void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& pa
   find_largest_gaps(batch, planes, gaps);
   for (std::size_t i = 0; i < kSlices; ++i) surfaces[i].gap = gap_of(slice_of(batch, i), gaps);
   turn_at_creases(batch, parameters, estimated, planes, surfaces);
-  for (std::size_t i = 0; i < kSlices; ++i) combine(slice_of(batch, i), parameters, surfaces[i], values);
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    combine(slice_of(batch, i), parameters, surfaces[i], values, std::make_index_sequence<kCriteria>());
+  }
 }
 
 }  // namespace lacuna::HWY_NAMESPACE
@@ -256,6 +260,27 @@ HWY_EXPORT(evaluate_criteria);
 void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& parameters,
                        CriteriaValues& values) {
   HWY_DYNAMIC_DISPATCH(evaluate_criteria)(batch, parameters, values);
+}
+
+// The names are the same for each target.
+static_assert(HWY_NAMESPACE::kCriteria <= kMostCriteria);
+
+const std::vector<Criterion>& criteria() {
+  static const std::vector<Criterion> all = [] {
+    std::vector<Criterion> criteria;
+    for (const HWY_NAMESPACE::CriterionRow& row : HWY_NAMESPACE::kTable) {
+      const std::string name = row.name;
+      criteria.push_back({name, "weight_" + name, "scalar_" + name, row.default_weight, row.help});
+    }
+    return criteria;
+  }();
+  return all;
+}
+
+std::vector<double> default_weights() {
+  std::vector<double> weights;
+  for (const Criterion& criterion : criteria()) weights.push_back(criterion.default_weight);
+  return weights;
 }
 
 }  // namespace lacuna

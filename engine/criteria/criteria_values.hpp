@@ -2,23 +2,24 @@
 #pragma once
 
 #include "engine/criteria/neighbour_batch.hpp"
+#include "engine/model/detection.hpp"
 
 namespace lacuna {
 
 struct CriteriaParameters {
-  double sigma;             // over r_p
-  double cos_cone;          // as in `TangentPlanes`
-  double crease_threshold;  // angle probability from which a crease is looked for
-  double shares[3];         // of the criteria, in the order of the table; sum 1
+  double sigma;                  // over r_p
+  double cos_cone;               // as in `TangentPlanes`
+  double crease_threshold;       // angle probability from which a crease is looked for
+  double shares[kMostCriteria];  // of the criteria, in the order of the table; sum 1
 };
 
 struct CriteriaValues {
-  Batch<double> criteria[3];     // in the order of the table
-  Batch<double> probability;     // Pi: combined, a multiple of 2^-24
-  Batch<double> mean_distance;   // r_p
-  Batch<double> mean_offset[3];  // mu_p - p
-  Batch<double> normal[3];       // NaN: none
-  Batch<double> gap_near;        // ranks of the gap neighbours, nearer first; -1: none
+  Batch<double> criteria[kMostCriteria];  // as many as there are, in the order of the table
+  Batch<double> probability;              // Pi: combined, a multiple of 2^-24
+  Batch<double> mean_distance;            // r_p
+  Batch<double> mean_offset[3];           // mu_p - p
+  Batch<double> normal[3];                // NaN: none
+  Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: none
   Batch<double> gap_far;
 };
 

@@ -1,10 +1,8 @@
-// What the criteria say of one point.
+// What the criteria are combined to, at one point.
 #pragma once
 
-#include "engine/criteria/criterion.hpp"
 #include "engine/model/ids.hpp"
 
-#include <array>
 #include <limits>
 
 #include <Eigen/Core>
@@ -12,9 +10,8 @@
 namespace lacuna {
 
 struct Evaluation {
-  std::array<double, kCriteria> criteria{};  // in the order of the table, each in [0, 1]
-  double probability = 1;                    // Pi: combined, a multiple of 2^-24
-  double mean_distance = 0;                  // r_p
+  double probability = 1;    // Pi: combined, a multiple of 2^-24
+  double mean_distance = 0;  // r_p
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d mean_offset{0, 0, 0};  // mu_p - p
   LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; none: kNoIndex

@@ -8,7 +8,7 @@
 
 namespace lacuna {
 
-// Directions nearer than this, in radians, are one direction (its nearest neighbour stands for it), gaps
+// Directions nearer than this, in radians, are one direction (that of its nearest neighbour), gaps
 // nearer than this are equally large: exact symmetries of the points must not be decided by rounding.
 inline constexpr double kSameDirection = 1e-9;
 

@@ -1,7 +1,7 @@
 #include "engine/evaluate/evaluate.hpp"
 
+#include "engine/criteria/criteria.hpp"
 #include "engine/criteria/criteria_values.hpp"
-#include "engine/criteria/criterion.hpp"
 #include "engine/simd/maths.hpp"
 
 #include <algorithm>
@@ -22,18 +22,10 @@ CriteriaParameters criteria_parameters(const NormalsConfig& normals, const Crite
       .sigma = criteria.sigma,
       .cos_cone = criteria.cone == 0 ? kNoCone : cosine(criteria.cone * std::numbers::pi / 180),
       .crease_threshold = normals.crease_threshold};
-  static_assert(std::size(decltype(parameters.shares){}) == kCriteria);
-  double sum = 0;
-  for (const Criterion& criterion : kCriteriaTable) sum += criteria.*criterion.weight;
-  for (std::size_t i = 0; i < kCriteria; ++i) parameters.shares[i] = criteria.*kCriteriaTable[i].weight / sum;
+  const std::vector<double>& weights = criteria.weights;
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) parameters.shares[i] = weights[i] / sum;
   return parameters;
-}
-
-// A point that sees no other.
-Evaluation lone_point() {
-  Evaluation lone;
-  lone.criteria.fill(1.0);
-  return lone;
 }
 
 // Batches of points with nearly as many neighbours each: a batch takes as long as its largest neighbourhood.
@@ -122,7 +114,6 @@ class Batches {
 Evaluation evaluation(const CriteriaValues& values, std::size_t lane,
                       std::span<const LocalIndex> neighbours) {
   Evaluation e;
-  for (std::size_t i = 0; i < kCriteria; ++i) e.criteria[i] = values.criteria[i].at[lane];
   for (int axis = 0; axis < 3; ++axis) {
     e.normal[axis] = values.normal[axis].at[lane];
     e.mean_offset[axis] = values.mean_offset[axis].at[lane];
@@ -144,21 +135,27 @@ double round_to_step(double value) {
 
 std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
-                                 const CriteriaConfig& criteria) {
+                                 const CriteriaConfig& criteria, std::span<double> values) {
   const CriteriaParameters parameters = criteria_parameters(normals, criteria);
   Batches batches(points, neighbourhoods, given_normals);
   std::vector<Evaluation> evaluations;
   evaluations.reserve(points.owned);
-  CriteriaValues values;
+  std::fill(values.begin(), values.end(), 1.0);  // of a point without neighbours
+  const std::size_t count = criteria.weights.size();
+  CriteriaValues found;
+  const auto keep = [&](std::size_t lane, LocalIndex p) {
+    evaluations[p] = evaluation(found, lane, neighbourhoods[p]);
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < count; ++i) values[p * count + i] = found.criteria[i].at[lane];
+  };
   // By runs of the store order: what is near in space shares the cache.
   constexpr LocalIndex kRun = 64;
   for (LocalIndex first = 0, last; first < points.owned; first = last) {
     last = std::min(first + kRun, points.owned);
-    evaluations.resize(last, lone_point());
+    evaluations.resize(last);
     batches.for_each(first, last, [&](const NeighbourBatch& batch, std::span<const LocalIndex> of) {
-      evaluate_criteria(batch, parameters, values);
-      for (std::size_t lane = 0; lane < of.size(); ++lane)
-        evaluations[of[lane]] = evaluation(values, lane, neighbourhoods[of[lane]]);
+      evaluate_criteria(batch, parameters, found);
+      for (std::size_t lane = 0; lane < of.size(); ++lane) keep(lane, of[lane]);
     });
   }
   return evaluations;

@@ -1,6 +1,7 @@
 // evaluate: normals and criteria of a tile's points (paper, 4.2 to 4.6).
 #pragma once
 
+#include "engine/config.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 
@@ -11,9 +12,11 @@ namespace lacuna {
 
 // One evaluation per owned point, from its neighbourhood. `given_normals`: one per owned point, or empty;
 // a zero or non-finite one is estimated. Degenerate points get the values of the method, section 3.
+// `values`: takes each criterion of each owned point, those of a point side by side, in the order of the
+// table; empty: they are not wanted.
 std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
-                                 const CriteriaConfig& criteria);
+                                 const CriteriaConfig& criteria, std::span<double> values = {});
 
 // Pi, w_density and w_total are multiples of this, so that rounding noise decides no tie and a 32-bit float
 // holds Pi exactly.

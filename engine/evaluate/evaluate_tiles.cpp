@@ -1,5 +1,6 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 
+#include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/halo/distance_bound.hpp"
 #include "engine/halo/eps_balls.hpp"
@@ -33,8 +34,8 @@ std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, do
   return cells;
 }
 
-// Foreign points that a tile sees, each once, in ascending row.
-struct Sight {
+// The halo points of a tile, each once, in ascending row.
+struct HaloPoints {
   std::vector<StoredPoint> points;
   std::vector<Row> rows;
 
@@ -44,53 +45,54 @@ struct Sight {
   }
 };
 
-Sight foreign_sight(const TileStore& store, std::span<const HaloEdge> links,
-                    std::span<const std::uint32_t> halo) {
-  Sight sight;
-  store.read_cells(halo, sight.points, sight.rows);
-  std::vector<std::pair<Row, StoredPoint>> seen;
-  for (std::size_t i = 0; i < sight.rows.size(); ++i) seen.emplace_back(sight.rows[i], sight.points[i]);
-  for (const HaloEdge& link : links) seen.emplace_back(link.row, link.foreign);
-  std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  seen.erase(
-      std::unique(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
-      seen.end());
-  sight.points.clear();
-  sight.rows.clear();
-  for (const auto& [row, point] : seen) {
-    sight.rows.push_back(row);
-    sight.points.push_back(point);
+HaloPoints halo_points(const TileStore& store, std::span<const HaloEdge> edges,
+                       std::span<const std::uint32_t> cells) {
+  HaloPoints foreign;
+  store.read_cells(cells, foreign.points, foreign.rows);
+  std::vector<std::pair<Row, StoredPoint>> entries;
+  for (std::size_t i = 0; i < foreign.rows.size(); ++i)
+    entries.emplace_back(foreign.rows[i], foreign.points[i]);
+  for (const HaloEdge& edge : edges) entries.emplace_back(edge.row, edge.foreign);
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  entries.erase(std::unique(entries.begin(), entries.end(),
+                            [](const auto& a, const auto& b) { return a.first == b.first; }),
+                entries.end());
+  foreign.points.clear();
+  foreign.rows.clear();
+  for (const auto& [row, point] : entries) {
+    foreign.rows.push_back(row);
+    foreign.points.push_back(point);
   }
-  return sight;
+  return foreign;
 }
 
-// `links` get sorted.
-TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>& links,
-                  std::span<const std::uint32_t> halo) {
+// Sorts `edges`.
+TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>& edges,
+                  std::span<const std::uint32_t> cells) {
   const Tile& tile = store.tiling().tiles[index];
-  const Sight sight = foreign_sight(store, links, halo);
+  const HaloPoints foreign = halo_points(store, edges, cells);
   TilePoints points;
   points.owned = static_cast<LocalIndex>(tile.points);
-  points.positions.reserve(tile.points + sight.rows.size());
-  points.ids.reserve(tile.points + sight.rows.size());
+  points.positions.reserve(tile.points + foreign.rows.size());
+  points.ids.reserve(tile.points + foreign.rows.size());
   const auto add = [&](const StoredPoint& p) {
     points.positions.push_back(p.position());
     points.ids.push_back(p.id);
   };
   store.for_each_point(index, add);
-  std::for_each(sight.points.begin(), sight.points.end(), add);
-  points.rows.reserve(tile.points + sight.rows.size());
+  std::for_each(foreign.points.begin(), foreign.points.end(), add);
+  points.rows.reserve(tile.points + foreign.rows.size());
   for (LocalIndex i = 0; i < tile.points; ++i) points.rows.push_back(tile.row(i));
-  points.rows.insert(points.rows.end(), sight.rows.begin(), sight.rows.end());
+  points.rows.insert(points.rows.end(), foreign.rows.begin(), foreign.rows.end());
 
-  std::sort(links.begin(), links.end(), [](const HaloEdge& a, const HaloEdge& b) {
+  std::sort(edges.begin(), edges.end(), [](const HaloEdge& a, const HaloEdge& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.row < b.row;
   });
   points.linked.offsets.reserve(tile.points + 1);
-  auto link = links.begin();
+  auto edge = edges.begin();
   for (LocalIndex p = 0; p < points.owned; ++p) {
-    for (; link != links.end() && link->owned == p; ++link) {
-      if (link->incoming) points.linked.indices.push_back(points.owned + sight.find(link->row));
+    for (; edge != edges.end() && edge->owned == p; ++edge) {
+      if (edge->incoming) points.linked.indices.push_back(points.owned + foreign.find(edge->row));
     }
     points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
   }
@@ -121,7 +123,7 @@ std::vector<std::uint8_t> border_of(const TilePoints& points, const Rows& neighb
   return is_border;
 }
 
-// A power of two beside which no edge is lost: 2^-60 of the scan's extent.
+// A power of two so small that no edge is lost: 2^-60 of the scan's extent.
 double length_unit(double extent) {
   return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
 }
@@ -185,15 +187,16 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
     std::vector<HaloEdge>().swap(inbox);
     const Rows neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
-    const std::vector<Evaluation> evaluations =
-        evaluate(points, neighbourhoods, store.normals(index), job.config.normals, job.config.criteria);
+    std::vector<double> values(job.config.output.points ? points.owned * criteria().size() : 0);
+    const std::vector<Evaluation> evaluations = evaluate(points, neighbourhoods, store.normals(index),
+                                                         job.config.normals, job.config.criteria, values);
 
     std::vector<LocalIndex> candidates;
     const Totals sums =
         sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
     for (TileConsumer* const consumer : consumers)
-      consumer->take({index, tile, points, neighbourhoods, evaluations, candidates, is_border});
+      consumer->take({index, tile, points, neighbourhoods, evaluations, values, candidates, is_border});
     {
       const std::lock_guard lock(mutex);
       totals += sums;

@@ -1,4 +1,4 @@
-// evaluate, over all tiles: every point judged from its neighbourhood (paper, 4.1 to 4.6).
+// evaluate, over all tiles: every point evaluated from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"

@@ -1,4 +1,4 @@
-// reach: how far, at most, the nearest neighbours of a cell's points are, told from the counted cells alone.
+// Bounds on the distance to the k-th neighbour, from the counted cells alone.
 #pragma once
 
 #include "engine/model/tiling.hpp"

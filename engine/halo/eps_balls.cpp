@@ -1,7 +1,7 @@
 #include "engine/halo/eps_balls.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/halo/distance_bound.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,14 +10,14 @@
 namespace lacuna {
 
 std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most) {
-  // A neighbour stands in the list of its ball and in the neighbourhood.
+  // A neighbour is in the list of its ball and in the neighbourhood.
   constexpr std::uint64_t kBytes = 2 * sizeof(LocalIndex);
   std::uint64_t bytes = 0;
   if (eps == 0) return bytes;
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell && bytes <= most; ++cell) {
-    const std::uint64_t asked = tiling.cells[cell].points;
+    const std::uint64_t queries = tiling.cells[cell].points;
     for_each_cell_near(tiling, tiling.cells[cell].box, eps * eps, 0, 0, [&](std::uint32_t near) {
-      bytes += kBytes * asked * tiling.cells[near].points;
+      bytes += kBytes * queries * tiling.cells[near].points;
       return bytes <= most;
     });
   }

@@ -1,8 +1,8 @@
 #include "engine/halo/halo.hpp"
 
-#include "engine/store/outbox.hpp"
-#include "engine/neighbours/block_search.hpp"
 #include "engine/halo/distance_bound.hpp"
+#include "engine/neighbours/block_search.hpp"
+#include "engine/store/outbox.hpp"
 
 #include <algorithm>
 #include <queue>
@@ -11,19 +11,19 @@
 namespace lacuna {
 namespace {
 
-// Cells near a cell hold some hundreds of points, or, near a scanner, a multiple of what it holds itself. A
-// reach with more than both is that of an outlier.
-constexpr std::uint64_t kFarReach = 32'768, kFarShare = 64;
+// Cells near a cell hold some hundreds of points, or, near a scanner, a multiple of its own points. A cell
+// whose distance bound holds more than both is that of an outlier.
+constexpr std::uint64_t kFarPoints = 32'768, kFarShare = 64;
 
-// Border cells to be searched together, and all cells within their reach.
+// Border cells to be searched together, and all cells within their distance bounds.
 struct Group {
   std::vector<std::uint32_t> border;
-  std::vector<std::uint32_t> sight;
+  std::vector<std::uint32_t> cells;
 
   bool empty() const { return border.empty(); }
 };
 
-// What the plan of a tile says.
+// The plan of a tile.
 struct Border {
   std::vector<Group> groups;
   std::vector<std::uint32_t> far_cells;
@@ -43,7 +43,7 @@ void sort_unique(std::vector<std::uint32_t>& cells) {
 // Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs.
 class BorderPlan {
  public:
-  // Groups hold at most about `group_points` points in sight.
+  // The cells of a group hold about `group_points` points at most.
   BorderPlan(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points)
       : tiling_(tiling), tile_(tile), k_(k), group_points_(group_points) {
     if (!tiling.nodes.empty()) visit(0);
@@ -75,15 +75,16 @@ class BorderPlan {
 
   bool leaves_tile(const Eigen::AlignedBox3d& box, double squared_distance_bound) const {
     bool leaves = false;
-    for_each_cell_near(tiling_, box, squared_distance_bound, tile_.first_cell, tile_.last_cell, [&](std::uint32_t) {
-      leaves = true;
-      return false;
-    });
+    for_each_cell_near(tiling_, box, squared_distance_bound, tile_.first_cell, tile_.last_cell,
+                       [&](std::uint32_t) {
+                         leaves = true;
+                         return false;
+                       });
     return leaves;
   }
 
   // No less than the squared distance from any point of the cell to its k-th neighbour.
-  double reach_of(std::uint32_t cell, const CellNode& node) const {
+  double bound_of(std::uint32_t cell, const CellNode& node) const {
     const Eigen::AlignedBox3d box = tiling_.cells[cell].box;
     if (tiling_.cells[cell].points <= k_ && node.points > k_) return max_squared_distance(box, node.box);
     return squared_distance_bound(tiling_, cell, k_);
@@ -98,28 +99,28 @@ class BorderPlan {
     std::vector<BorderCell> border;
     const std::uint32_t last = std::min(node.last, tile_.last_cell);
     for (std::uint32_t cell = std::max(node.first, tile_.first_cell); cell < last; ++cell) {
-      const double reach = reach_of(cell, node);
-      if (leaves_tile(tiling_.cells[cell].box, reach)) border.push_back({cell, reach});
+      const double bound = bound_of(cell, node);
+      if (leaves_tile(tiling_.cells[cell].box, bound)) border.push_back({cell, bound});
     }
     plan(border);
   }
 
-  // Cells side by side: they see much the same.
+  // Cells side by side share most of the cells around them.
   void plan(std::span<const BorderCell> border) {
     if (border.empty()) return;
     Eigen::AlignedBox3d box;
-    double reach = 0;
+    double bound = 0;
     std::uint64_t own = 0;
     for (const BorderCell& b : border) {
       box.extend(tiling_.cells[b.cell].box);
-      reach = std::max(reach, b.squared_distance_bound);
+      bound = std::max(bound, b.squared_distance_bound);
       own += tiling_.cells[b.cell].points;
     }
-    const std::uint64_t most = std::max(kFarReach, kFarShare * own);
-    sight_.clear();
+    const std::uint64_t most = std::max(kFarPoints, kFarShare * own);
+    near_cells_.clear();
     std::uint64_t points = 0;
-    for_each_cell_near(tiling_, box, reach, 0, 0, [&](std::uint32_t near) {
-      sight_.push_back(near);
+    for_each_cell_near(tiling_, box, bound, 0, 0, [&](std::uint32_t near) {
+      near_cells_.push_back(near);
       points += tiling_.cells[near].points;
       return points <= most;
     });
@@ -132,18 +133,18 @@ class BorderPlan {
       return;
     }
     for (const BorderCell& b : border) group_.border.push_back(b.cell);
-    group_.sight.insert(group_.sight.end(), sight_.begin(), sight_.end());
+    group_.cells.insert(group_.cells.end(), near_cells_.begin(), near_cells_.end());
     gathered_ += points;
-    if (gathered_ > 8 * group_points_) {  // neighbours share most of their sight: count it once
-      sort_unique(group_.sight);
-      gathered_ = points_of(tiling_, group_.sight);
+    if (gathered_ > 8 * group_points_) {  // neighbours share most cells: count each once
+      sort_unique(group_.cells);
+      gathered_ = points_of(tiling_, group_.cells);
       if (gathered_ > group_points_) close_group();
     }
   }
 
   void close_group() {
     if (group_.empty()) return;
-    sort_unique(group_.sight);
+    sort_unique(group_.cells);
     border_.groups.push_back(std::move(group_));
     group_ = {};
     gathered_ = 0;
@@ -156,7 +157,7 @@ class BorderPlan {
   Border border_;
   Group group_;
   std::uint64_t gathered_ = 0;
-  std::vector<std::uint32_t> sight_;
+  std::vector<std::uint32_t> near_cells_;
 };
 
 class HaloBuilder {
@@ -164,10 +165,10 @@ class HaloBuilder {
   HaloBuilder(const TileStore& store, std::size_t k, TileIndex tile, AppendLists<HaloEdge>& inboxes)
       : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), outbox_(inboxes) {}
 
-  void link_group(const Group& group) {
+  void send_edges_of_group(const Group& group) {
     std::vector<StoredPoint> stored;
     std::vector<Row> rows;
-    store_.read_cells(group.sight, stored, rows);
+    store_.read_cells(group.cells, stored, rows);
     std::vector<Eigen::Vector3d> positions;
     std::vector<PointId> ids;
     for (const StoredPoint& p : stored) {
@@ -181,15 +182,15 @@ class HaloBuilder {
           static_cast<LocalIndex>(std::lower_bound(rows.begin(), rows.end(), first) - rows.begin());
       const auto end = static_cast<LocalIndex>(begin + tiling_.cells[cell].points);
       search.nearest(begin, end, k_, [&](LocalIndex p, std::span<const LocalIndex> found) {
-        for (const LocalIndex q : found) link(stored[p], rows[p], stored[q], rows[q]);
+        for (const LocalIndex q : found) send_edge(stored[p], rows[p], stored[q], rows[q]);
       });
     }
   }
 
-  void link_far_cell(std::uint32_t cell) {
+  void send_edges_of_far_cell(std::uint32_t cell) {
     const std::vector<StoredPoint> points = store_.cell(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      link_far_point(points[i], Row{value(tiling_.cells[cell].first_row) + i});
+      send_edges_of_far_point(points[i], Row{value(tiling_.cells[cell].first_row) + i});
     }
   }
 
@@ -215,7 +216,7 @@ class HaloBuilder {
   };
 
   // Best first over the tree of cells; cells are read as they come.
-  void link_far_point(const StoredPoint& p, Row row) {
+  void send_edges_of_far_point(const StoredPoint& p, Row row) {
     const Eigen::AlignedBox3d here(p.position(), p.position());
     std::priority_queue<Place> places;
     std::priority_queue<Found> nearest;
@@ -225,7 +226,7 @@ class HaloBuilder {
       places.pop();
       if (nearest.size() == k_ && place.squared_distance > nearest.top().squared_distance) break;
       if (place.is_cell) {
-        look_into(place.index, p, row, nearest);
+        search_cell(place.index, p, row, nearest);
         continue;
       }
       const CellNode& node = tiling_.nodes[place.index];
@@ -241,11 +242,11 @@ class HaloBuilder {
     }
     for (; !nearest.empty(); nearest.pop()) {
       refuse_underflow(nearest.top().squared_distance, p.id, nearest.top().point.id);
-      link(p, row, nearest.top().point, nearest.top().row);
+      send_edge(p, row, nearest.top().point, nearest.top().row);
     }
   }
 
-  void look_into(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
+  void search_cell(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
     const std::vector<StoredPoint>& points = cached(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Row other{value(tiling_.cells[cell].first_row) + i};
@@ -272,7 +273,7 @@ class HaloBuilder {
   }
 
   // p has q among its k nearest.
-  void link(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
+  void send_edge(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
     const Tile& here = tiling_.tiles[tile_];
     if (here.owns(q_row)) return;
     const TileIndex there = tiling_.tile_of_row(q_row);
@@ -300,12 +301,12 @@ AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job) {
   AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.memory.spills / 2);
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
-    const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarReach / 4);
+    const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarPoints / 4);
     const BorderPlan plan(tiling, tile, k, group_points);
-    HaloBuilder linker(store, k, static_cast<TileIndex>(t), inboxes);
-    for (const Group& group : plan.border().groups) linker.link_group(group);
-    for (const std::uint32_t cell : plan.border().far_cells) linker.link_far_cell(cell);
-    linker.send();
+    HaloBuilder builder(store, k, static_cast<TileIndex>(t), inboxes);
+    for (const Group& group : plan.border().groups) builder.send_edges_of_group(group);
+    for (const std::uint32_t cell : plan.border().far_cells) builder.send_edges_of_far_cell(cell);
+    builder.send();
     phase.advance(tile.points);
   });
   return inboxes;

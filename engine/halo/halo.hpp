@@ -1,4 +1,4 @@
-// Links between tiles: who has whom among its nearest neighbours, across the border.
+// halo: the points of other tiles that a tile needs, and the edges to them.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-// To the owner of a point: a foreign point that belongs into its sight.
+// Sent to the owner of a point: a halo point, and the edge to it.
 struct HaloEdge {
   Row row;  // of the foreign point
   StoredPoint foreign;
@@ -18,10 +18,10 @@ struct HaloEdge {
 // Each tile's inbox. With it a tile knows every foreign point that is among the k nearest of its own or has
 // one of its own among its k nearest, without reading a halo.
 //
-// Only points whose neighbourhood may leave their tile take part: those of cells whose reach touches a
-// foreign cell. Their exact neighbours are searched among all cells within that reach, so no halo is taken
-// on trust. Where the reach holds too many points (lone outliers, whose neighbours are far), a point's
-// neighbours are found one cell after the other instead, nearest cell first.
+// Only points whose neighbourhood may leave their tile take part: those of cells whose distance bound touches
+// a foreign cell. Their exact neighbours are searched among all cells within that bound, so that the halo is
+// complete. The bound of a lone outlier holds too many points. Its neighbours are searched cell by cell,
+// nearest cell first.
 AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job);
 
 }  // namespace lacuna

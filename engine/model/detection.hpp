@@ -4,6 +4,7 @@
 
 #include "engine/model/loop.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -46,9 +47,12 @@ struct Summary {
   std::vector<PhaseTime> phases;
 };
 
+inline constexpr std::size_t kMostCriteria = 8;
+
 // Result of one point of the input; a duplicate has those of the point that stands for it.
 struct PointResult {
-  float probability, angle, halfdisc, shape;  // from 0 to 1; NaN for a dropped point
+  float probability;                          // from 0 to 1; NaN for a dropped point
+  std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table
   // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop (tangential).
   std::uint8_t boundary = 0;
   std::uint8_t coherent = 0;  // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops

@@ -4,11 +4,8 @@
 #include "engine/simd/sort.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace lacuna {
@@ -22,10 +19,10 @@ constexpr double kRunGuess = 1.3;
 // Bounds are widened by more than rounding can have narrowed them.
 constexpr double kSlack = 1 + 1e-12;
 
-// Where runs extend farther than this, in units of the radius, single precision tells too little of them.
+// Where runs extend farther than this, in units of the radius, single precision has too few digits for them.
 constexpr double kLargestRun = 64;
 
-// Squared radii in between leave digits for all distances in sight.
+// Squared radii in between leave digits for all distances in the surroundings.
 constexpr double kLeastSquared = 1e-290, kMostSquared = 1e290;
 
 // So many candidates that most likely all neighbours are among them: more take longer to rank, fewer fail
@@ -37,97 +34,8 @@ double wanted_candidates(std::size_t neighbours) {
 
 }  // namespace
 
-struct BlockSearch::Box {
-  std::array<double, 3> low{kInfinite, kInfinite, kInfinite};
-  std::array<double, 3> high{-kInfinite, -kInfinite, -kInfinite};
-
-  void extend(const Eigen::Vector3d& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-};
-
-// Boxes of one level, one array per side, padded to whole groups with empty boxes.
-struct BlockSearch::Boxes {
-  std::size_t count;
-  std::array<std::vector<double>, 3> low, high;
-
-  explicit Boxes(std::size_t count) : count(count) {
-    const std::size_t padded = (count + kFan - 1) / kFan * kFan;
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis].assign(padded, kInfinite);
-      high[axis].assign(padded, -kInfinite);
-    }
-  }
-
-  // Where the boxes of a group begin.
-  struct Sides {
-    const double *lows[3], *highs[3];
-  };
-  Sides sides(std::size_t group) const {
-    Sides sides{};
-    for (int axis = 0; axis < 3; ++axis) {
-      sides.lows[axis] = low[axis].data() + group * kFan;
-      sides.highs[axis] = high[axis].data() + group * kFan;
-    }
-    return sides;
-  }
-
-  // Squared distances from a box to those of a group.
-  void gaps(std::size_t group, const double* from_low, const double* from_high, double* squared) const {
-    const Sides to = sides(group);
-    box_gaps(from_low, from_high, to.lows, to.highs, squared);
-  }
-
-  // A bit for each box of a group that is within the radius of a box.
-  std::uint32_t within(std::size_t group, const Box& from, double squared_radius) const {
-    const Sides to = sides(group);
-    const std::size_t there =
-        std::min(kFan, count - group * kFan);  // where distances overflow, so does padding
-    return boxes_within(from.low.data(), from.high.data(), to.lows, to.highs, squared_radius) &
-           ((1U << there) - 1);
-  }
-};
-
 BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
-    : positions_(positions), ids_(ids) {
-  const std::size_t blocks = (positions.size() + kBlock - 1) / kBlock;
-  blocks_.resize(blocks);
-  levels_.emplace_back(blocks);
-  for (std::size_t b = 0; b < blocks; ++b) {
-    Box box;
-    const std::size_t end = std::min((b + 1) * kBlock, positions.size());
-    if (end < (b + 1) * kBlock) std::fill_n(blocks_[b].coordinates[0], 3 * kBlock, kInfinite);
-    for (std::size_t i = b * kBlock; i < end; ++i) {
-      box.extend(positions[i]);
-      for (int axis = 0; axis < 3; ++axis) {
-        blocks_[b].coordinates[axis][i % kBlock] = positions[i][axis];
-      }
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      levels_[0].low[axis][b] = box.low[axis];
-      levels_[0].high[axis][b] = box.high[axis];
-    }
-  }
-  while (levels_.back().count > kFan) {
-    const Boxes& below = levels_.back();
-    const std::size_t count = (below.count + kFan - 1) / kFan;
-    Boxes level(count);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto low = below.low[axis].begin() + static_cast<std::ptrdiff_t>(i * kFan);
-        const auto high = below.high[axis].begin() + static_cast<std::ptrdiff_t>(i * kFan);
-        level.low[axis][i] = *std::min_element(low, low + kFan);
-        level.high[axis][i] = *std::max_element(high, high + kFan);
-      }
-    }
-    levels_.push_back(std::move(level));
-  }
-}
-
-BlockSearch::~BlockSearch() = default;
+    : positions_(positions), ids_(ids), tree_(positions) {}
 
 void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
   for (LocalIndex begin = first, end; begin < last; begin = end) {
@@ -153,11 +61,11 @@ void BlockSearch::prepare(std::size_t neighbours) {
     next_guess_[found] = (1 + std::sqrt(wanted_candidates(neighbours) / static_cast<double>(found))) / 2;
 }
 
-// visit(first, last): queries whose surroundings are in sight. Where the order of points jumps, fewer of them
-// are looked around together; of one alone there may be nothing in sight.
+// visit(first, last): queries that share surroundings. Where the order of points jumps, fewer queries share
+// them. The surroundings of one query alone may be empty.
 template <class Radius, class Visit>
 void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
-  if (!look_around(first, last, radius()) && last - first > 1) {
+  if (!find_surroundings(first, last, radius()) && last - first > 1) {
     const LocalIndex middle = first + (last - first) / 2;
     for_each_part(first, middle, radius, visit);
     for_each_part(middle, last, radius, visit);
@@ -172,7 +80,7 @@ void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
   for_each_part(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex query = begin; query < end; ++query) {
       list_candidates(query, end, lists_[query - run]);
-      if (in_sight_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
+      if (covered_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
     }
   });
 }
@@ -181,8 +89,8 @@ void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
 // radius at hand.
 void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateList& list) {
   constexpr int kAttempts = 4;
-  for (int attempt = 0; attempt < kAttempts && in_sight_ > 0; ++attempt) {
-    const double radius = std::min(guess_, in_sight_);
+  for (int attempt = 0; attempt < kAttempts && covered_ > 0; ++attempt) {
+    const double radius = std::min(guess_, covered_);
     list_within(query, radius, 0, list);
     if (list.count > kMostCandidates) {
       guess_ = 0.6 * radius;
@@ -192,7 +100,7 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
       return;
     } else {
       guess_ = 1.4 * radius;
-      if (guess_ > in_sight_) look_around(query, last, kRunGuess * guess_);
+      if (guess_ > covered_) find_surroundings(query, last, kRunGuess * guess_);
     }
   }
   list.count = 0;
@@ -205,22 +113,24 @@ void BlockSearch::narrow(CandidateList& list) {
   if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
   const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
   narrow_list(limit, neighbours_ + 1, list);
-  set_reach(list);
+  set_distance_bound(list);
 }
 
-// The points within the radius, by squared distances in sight that are `more` at most beyond it.
+// The points within the radius, and those whose scaled squared distance exceeds it by at most `more`.
 void BlockSearch::list_within(LocalIndex query, double radius, double more, CandidateList& list) {
-  float seen[3];
+  float at[3];
   for (int axis = 0; axis < 3; ++axis)
-    seen[axis] = static_cast<float>((positions_[query][axis] - sight_.origin[axis]) * sight_.scale);
-  const double scaled = radius * sight_.scale;
+    at[axis] =
+        static_cast<float>((positions_[query][axis] - surroundings_.origin[axis]) * surroundings_.scale);
+  const double scaled = radius * surroundings_.scale;
   const auto limit = static_cast<float>(scaled * scaled + more);
-  find_within(sight_, seen, limit, list);
-  set_reach(list);
+  find_within(surroundings_, at, limit, list);
+  set_distance_bound(list);
 }
 
-void BlockSearch::set_reach(CandidateList& list) const {
-  list.squared_distance_bound = (list.limit - sight_.margin) / (sight_.scale * sight_.scale);
+void BlockSearch::set_distance_bound(CandidateList& list) const {
+  list.squared_distance_bound =
+      (list.limit - surroundings_.margin) / (surroundings_.scale * surroundings_.scale);
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.
@@ -245,13 +155,13 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
 void BlockSearch::rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit) {
   for (std::size_t place = 0; place < count; place += kQueries)
     rank_candidates(&lists_[place], std::min(kQueries, count - place), wanted, ends_at_limit,
-                             rankings_[place / kQueries]);
+                    rankings_[place / kQueries]);
 }
 
-// By the distances themselves, of listed candidates or of what a walk through the tree finds.
+// The exact fallback: distances in double precision, of listed candidates or of a walk through the tree.
 void BlockSearch::find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
   nearest_.clear();
-  for (std::size_t i = 0; i < list.count; ++i) meet(query, list.points[i]);
+  for (std::size_t i = 0; i < list.count; ++i) keep_if_near(query, list.points[i]);
   const bool are_listed = list.count > 0 && nearest_.front().squared_distance < list.squared_distance_bound;
   if (!are_listed) guess_ = kRunGuess * distance_to_last(query);
   std::sort_heap(nearest_.begin(), nearest_.end());
@@ -259,36 +169,20 @@ void BlockSearch::find_exactly(LocalIndex query, const CandidateList& list, std:
   for (std::size_t rank = 0; rank < found.size(); ++rank) found[rank] = nearest_[rank].index;
 }
 
-// Finds the query's neighbours, nearest blocks first; returns how far the last one is.
+// Finds the query's neighbours; returns how far the last one is.
 double BlockSearch::distance_to_last(LocalIndex query) {
   nearest_.clear();
-  descend(query, levels_.size() - 1, 0);
+  const auto bound = [this] {
+    return nearest_.size() == neighbours_ ? nearest_.front().squared_distance : kInfinite;
+  };
+  tree_.walk(positions_[query], bound, [&](std::size_t first, std::size_t last) {
+    for (std::size_t q = first; q < last; ++q) keep_if_near(query, static_cast<LocalIndex>(q));
+  });
   return std::sqrt(nearest_.front().squared_distance);
 }
 
-void BlockSearch::descend(LocalIndex query, std::size_t level, std::size_t group) {
-  std::array<double, kFan> gaps;
-  const double* const position = positions_[query].data();
-  levels_[level].gaps(group, position, position, gaps.data());
-  std::array<std::size_t, kFan> order;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return gaps[a] < gaps[b]; });
-  for (const std::size_t i : order) {
-    if (group * kFan + i >= levels_[level].count) continue;
-    const bool is_full = nearest_.size() == neighbours_;
-    if (is_full && gaps[i] > nearest_.front().squared_distance) return;
-    const std::size_t index = group * kFan + i;
-    if (level > 0) {
-      descend(query, level - 1, index);
-    } else {
-      const std::size_t end = std::min((index + 1) * kBlock, positions_.size());
-      for (std::size_t q = index * kBlock; q < end; ++q) meet(query, static_cast<LocalIndex>(q));
-    }
-  }
-}
-
 // Keeps the nearest ones, the farthest of them on top of a heap.
-void BlockSearch::meet(LocalIndex query, LocalIndex other) {
+void BlockSearch::keep_if_near(LocalIndex query, LocalIndex other) {
   if (other == query) return;
   const Neighbour neighbour{squared_distance(positions_[query], positions_[other]), ids_[other], other};
   if (nearest_.size() == neighbours_) {
@@ -308,7 +202,7 @@ void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
     for (LocalIndex query = begin; query < end; ++query) {
       CandidateList& list = lists_[query - first];
       list.count = kMostCandidates + 1;
-      if (in_sight_ > 0) list_within(query, radius, 2 * sight_.margin, list);
+      if (covered_ > 0) list_within(query, radius, 2 * surroundings_.margin, list);
       if (list.count <= kMostCandidates) most = std::max(most, list.count);
     }
   });
@@ -332,7 +226,11 @@ void BlockSearch::collect_ball(LocalIndex query, std::size_t place, double squar
   if (is_listed) {
     for (std::size_t i = 0; i < list.count; ++i) collect_point(query, list.points[i], squared_radius);
   } else {
-    collect(query, squared_radius, levels_.size() - 1, 0);
+    const auto bound = [=] { return squared_radius; };
+    tree_.walk(positions_[query], bound, [&](std::size_t first, std::size_t last) {
+      for (std::size_t q = first; q < last; ++q)
+        collect_point(query, static_cast<LocalIndex>(q), squared_radius);
+    });
   }
   std::sort(nearest_.begin(), nearest_.end());
   for (const Neighbour& neighbour : nearest_) found_.push_back(neighbour.index);
@@ -343,74 +241,37 @@ void BlockSearch::collect_point(LocalIndex query, LocalIndex other, double squar
   if (other != query && distance <= squared_radius) nearest_.push_back({distance, ids_[other], other});
 }
 
-void BlockSearch::collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group) {
-  std::array<double, kFan> gaps;
-  const double* const position = positions_[query].data();
-  levels_[level].gaps(group, position, position, gaps.data());
-  const std::size_t first = group * kFan, last = std::min(first + kFan, levels_[level].count);
-  for (std::size_t index = first; index < last; ++index) {
-    if (gaps[index - first] > squared_radius) continue;
-    if (level > 0) {
-      collect(query, squared_radius, level - 1, index);
-      continue;
-    }
-    const std::size_t end = std::min((index + 1) * kBlock, positions_.size());
-    for (std::size_t q = index * kBlock; q < end; ++q)
-      collect_point(query, static_cast<LocalIndex>(q), squared_radius);
-  }
-}
-
 // Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many or
 // single precision does not do.
-bool BlockSearch::look_around(LocalIndex first, LocalIndex last, double radius) {
-  in_sight_ = 0;
-  sight_.count = 0;
-  Box run;
+bool BlockSearch::find_surroundings(LocalIndex first, LocalIndex last, double radius) {
+  covered_ = 0;
+  surroundings_.count = 0;
+  BlockBox run;
   for (LocalIndex q = first; q < last; ++q) run.extend(positions_[q]);
   const double squared_radius = radius * radius * kSlack;
   if (!(squared_radius > kLeastSquared && squared_radius < kMostSquared) || !set_origin(run, radius))
     return false;
-
-  struct Place {
-    std::size_t level, group;
-  };
-  std::array<Place, 128> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {levels_.size() - 1, 0};
-  while (depth > 0) {
-    const auto [level, group] = stack[--depth];
-    const Boxes& boxes = levels_[level];
-    for (std::uint32_t within = boxes.within(group, run, squared_radius); within != 0; within &= within - 1) {
-      const std::size_t index = group * kFan + static_cast<std::size_t>(std::countr_zero(within));
-      if (level > 0) {
-        stack[depth++] = {level - 1, index};
-        continue;
-      }
-      if (sight_.count == kMostBlocks) return false;
-      sight_.blocks[sight_.count++] = static_cast<std::uint32_t>(index);
-    }
-  }
-  const Boxes::Sides boxes = levels_[0].sides(0);
-  look_closely(blocks_.data(), boxes.lows, boxes.highs, sight_);
-  in_sight_ = radius;
+  if (!tree_.find_near(run, squared_radius, surroundings_)) return false;
+  tree_.fill_surroundings(surroundings_);
+  covered_ = radius;
   return true;
 }
 
-// From where the queries of a run look, and how well they see. False if that is not well enough.
-bool BlockSearch::set_origin(const Box& run, double radius) {
-  sight_.scale = std::ldexp(1.0, -std::ilogb(radius));
-  const double scaled = radius * sight_.scale;
+// Sets origin, scale and margin of the surroundings. False where single precision has too few digits.
+bool BlockSearch::set_origin(const BlockBox& run, double radius) {
+  surroundings_.scale = std::ldexp(1.0, -std::ilogb(radius));
+  const double scaled = radius * surroundings_.scale;
   double extent = 0;  // of the run, from the origin, along an axis
   for (int axis = 0; axis < 3; ++axis) {
-    sight_.origin[axis] = (run.low[axis] + run.high[axis]) / 2;
-    extent = std::max({extent, (run.high[axis] - sight_.origin[axis]) * sight_.scale,
-                       (sight_.origin[axis] - run.low[axis]) * sight_.scale});
+    surroundings_.origin[axis] = (run.low[axis] + run.high[axis]) / 2;
+    extent = std::max({extent, (run.high[axis] - surroundings_.origin[axis]) * surroundings_.scale,
+                       (surroundings_.origin[axis] - run.low[axis]) * surroundings_.scale});
   }
   // Rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
   // point at d from it: 2 u (extent + d) of each difference of coordinates, so 4 u (sqrt(3) extent d + d^2)
   // of the squares' sum, and 3 u d^2 of squaring and adding. That is below 7 u d (extent + d).
   constexpr double kRounding = 0x1p-24;
-  sight_.margin = 8 * kRounding * scaled * (extent + scaled);
+  surroundings_.margin = 8 * kRounding * scaled * (extent + scaled);
   return extent <= kLargestRun * scaled;
 }
 

@@ -2,29 +2,26 @@
 #pragma once
 
 #include "engine/model/neighbourhoods.hpp"
+#include "engine/neighbours/block_tree.hpp"
 #include "engine/neighbours/candidates.hpp"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 namespace lacuna {
 
-// Points near in the order are near in space, so blocks of sixteen consecutive ones are the leaves of a tree
-// that needs no building beyond its boxes. One walk finds the blocks around a run of queries; each query
-// takes the points within a radius, guessed from how many the query before found, and sixteen queries are
-// ranked side by side. All that in single precision, seen from the run. Few queries need more care: where the
-// guess holds too few points or too many, or where two distances are too near to each other for that. These
-// are decided by the distances themselves, one query at a time.
+// One walk through a `BlockTree` finds the blocks around a run of queries. Each query takes the points within a
+// radius, which it guesses from how many the query before found. Sixteen queries are ranked side by side, in single
+// precision, relative to the run. Few queries are ambiguous: the radius holds too few points or too many, or two
+// distances are too near to each other. Distances in double precision decide these, one query at a time.
 //
 // Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {
  public:
   // Over distinct points, which must outlive it.
   BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids);
-  ~BlockSearch();
 
   // For each query of [first, last), in order: visit(query, neighbours) with the first k in neighbour order,
   // all where fewer exist. Not from several threads at once. Throws `Error` if a squared distance
@@ -68,46 +65,41 @@ class BlockSearch {
   }
 
  private:
-  static constexpr std::size_t kRun = 2 * kQueries;  // queries that are looked around together
-  struct Box;
-  struct Boxes;
+  static constexpr std::size_t kRun = 2 * kQueries;  // queries that share surroundings
   void find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
   void prepare(std::size_t neighbours);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void narrow(CandidateList& list);
-  void set_reach(CandidateList& list) const;
+  void set_distance_bound(CandidateList& list) const;
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
   void rank(LocalIndex first, LocalIndex last, Rows rows);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
   void find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);
-  void descend(LocalIndex query, std::size_t level, std::size_t group);
-  void meet(LocalIndex query, LocalIndex other);
+  void keep_if_near(LocalIndex query, LocalIndex other);
   void list_balls(LocalIndex first, LocalIndex last, double radius);
   void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
-  void collect(LocalIndex query, double squared_radius, std::size_t level, std::size_t group);
   void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
   template <class Radius, class Visit>
   void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
-  bool look_around(LocalIndex first, LocalIndex last, double radius);
-  bool set_origin(const Box& run, double radius);
+  bool find_surroundings(LocalIndex first, LocalIndex last, double radius);
+  bool set_origin(const BlockBox& run, double radius);
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const PointId> ids_;
-  std::vector<Block> blocks_;
-  std::vector<Boxes> levels_;  // of blocks, of groups of eight, of groups of these, ...
+  BlockTree tree_;
 
-  double guess_ = 0;     // radius for the next query; 0: none yet
-  double in_sight_ = 0;  // `sight_` holds all blocks within this of the queries; 0: it does not
-  Sight sight_;
+  double guess_ = 0;    // radius for the next query; 0: none yet
+  double covered_ = 0;  // `surroundings_` holds all blocks within this distance of the queries; 0: none
+  Surroundings surroundings_;
   std::array<CandidateList, kRun> lists_;  // of the queries of a run
   std::array<Ranking, kRun / kQueries> rankings_;
   std::size_t neighbours_ = 0;  // of each query
   // By how many points the query before found, in units of its radius.
   std::array<double, kMostCandidates + 1> next_guess_{};
   std::vector<LocalIndex> found_;   // by query of the run, or in one ball
-  std::vector<Neighbour> nearest_;  // of one query, found with care
+  std::vector<Neighbour> nearest_;  // of one query, by the exact fallback
 };
 
 // Throws `Error` where two distinct points are so near that their squared distance loses digits.

@@ -37,17 +37,18 @@ HWY_INLINE hn::Vec<D> squared_gaps(D d, const Number* low, const Number* high, c
   return sum;
 }
 
-// Of the blocks in sight, those whose boxes are within the limit: rounding keeps the order of box and points.
-// Returns how many.
-HWY_INLINE std::size_t near_blocks(const Sight& sight, const float* query, float limit, std::uint32_t* near) {
+// Of the surroundings, the blocks whose boxes are within the limit: rounding keeps the order of box and
+// points. Returns how many.
+HWY_INLINE std::size_t near_blocks(const Surroundings& surroundings, const float* query, float limit,
+                                   std::uint32_t* near) {
   const hn::Vec<Singles> all_limit = hn::Set(kSingles, limit);
-  const float* const lows[3] = {sight.low[0], sight.low[1], sight.low[2]};
-  const float* const highs[3] = {sight.high[0], sight.high[1], sight.high[2]};
+  const float* const lows[3] = {surroundings.low[0], surroundings.low[1], surroundings.low[2]};
+  const float* const highs[3] = {surroundings.high[0], surroundings.high[1], surroundings.high[2]};
   auto numbers = hn::Iota(kWhole, 0);
   std::size_t count = 0;
-  for (std::size_t first = 0; first < sight.count; first += kStep) {
+  for (std::size_t first = 0; first < surroundings.count; first += kStep) {
     const auto within = squared_gaps(kSingles, query, query, lows, highs, first) <= all_limit;
-    const auto chosen = hn::And(within, hn::FirstN(kSingles, sight.count - first));
+    const auto chosen = hn::And(within, hn::FirstN(kSingles, surroundings.count - first));
     hn::StoreU(compress(numbers, hn::RebindMask(kWhole, chosen)), kWhole, near + count);
     count += hn::CountTrue(kSingles, chosen);
     numbers = numbers + hn::Set(kWhole, static_cast<std::uint32_t>(kStep));
@@ -133,18 +134,19 @@ std::uint32_t boxes_within(const double* low, const double* high, const double* 
   return within;
 }
 
-void look_closely(const Block* all, const double* const lows[3], const double* const highs[3], Sight& sight) {
+void fill_surroundings(const Block* all, const double* const lows[3], const double* const highs[3],
+                       Surroundings& surroundings) {
   const hn::Rebind<float, Doubles> single;
-  const auto scale = hn::Set(Doubles(), sight.scale);
+  const auto scale = hn::Set(Doubles(), surroundings.scale);
   for (int axis = 0; axis < 3; ++axis) {
-    const double origin = sight.origin[axis];
+    const double origin = surroundings.origin[axis];
     const auto all_origin = hn::Set(Doubles(), origin);
-    for (std::size_t i = 0; i < sight.count; ++i) {
-      const std::uint32_t number = sight.blocks[i];
-      sight.low[axis][i] = static_cast<float>((lows[axis][number] - origin) * sight.scale);
-      sight.high[axis][i] = static_cast<float>((highs[axis][number] - origin) * sight.scale);
+    for (std::size_t i = 0; i < surroundings.count; ++i) {
+      const std::uint32_t number = surroundings.blocks[i];
+      surroundings.low[axis][i] = static_cast<float>((lows[axis][number] - origin) * surroundings.scale);
+      surroundings.high[axis][i] = static_cast<float>((highs[axis][number] - origin) * surroundings.scale);
       const double* const from = all[number].coordinates[axis];
-      float* const to = sight.near[i].coordinates[axis];
+      float* const to = surroundings.near[i].coordinates[axis];
       for (std::size_t first = 0; first < kBlock; first += kLanes<Doubles>) {
         const auto scaled = (hn::Load(Doubles(), from + first) - all_origin) * scale;
         hn::Store(hn::DemoteTo(single, scaled), single, to + first);
@@ -153,17 +155,17 @@ void look_closely(const Block* all, const double* const lows[3], const double* c
   }
 }
 
-void find_within(const Sight& sight, const float query[3], float limit, CandidateList& list) {
+void find_within(const Surroundings& surroundings, const float query[3], float limit, CandidateList& list) {
   std::uint32_t near[kMostBlocks + kStep];
-  const std::size_t blocks = near_blocks(sight, query, limit, near);
+  const std::size_t blocks = near_blocks(surroundings, query, limit, near);
   const auto x = hn::Set(kSingles, query[0]), y = hn::Set(kSingles, query[1]),
              z = hn::Set(kSingles, query[2]);
   const auto all_limit = hn::Set(kSingles, limit);
   const auto places = hn::Iota(kWhole, 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < blocks && count <= kMostCandidates; ++i) {
-    const auto& block = sight.near[near[i]];
-    const std::uint32_t first_point = sight.blocks[near[i]] * static_cast<std::uint32_t>(kBlock);
+    const auto& block = surroundings.near[near[i]];
+    const std::uint32_t first_point = surroundings.blocks[near[i]] * static_cast<std::uint32_t>(kBlock);
     for (std::size_t first = 0; first < kBlock; first += kStep) {
       const auto dx = hn::Load(kSingles, block.coordinates[0] + first) - x;
       const auto dy = hn::Load(kSingles, block.coordinates[1] + first) - y;
@@ -175,7 +177,7 @@ void find_within(const Sight& sight, const float query[3], float limit, Candidat
   }
   list.count = count <= kMostCandidates ? count : kMostCandidates + 1;
   list.limit = limit;
-  list.margin = static_cast<float>(sight.margin);
+  list.margin = static_cast<float>(surroundings.margin);
 }
 
 void narrow_list(float limit, std::size_t least, CandidateList& list) {
@@ -235,14 +237,15 @@ std::uint32_t boxes_within(const double* low, const double* high, const double* 
   return HWY_DYNAMIC_DISPATCH(boxes_within)(low, high, lows, highs, squared_radius);
 }
 
-HWY_EXPORT(look_closely);
-void look_closely(const Block* all, const double* const lows[3], const double* const highs[3], Sight& sight) {
-  HWY_DYNAMIC_DISPATCH(look_closely)(all, lows, highs, sight);
+HWY_EXPORT(fill_surroundings);
+void fill_surroundings(const Block* all, const double* const lows[3], const double* const highs[3],
+                       Surroundings& surroundings) {
+  HWY_DYNAMIC_DISPATCH(fill_surroundings)(all, lows, highs, surroundings);
 }
 
 HWY_EXPORT(find_within);
-void find_within(const Sight& sight, const float query[3], float limit, CandidateList& list) {
-  HWY_DYNAMIC_DISPATCH(find_within)(sight, query, limit, list);
+void find_within(const Surroundings& surroundings, const float query[3], float limit, CandidateList& list) {
+  HWY_DYNAMIC_DISPATCH(find_within)(surroundings, query, limit, list);
 }
 
 HWY_EXPORT(narrow_list);

@@ -1,8 +1,8 @@
 // What the search in blocks does most: distances from one query to the points of many blocks, and the
 // nearest of sixteen queries ranked side by side. Plain arrays, compiled for each instruction set.
 //
-// In single precision, which takes half of the time, and exact all the same: distances differ from the true
-// ones by less than a margin, and what a margin could turn round is told, and left to the caller.
+// Single precision takes half of the time. Results are exact all the same: distances differ from the true
+// ones by less than a margin. What the margin could reverse is marked as ambiguous, and left to the caller.
 #pragma once
 
 #include "engine/simd/batch.hpp"
@@ -15,7 +15,7 @@ namespace lacuna {
 
 inline constexpr std::size_t kBlock = 16;        // points a block
 inline constexpr std::size_t kFan = 8;           // blocks or groups a group
-inline constexpr std::size_t kMostBlocks = 128;  // in sight
+inline constexpr std::size_t kMostBlocks = 128;  // in surroundings
 
 // Squared distances between a box and those of a group.
 void box_gaps(const double* low, const double* high, const double* const lows[3],
@@ -30,11 +30,11 @@ struct alignas(64) Block {
   double coordinates[3][kBlock];
 };
 
-// Blocks around some queries, as seen from there: coordinates are (p - origin) * scale in single precision.
-struct alignas(64) Sight {
+// Blocks around some queries, relative to them: coordinates are (p - origin) * scale in single precision.
+struct alignas(64) Surroundings {
   double origin[3];
   double scale;   // a power of two
-  double margin;  // squared distances to points in sight up to the radius differ by less from the true ones
+  double margin;  // squared distances up to the radius differ by less from the true ones
   alignas(64) float low[3][kMostBlocks];  // boxes of the blocks
   float high[3][kMostBlocks];
   struct alignas(64) {
@@ -44,8 +44,9 @@ struct alignas(64) Sight {
   std::size_t count = 0;
 };
 
-// Fills the boxes and coordinates of the blocks in sight. `lows`, `highs`: sides of the boxes of all blocks.
-void look_closely(const Block* all, const double* const lows[3], const double* const highs[3], Sight& sight);
+// Fills the boxes and coordinates of the blocks. `lows`, `highs`: sides of the boxes of all blocks.
+void fill_surroundings(const Block* all, const double* const lows[3], const double* const highs[3],
+                       Surroundings& surroundings);
 
 inline constexpr std::size_t kMostCandidates = 128;
 
@@ -53,14 +54,14 @@ inline constexpr std::size_t kMostCandidates = 128;
 struct alignas(64) CandidateList {
   float squared_distances[kMostCandidates + kBlock];
   std::uint32_t points[kMostCandidates + kBlock];
-  std::size_t count = 0;  // kMostCandidates + 1: there are more
-  float limit;            // of the squared distances
-  float margin;           // as in the sight
-  double squared_distance_bound;   // of the caller: all points nearer than this are listed, in true distances
+  std::size_t count = 0;          // kMostCandidates + 1: there are more
+  float limit;                    // of the squared distances
+  float margin;                   // as in `Surroundings`
+  double squared_distance_bound;  // of the caller: all points nearer than this are listed, in true distances
 };
 
-// All points in sight within the limit of the query, whose coordinates are those in sight.
-void find_within(const Sight& sight, const float query[3], float limit, CandidateList& list);
+// All points of the blocks within the limit of the query, which is in the coordinates of the surroundings.
+void find_within(const Surroundings& surroundings, const float query[3], float limit, CandidateList& list);
 
 // Leaves of a list only what is within a smaller limit, if that is at least so many: else it stays as it is.
 void narrow_list(float limit, std::size_t least, CandidateList& list);
@@ -72,7 +73,7 @@ inline constexpr std::size_t kQueries = 16;  // ranked side by side
 struct Ranking {
   Batch<float, kQueries> keys[kMostCandidates];
   std::uint32_t number_bits;
-  bool is_ambiguous[kQueries];  // distances of successive ranks are too near to tell them apart
+  bool is_ambiguous[kQueries];  // distances of successive ranks are too near for an order
 
   std::uint32_t number(std::size_t rank, std::size_t query) const {
     return std::bit_cast<std::uint32_t>(keys[rank].at[query]) & number_bits;
@@ -87,8 +88,8 @@ struct Ranking {
 };
 
 // Ranks the candidates of at most kQueries lists, as far as they are wanted; lists of more than
-// kMostCandidates count as empty. `ends_at_limit`: what is in no list takes part, as if it were at the limit,
-// so that there is doubt if it may be nearer than the last of those wanted.
+// kMostCandidates count as empty. `ends_at_limit`: points in no list count as if they were at the
+// limit. A query is ambiguous if such a point may be nearer than the last of those wanted.
 void rank_candidates(const CandidateList* lists, std::size_t count, std::size_t wanted, bool ends_at_limit,
                      Ranking& ranking);
 

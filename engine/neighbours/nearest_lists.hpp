@@ -1,4 +1,4 @@
-// N_p^k of many points, in whole cache lines: the question asked most is whether one holds a point.
+// N_p^k of many points, in whole cache lines, since the most frequent query is whether a list holds a point.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct NearestLists {
   std::uint16_t* mutual;  // by line: bit i, its i-th neighbour has the point among its own
 };
 
-// Sets `mutual` among points [first, last) and those before them, which have been asked likewise: the lists
-// of those after them need not be there yet.
+// Sets `mutual` among points [first, last) and those before them, whose `mutual` has been set likewise.
+// The lists of points after them need not exist yet.
 void find_mutual(const NearestLists& lists, std::uint32_t first, std::uint32_t last);
 
 // From points p to neighbours q. What is appended writes up to kListLine more.

@@ -1,8 +1,8 @@
 #include "engine/neighbours/neighbourhoods.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/neighbours/block_search.hpp"
 #include "engine/neighbours/nearest_lists.hpp"
+#include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@
 namespace lacuna {
 namespace {
 
-constexpr LocalIndex kTogether = 64;  // points asked together
+constexpr LocalIndex kTogether = 64;  // points searched together
 
 // N_p^k of every owned point.
 class Nearest {
@@ -64,8 +64,7 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
       p.resize(q.size());
     }
     const LocalIndex last = std::min(first + kTogether, points.owned);
-    count += find_one_sided(nearest.lists(), first, last, points.owned,
-                                     {q.data() + count, p.data() + count});
+    count += find_one_sided(nearest.lists(), first, last, points.owned, {q.data() + count, p.data() + count});
   }
   Rows rows;
   rows.offsets.assign(points.owned + 1, 0);

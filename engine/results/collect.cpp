@@ -70,11 +70,8 @@ class WorkspaceDetection final : public Detection {
   void for_each_result_block(
       const std::function<void(PointId first, std::span<const PointResult>)>& visit) const override {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-    const PointResult dropped{.probability = kNaN,
-                              .angle = kNaN,
-                              .halfdisc = kNaN,
-                              .shape = kNaN,
-                              .normal = Eigen::Vector3f::Constant(kNaN)};
+    PointResult dropped{.probability = kNaN, .normal = Eigen::Vector3f::Constant(kNaN)};
+    dropped.criteria.fill(kNaN);
     BoundaryReader boundary(*this);
     std::uint64_t next_boundary = 0;
     std::vector<PointResult> block;
@@ -82,7 +79,10 @@ class WorkspaceDetection final : public Detection {
       const std::uint64_t first = b * kResultBlock;
       const std::uint64_t last = std::min(first + kResultBlock, summary_.counts.points);
       block.assign(last - first, dropped);
-      results_->for_each(b, [&](const StoredResult& r) { block[value(r.id) - first] = result(r); });
+      results_->for_each(b, [&](const StoredResult& r, std::span<const float> criteria) {
+        PointResult& point = block[value(r.id) - first] = result(r);
+        std::copy(criteria.begin(), criteria.end(), point.criteria.begin());
+      });
       for (; next_boundary < marked_; ++next_boundary) {
         const StoredBoundary& p = boundary.peek();
         if (value(p.point.id) >= last) break;
@@ -111,9 +111,7 @@ class WorkspaceDetection final : public Detection {
   PointResult result(const StoredResult& r) const {
     const float sign = turned_ && turned_->contains(r.row) ? -1.0f : 1.0f;
     return {.probability = r.probability,
-            .angle = r.criteria[0],
-            .halfdisc = r.criteria[1],
-            .shape = r.criteria[2],
+            .criteria = {},
             .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
   }
 

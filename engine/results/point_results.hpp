@@ -1,23 +1,24 @@
 // Results of every point of the input, for points.ply.
 #pragma once
 
-#include "engine/criteria/criterion.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <vector>
 
 namespace lacuna {
 
-// Of one point of the input.
+// Of one point of the input. On disk, its criteria follow, in the order of the table.
 struct StoredResult {
   PointId id;
   Row row;  // of the distinct point
   float probability;
-  float criteria[kCriteria];
   float normal[3];
 };
 
@@ -33,17 +34,29 @@ class PointResults final : public TileConsumer {
   void take(const EvaluatedTile& tile) override;
 
   std::size_t blocks() const { return lists_.lists(); }
-  // visit(result), in any order.
+  // visit(result, criteria), in any order.
   template <class Visit>
   void for_each(std::size_t block, Visit&& visit) const {
-    lists_.for_each(block, visit);
+    constexpr std::size_t kTogether = 1 << 14;
+    std::vector<std::byte> part(kTogether * record_bytes());
+    std::vector<float> criteria(criteria_);
+    lists_.for_each_part(block, part, [&](std::size_t bytes) {
+      for (std::size_t at = 0; at < bytes; at += record_bytes()) {
+        StoredResult result;
+        std::memcpy(&result, &part[at], sizeof result);
+        std::memcpy(criteria.data(), &part[at + sizeof result], criteria_ * sizeof(float));
+        visit(result, std::span<const float>(criteria));
+      }
+    });
   }
 
  private:
-  void append(std::vector<StoredResult>& results);  // and clears them
+  std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
+  void append(const EvaluatedTile& tile, std::vector<Duplicate>& results);  // and clears them
 
   const TileStore& store_;
-  AppendLists<StoredResult> lists_;
+  std::size_t criteria_;  // of each point
+  AppendBytes lists_;
 };
 
 }  // namespace lacuna

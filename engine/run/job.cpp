@@ -59,7 +59,7 @@ std::uint64_t Job::tile_points(std::uint64_t points) const {
   const std::uint64_t affordable = std::max(memory.tiles / threads / tile_bytes(1024) * 1024, kLeast);
   if (config.run.tile_points > 0)
     return std::min(static_cast<std::uint64_t>(config.run.tile_points), affordable);
-  // Halves are not quite equal: without room for the larger ones some would be halved once more.
+  // Halves are not quite equal: without space for the larger ones some would be halved once more.
   const std::uint64_t share = points * 9 / 8 / (kTilesPerThread * threads);
   return std::min(std::clamp(share, std::uint64_t{4096}, kMost), affordable);
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/model/detection.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/progress.hpp"
-#include "engine/model/detection.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,9 +15,9 @@
 namespace lacuna {
 
 // How the memory limit is shared out. Nothing of the scan's size is held outside of these, save four bits a
-// point (what is rough, unmeasured, told and boundary).
+// point (active, not measured, sent and boundary).
 struct Memory {
-  std::uint64_t limit;   // all of it; where none is asked for, half of what the process may have
+  std::uint64_t limit;   // all of it; where the config has none, half of what the process may have
   std::uint64_t cells;   // survey and index
   std::uint64_t tiles;   // all tiles at work together
   std::uint64_t spills;  // buffers of all lists on their way to disk
@@ -42,7 +42,7 @@ struct Job {
   void trim() const;
   // A file of the workspace.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
-  // Points per tile: what was asked for, or enough tiles for all threads; never more than memory allows.
+  // Points per tile: as the config has it, or enough tiles for all threads; never more than memory allows.
   std::uint64_t tile_points(std::uint64_t points) const;
   // Points in a cell of the index, so that all cells fit in memory.
   std::uint64_t cell_points(std::uint64_t points) const;

@@ -69,7 +69,7 @@ std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {
     if (!is_unified && controllers != "memory") continue;
     const fs::path top = is_unified ? root : root / "memory";
     const char* const file = is_unified ? "memory.max" : "memory.limit_in_bytes";
-    // What holds for a group holds for all within it. Of a container, only the last may be there to see.
+    // What holds for a group holds for all within it. In a container, only the last may exist.
     for (fs::path group = fs::path(line.substr(second + 1)).relative_path();; group = group.parent_path()) {
       least = std::min(least, read_limit(top / group / file));
       if (group.empty()) break;

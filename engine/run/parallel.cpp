@@ -47,7 +47,7 @@ class Admission {
 
   std::optional<std::size_t> enter() {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [&] { return done() || running_ == 0 || used_ + needs_[next_] <= budget_; });
+    freed_.wait(lock, [&] { return done() || running_ == 0 || used_ + needs_[next_] <= budget_; });
     if (done()) return std::nullopt;
     used_ += needs_[next_];
     ++running_;
@@ -58,7 +58,7 @@ class Admission {
     const std::lock_guard lock(mutex_);
     used_ -= needs_[index];
     --running_;
-    room_.notify_all();
+    freed_.notify_all();
   }
 
   void fail(std::exception_ptr error) {
@@ -76,7 +76,7 @@ class Admission {
   std::span<const std::uint64_t> needs_;
   std::uint64_t budget_;
   std::mutex mutex_;
-  std::condition_variable room_;
+  std::condition_variable freed_;
   std::size_t next_ = 0;
   std::size_t running_ = 0;
   std::uint64_t used_ = 0;
@@ -102,9 +102,9 @@ std::size_t TaskArena::threads() const {
   return static_cast<std::size_t>(arena_->arena.max_concurrency());
 }
 
-// Isolated, for what a body asks of its arena: while it waits, its thread could be handed the loop that the
-// body is part of, and start another body, or wait for memory that its own body holds: for ever. Isolation of
-// the body alone is not enough, since entering the arena ends it.
+// Isolated: a body may use its arena itself. While it blocks, oneTBB could give its thread the loop that the
+// body is part of. The thread would start another body, or block for ever on memory that its own body holds.
+// Isolation of the body alone is not enough, since entering the arena ends it.
 void TaskArena::in_arena(const std::function<void()>& work) const {
   arena_->arena.execute([&] { tbb::this_task_arena::isolate(work); });
 }
@@ -114,7 +114,7 @@ void TaskArena::for_each(std::size_t count, const std::function<void(std::size_t
 }
 
 void TaskArena::for_each_within_budget(std::span<const std::uint64_t> needs, std::uint64_t budget,
-                           const std::function<void(std::size_t)>& body) const {
+                                       const std::function<void(std::size_t)>& body) const {
   Admission admission(needs, budget);
   const auto work = [&](std::size_t) {
     while (const std::optional<std::size_t> index = admission.enter()) {
@@ -131,8 +131,8 @@ void TaskArena::for_each_within_budget(std::span<const std::uint64_t> needs, std
 }
 
 void TaskArena::pipeline(const std::function<bool(std::size_t)>& produce,
-                    const std::function<void(std::size_t)>& transform,
-                    const std::function<void(std::size_t)>& consume, std::size_t slots) const {
+                         const std::function<void(std::size_t)>& transform,
+                         const std::function<void(std::size_t)>& consume, std::size_t slots) const {
   std::size_t next = 0;
   const auto fetch = [&](tbb::flow_control& flow) -> std::size_t {
     const std::size_t slot = next++ % slots;

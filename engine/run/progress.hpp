@@ -1,4 +1,4 @@
-// How a run tells how far it is. The engine reports; the terminal decides what to show.
+// Reports of how far a run is. The engine reports; the terminal decides what to show.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ HWY_INLINE V exponential(V x) {
   const V shifted = bounded * all<V>(std::numbers::log2e) + round;
   const V n = shifted - round;
   const V r = (bounded - n * ln2_high) - n * ln2_low;  // |r| <= ln 2 / 2
-  // Taylor to r^11: the next term is below 7e-15. Even and odd powers apart: neither waits for the other.
+  // Taylor to r^11: the next term is below 7e-15. Even and odd powers apart: neither depends on the other.
   const V z = r * r;
   const V even = polynomial(z, 1.0 / 3628800, 1.0 / 40320, 1.0 / 720, 1.0 / 24, 0.5, 1.0);
   const V odd = polynomial(z, 1.0 / 39916800, 1.0 / 362880, 1.0 / 5040, 1.0 / 120, 1.0 / 6, 1.0);

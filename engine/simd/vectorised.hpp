@@ -1,5 +1,5 @@
-// A plain loop that the compiler vectorises by itself, compiled for several instruction sets beside the code
-// around it. Only for whole numbers and for what has one exact result: such a loop is no kernel of Highway.
+// A plain loop that the compiler vectorises by itself, compiled for several instruction sets within plain
+// code. Only for whole numbers and for what has one exact result: such a loop is no kernel of Highway.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)

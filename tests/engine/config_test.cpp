@@ -250,8 +250,9 @@ TEST_CASE("values that contradict each other are refused") {
   config.neighbourhood = {.eps = 1, .eps_fraction = 0.1};
   REQUIRE_THROWS_WITH(check_config(config), Contains("eps and eps_fraction"));
   config = {};
-  config.criteria = {.weight_angle = 0, .weight_halfdisc = 0, .weight_shape = 0};
-  REQUIRE_THROWS_WITH(check_config(config), Contains("weight_angle"));
+  config.criteria.weights = {0, 0, 0};
+  REQUIRE_THROWS_WITH(check_config(config),
+                      Contains("weight_angle, weight_halfdisc and weight_shape are all 0"));
   config = {};
   config.selection = {.min_perimeter = 2, .max_perimeter = 1};
   REQUIRE_THROWS_WITH(check_config(config), Contains("max_perimeter"));

@@ -116,9 +116,9 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
       wrong_probability += !std::isnan(q.probability);
       continue;
     }
-    wrong_probability += !judged[i] && (!near(q.probability, p.probability) || !near(q.angle, p.angle));
-    wrong_probability += !p.turned_by_rounding && !near(q.halfdisc, p.halfdisc);
-    wrong_probability += !near(q.shape, p.shape);
+    wrong_probability += !judged[i] && (!near(q.probability, p.probability) || !near(q.criteria[0], p.angle));
+    wrong_probability += !p.turned_by_rounding && !near(q.criteria[1], p.halfdisc);
+    wrong_probability += !near(q.criteria[2], p.shape);
     wrong_coherence += (q.coherent != 0) != p.coherent;
     wrong_boundary += (q.boundary != 0) != p.boundary;
     if (p.oriented_normal) {
@@ -442,8 +442,9 @@ TEST_CASE("the order of the points changes no probability, no coherence and no e
     std::size_t different = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
       const PointResult &a = here.points[order[i]], &b = there.points[i];
-      different += a.probability != b.probability || a.angle != b.angle || a.halfdisc != b.halfdisc ||
-                   a.shape != b.shape || a.coherent != b.coherent;
+      different += a.probability != b.probability || a.criteria[0] != b.criteria[0] ||
+                   a.criteria[1] != b.criteria[1] || a.criteria[2] != b.criteria[2] ||
+                   a.coherent != b.coherent;
     }
     CHECK(different == 0);
     CHECK(there.summary.counts.boundary_edges == here.summary.counts.boundary_edges);

@@ -67,9 +67,9 @@ TEST_CASE("the engine gives the golden probabilities, coherence and loops, in ti
     std::vector<GoldenPoint> found = golden;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const PointResult& p = detected.points[i];
-      found[i].angle = p.angle;
-      found[i].halfdisc = p.halfdisc;
-      found[i].shape = p.shape;
+      found[i].angle = p.criteria[0];
+      found[i].halfdisc = p.criteria[1];
+      found[i].shape = p.criteria[2];
       found[i].probability = p.probability;
       found[i].coherent = p.coherent;
     }

@@ -40,9 +40,7 @@ class FakeDetection final : public Detection {
     numbers.counts.points = count;
     for (std::size_t id = 0; id < count; ++id) {
       results.push_back({.probability = static_cast<float>(id),
-                         .angle = 0.25f,
-                         .halfdisc = 0.5f,
-                         .shape = 0.75f,
+                         .criteria = {0.25f, 0.5f, 0.75f},
                          .boundary = 1,
                          .coherent = 0,
                          .loop = -1,

@@ -372,9 +372,9 @@ Config random_config(std::uint64_t seed, double spacing) {
   if (varied()) config.criteria.sigma = random.uniform(0.2, 3);
   if (varied()) config.criteria.cone = random.chance(0.2) ? 0 : random.uniform(0, 45);
   if (varied()) {
-    config.criteria.weight_angle = random.uniform(0, 2);
-    config.criteria.weight_halfdisc = random.chance(0.2) ? 0 : random.uniform(0, 2);
-    config.criteria.weight_shape = random.uniform(0.1, 2);
+    config.criteria.weights[0] = random.uniform(0, 2);
+    config.criteria.weights[1] = random.chance(0.2) ? 0 : random.uniform(0, 2);
+    config.criteria.weights[2] = random.uniform(0.1, 2);
   }
   if (varied()) config.coherence.threshold = random.uniform(0.2, 0.8);
   if (varied()) config.spanning.max_prob_weight = random.uniform(0.5, 1.6);

@@ -1,5 +1,6 @@
 #include "tests/support/detected.hpp"
 
+#include "engine/criteria/criteria.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -31,7 +32,8 @@ std::vector<std::vector<PointId>> Detected::loop_ids() const {
 std::string Detected::bytes() const {
   std::string bytes;
   for (const PointResult& p : points) {
-    for (const float value : {p.probability, p.angle, p.halfdisc, p.shape}) put(bytes, value);
+    put(bytes, p.probability);
+    for (std::size_t i = 0; i < criteria().size(); ++i) put(bytes, p.criteria[i]);
     for (int axis = 0; axis < 3; ++axis) put(bytes, p.normal[axis]);
     put(bytes, p.boundary);
     put(bytes, p.coherent);

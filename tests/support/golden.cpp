@@ -33,8 +33,7 @@ std::vector<GoldenSetting> golden_settings() {
   Config eps = k15, k25 = k15, noisy = k15;
   eps.neighbourhood.eps = 0.004;
   k25.neighbourhood.k = 25;
-  noisy.criteria = {
-      .sigma = 0.8, .cone = 25, .weight_angle = 0.2, .weight_halfdisc = 0.2, .weight_shape = 0.6};
+  noisy.criteria = {.sigma = 0.8, .cone = 25, .weights = {0.2, 0.2, 0.6}};
   noisy.coherence.threshold = 0.4;
   noisy.spanning = {.max_prob_weight = 1.2, .max_total_weight = 2.8, .e = 20};
   return {{"bun_zipper.k15", "data/bun_zipper.ply", k15}, {"bun_zipper.eps0.004", "data/bun_zipper.ply", eps},

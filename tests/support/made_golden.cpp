@@ -30,8 +30,7 @@ Config other_setting(const std::string& cloud) {
   if (cloud == "punched") config.neighbourhood.k = 25;
   if (cloud == "tied") config.neighbourhood.eps = 3;  // grid points lie at exactly this distance
   if (cloud == "rough") {
-    config.criteria = {
-        .sigma = 0.8, .cone = 25, .weight_angle = 0.2, .weight_halfdisc = 0.2, .weight_shape = 0.6};
+    config.criteria = {.sigma = 0.8, .cone = 25, .weights = {0.2, 0.2, 0.6}};
     config.coherence.threshold = 0.4;
     config.spanning = {.max_prob_weight = 1.2, .max_total_weight = 2.8, .e = 20};
   }

@@ -367,10 +367,10 @@ void evaluate(const Positions& positions, const std::vector<Vector3d>& given, co
     if (angle.gap) point.gap = {point.neighbours[(*angle.gap)[0]], point.neighbours[(*angle.gap)[1]]};
   }
 
-  const double total = (criteria.weight_angle + criteria.weight_halfdisc) + criteria.weight_shape;
-  point.combined =
-      (criteria.weight_angle / total * point.angle + criteria.weight_halfdisc / total * point.halfdisc) +
-      criteria.weight_shape / total * point.shape;
+  const std::vector<double>& weights = criteria.weights;
+  const double total = (weights[0] + weights[1]) + weights[2];
+  point.combined = (weights[0] / total * point.angle + weights[1] / total * point.halfdisc) +
+                   weights[2] / total * point.shape;
   point.probability = rounded(point.combined);
 }
 

@@ -1,7 +1,6 @@
 // The criteria of batches: the same bits from every instruction set, and from every place in a batch.
 #include "engine/criteria/criteria_values.hpp"
 
-#include "engine/criteria/criterion.hpp"
 #include "engine/criteria/exact_fallback.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -78,7 +77,7 @@ const CriteriaParameters kParameters{
 
 CriteriaValues evaluated(const std::vector<Neighbourhood>& points, bool given = false) {
   const FilledBatch filled = batch_of(points, given);
-  CriteriaValues values;
+  CriteriaValues values{};
   evaluate_criteria(filled.batch, kParameters, values);
   return values;
 }
@@ -184,7 +183,7 @@ TEST_CASE("gaps that differ by nearly nothing are those of the exact fallback") 
           expected.used < 3 ? 1 : std::clamp((expected.size - even) / (kTurn / 2 - even), 0.0, 1.0);
       ++compared;
       different += found.gap_near.at[i] != expected.near || found.gap_far.at[i] != expected.far ||
-                   std::abs(found.criteria[kAngle].at[i] - angle) > 1e-11;
+                   std::abs(found.criteria[0].at[i] - angle) > 1e-11;
     }
   }
   CHECK(compared == 4000 * kBatchSize);

@@ -1,9 +1,12 @@
 #include "engine/evaluate/evaluate.hpp"
 
+#include "engine/criteria/criteria.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -11,13 +14,25 @@
 namespace lacuna {
 namespace {
 
-std::vector<Evaluation> evaluate_whole(const Cloud& cloud, const TilePoints& points, const Config& config,
-                                       double eps) {
+// With the criteria beside it.
+struct Evaluated : Evaluation {
+  std::array<double, 3> criteria;
+};
+
+std::vector<Evaluated> evaluate_whole(const Cloud& cloud, const TilePoints& points, const Config& config,
+                                      double eps) {
   const Rows rows = find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), eps);
-  return evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria);
+  std::vector<double> values(points.owned * criteria().size(), -1);
+  std::vector<Evaluated> all;
+  for (const Evaluation& e :
+       evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria, values)) {
+    all.push_back({e, {}});
+    std::copy_n(&values[(all.size() - 1) * criteria().size()], 3, all.back().criteria.begin());
+  }
+  return all;
 }
 
-Evaluation evaluate_first(const Cloud& cloud, const Config& config = {}) {
+Evaluated evaluate_first(const Cloud& cloud, const Config& config = {}) {
   return evaluate_whole(cloud, whole_tile(cloud), config, config.neighbourhood.eps)[0];
 }
 
@@ -34,10 +49,10 @@ TEST_CASE("probabilities are those of the plain method to 1e-9, gap neighbours a
     config.spanning = {.max_prob_weight = 1e-9};
     const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
     const TilePoints points = whole_tile(cloud);
-    const std::vector<Evaluation> evaluations = evaluate_whole(cloud, points, config, plain.eps);
+    const std::vector<Evaluated> evaluations = evaluate_whole(cloud, points, config, plain.eps);
     std::size_t wrong_criteria = 0, wrong_distance = 0, wrong_gap = 0, wrong_rounding = 0;
     for (LocalIndex i = 0; i < points.owned; ++i) {
-      const Evaluation& e = evaluations[i];
+      const Evaluated& e = evaluations[i];
       const reference::Point& p = plain.points[value(points.ids[i])];
       ++compared;
       wrong_distance += e.mean_distance != p.mean_distance;
@@ -74,7 +89,7 @@ TEST_CASE("inside of a plane nothing speaks for a boundary, at its edge everythi
   }
   Config config;
   config.neighbourhood.k = 8;
-  const Evaluation inside = evaluate_first(cloud, config);
+  const Evaluated inside = evaluate_first(cloud, config);
   CHECK(inside.criteria[0] == Approx(0).margin(1e-12));
   CHECK(inside.criteria[1] == Approx(0).margin(1e-12));
   CHECK(inside.mean_distance == Approx((1 + std::sqrt(2.0)) / 2));
@@ -84,7 +99,7 @@ TEST_CASE("inside of a plane nothing speaks for a boundary, at its edge everythi
   for (const Eigen::Vector3d& p : cloud.positions) {
     if (p.x() >= 0) half.positions.push_back(p);
   }
-  const Evaluation edge = evaluate_first(half, config);
+  const Evaluated edge = evaluate_first(half, config);
   CHECK(edge.criteria[0] == Approx(1));
   CHECK(edge.criteria[1] > 0.8);
   CHECK(edge.criteria[2] > inside.criteria[2]);
@@ -93,7 +108,7 @@ TEST_CASE("inside of a plane nothing speaks for a boundary, at its edge everythi
 }
 
 TEST_CASE("a point that sees no other has probability 1, no extent and no gap neighbours") {
-  const Evaluation lone = evaluate_first(line(1));
+  const Evaluated lone = evaluate_first(line(1));
   CHECK(lone.criteria == std::array{1.0, 1.0, 1.0});
   CHECK(lone.probability == 1);
   CHECK(lone.mean_distance == 0);
@@ -102,7 +117,7 @@ TEST_CASE("a point that sees no other has probability 1, no extent and no gap ne
 }
 
 TEST_CASE("points on a line have no normal, no gap neighbours, and are boundary for angle and halfdisc") {
-  const Evaluation e = evaluate_first(line(30).rotated({1, 2, 3}, 33));
+  const Evaluated e = evaluate_first(line(30).rotated({1, 2, 3}, 33));
   CHECK(e.criteria[0] == 1);
   CHECK(e.criteria[1] == 1);
   CHECK(e.gap_near == kNoIndex);

@@ -47,8 +47,9 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
     }
     const double* const lows[3] = {low[0].data(), low[1].data(), low[2].data()};
     const double* const highs[3] = {high[0].data(), high[1].data(), high[2].data()};
-    Sight sight{.origin = {1e6 + 2, 1e6 + 3, 1e6 + 2.5}, .scale = 0.5, .margin = 1e-5};
-    for (std::size_t i = 0; i < blocks; ++i) sight.blocks[sight.count++] = static_cast<std::uint32_t>(i + 3);
+    Surroundings surroundings{.origin = {1e6 + 2, 1e6 + 3, 1e6 + 2.5}, .scale = 0.5, .margin = 1e-5};
+    for (std::size_t i = 0; i < blocks; ++i)
+      surroundings.blocks[surroundings.count++] = static_cast<std::uint32_t>(i + 3);
     const float query[3] = {0.125F, -0.25F, 0.0625F};
     const auto limit = static_cast<float>(random.uniform(0.01, 0.3));
 
@@ -57,9 +58,9 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
       for (std::size_t i = 0; i < kBlock; ++i) {
         float difference[3];
         for (int axis = 0; axis < 3; ++axis)
-          difference[axis] =
-              static_cast<float>((all[b].coordinates[axis][i] - sight.origin[axis]) * sight.scale) -
-              query[axis];
+          difference[axis] = static_cast<float>((all[b].coordinates[axis][i] - surroundings.origin[axis]) *
+                                                surroundings.scale) -
+                             query[axis];
         const float squared =
             (difference[0] * difference[0] + difference[1] * difference[1]) + difference[2] * difference[2];
         if (squared <= limit) expected.emplace_back(b * kBlock + i, squared);
@@ -67,9 +68,9 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
     }
     INFO("round " << round << ", " << expected.size() << " points");
     by_each_instruction_set([&] {
-      look_closely(all.data(), lows, highs, sight);
+      fill_surroundings(all.data(), lows, highs, surroundings);
       CandidateList list{};
-      find_within(sight, query, limit, list);
+      find_within(surroundings, query, limit, list);
       if (expected.size() > kMostCandidates) {
         CHECK(list.count == kMostCandidates + 1);
         return;

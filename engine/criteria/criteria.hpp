@@ -1,0 +1,25 @@
+// The criteria: how likely a point is to lie on a boundary, from its neighbourhood (paper, 4.2 to 4.5).
+// To add one: write its formula over a `Surface` in a header of its own, and its line in `table-inl.hpp`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// A line of the table.
+struct Criterion {
+  std::string name;
+  std::string weight_key;  // "weight_NAME", the parameter
+  std::string column;      // "scalar_NAME", in points.ply
+  double default_weight;
+  std::string help;  // of the parameter
+};
+
+// Every criterion, in the order of the table.
+const std::vector<Criterion>& criteria();
+
+// In the order of the table.
+std::vector<double> default_weights();
+
+}  // namespace lacuna

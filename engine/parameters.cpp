@@ -1,0 +1,123 @@
+// The one list of all parameters.
+#include "engine/config.hpp"
+#include "engine/criteria/criteria.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lacuna {
+namespace {
+
+constexpr double kAboveZero = std::numeric_limits<double>::min();
+constexpr double kLeastMemory = 64.0 * 1024 * 1024;
+
+constexpr Need kNothing{"", [](const Config&) { return true; }};
+constexpr Need kTangential{"--method tangential",
+                           [](const Config& c) { return c.loops.method == LoopMethod::kTangential; }};
+constexpr Need kPaper{"--method paper", [](const Config& c) { return c.loops.method == LoopMethod::kPaper; }};
+constexpr Need kPoints{"--points", [](const Config& c) { return c.output.points; }};
+constexpr Need kPointsNormals{"--points --normals",
+                              [](const Config& c) { return c.output.points && c.output.normals; }};
+
+}  // namespace
+
+std::vector<Parameter> parameters(Config& config) {
+  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, tangential, selection, input, output,
+         run] = config;
+  const double below_90 = std::nextafter(90.0, 0.0);
+  std::vector<Parameter> all = {
+      {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
+       "Nearest neighbours of a point, before the neighbourhoods are made symmetric.", kNothing},
+      {"neighbourhood", "eps", &neighbourhood.eps, 0, 1e150, "a length of 0 (off) or more",
+       "Radius, in units of the scan, within which every point is a neighbour too.", kNothing},
+      {"neighbourhood", "eps_fraction", &neighbourhood.eps_fraction, 0, 1, "a number from 0 (off) to 1",
+       "The same radius as a fraction of the bounding box's diagonal; set at most one of the two.", kNothing},
+
+      {"normals", "crease_threshold", &normals.crease_threshold, 0, 1, "a number from 0 to 1",
+       "Angle probability above which an estimated normal is turned at a crease.", kNothing},
+      {"normals", "orient_normals", &normals.orient, 0, 1, "true or false",
+       "Orient normals consistently, by minimum spanning tree.", kPointsNormals},
+
+      {"criteria", "sigma", &criteria.sigma, kAboveZero, 1000, "a number above 0, at most 1000",
+       "Width of the Gauss weights, as a multiple of a point's mean distance to its neighbours.", kNothing},
+      {"criteria", "cone", &criteria.cone, 0, below_90, "degrees from 0 (off) to less than 90",
+       "Angle around the normal line within which directions to neighbours are not used.", kNothing},
+  };
+  for (std::size_t i = 0; i < lacuna::criteria().size(); ++i) {
+    const Criterion& criterion = lacuna::criteria()[i];
+    all.push_back({"criteria", criterion.weight_key, &criteria.weights.at(i), 0, 1e6,
+                   "a number from 0 to 1000000", criterion.help, kNothing});
+  }
+  const std::vector<Parameter> others = {
+      {"coherence", "threshold", &coherence.threshold, 0, 1, "a number from 0 to 1",
+       "Boundary probability above which a point is a candidate; tangential loops are searched from these.",
+       kNothing},
+
+      {"loops", "method", &loops.method, 0, 1, "tangential or paper",
+       "How loops are found: tangential, as the boundary of the triangles on which neighbouring points "
+       "agree; "
+       "paper, as Bendels et al. do.",
+       kNothing},
+
+      {"spanning", "max_prob_weight", &spanning.max_prob_weight, 0, 1e9, "a number from 0 to 1000000000",
+       "Method paper: an edge takes part if its probability weight is below this.", kPaper},
+      {"spanning", "max_total_weight", &spanning.max_total_weight, 0, 1e9, "a number from 0 to 1000000000",
+       "Method paper: an edge takes part if its total weight is below this.", kPaper},
+      {"spanning", "e", &spanning.e, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
+       "Method paper: loops have more than this many edges; 0: round(2 sqrt(pi K)), K the mean number of "
+       "neighbours.",
+       kPaper},
+
+      {"tangential", "max_radius", &tangential.max_radius, 0.5, 4, "a number from 0.5 to 4",
+       "Largest circumradius of a triangle, in medians of those around it; their spread is added.",
+       kTangential},
+      {"tangential", "hole_radius", &tangential.hole_radius, 0.1, 4, "a number from 0.1 to 4",
+       "Circumradius above which a circle lies in a hole, in mean distances to neighbours; medians leave it "
+       "out.",
+       kTangential},
+      {"tangential", "most_radius", &tangential.most_radius, 0.1, 1, "a number from 0.1 to 1",
+       "Bound of the median circumradius and of the spread, in mean distances to neighbours.", kTangential},
+      {"tangential", "least_spread", &tangential.least_spread, 0.001, 10, "a number from 0.001 to 10",
+       "Share of the median circumradius that is added to the spread where excess radii are counted.",
+       kTangential},
+      {"tangential", "clear_excess", &tangential.clear_excess, 0.001, 1000, "a number from 0.001 to 1000",
+       "Excess radius, in spreads, with which a point counts fully for a loop's confidence.", kTangential},
+      {"tangential", "doubt", &tangential.doubt, 0, 1000, "a number from 0 to 1000",
+       "Points without excess radius that confidence adds to each boundary curve.", kTangential},
+      {"tangential", "min_curve", &tangential.min_curve, 3, 1e9, "a whole number from 3 to 1000000000",
+       "Boundary curves with fewer points are no loops.", kTangential},
+
+      {"selection", "min_confidence", &selection.min_confidence, 0, 1, "a number from 0 to 1",
+       "Loops with a lower confidence are not reported.", kTangential},
+      {"selection", "min_perimeter", &selection.min_perimeter, 0, 1e300, "a length of 0 or more",
+       "Loops with a smaller perimeter are not reported.", kNothing},
+      {"selection", "max_perimeter", &selection.max_perimeter, 0, 1e300, "a length of 0 (no limit) or more",
+       "Loops with a larger perimeter are not reported; 0: no limit.", kNothing},
+      {"selection", "min_points", &selection.min_points, 0, 1e15, "a whole number from 0 to 10^15",
+       "Loops with fewer points are not reported.", kNothing},
+      {"selection", "holes_only", &selection.holes_only, 0, 1, "true or false",
+       "Report holes only, not the outer boundaries of open surfaces.", kNothing},
+
+      {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
+       "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line.", kNothing},
+
+      {"output", "points", &output.points, 0, 1, "true or false",
+       "Write points.ply too: every point of the input with its probabilities.", kNothing},
+      {"output", "normals", &output.normals, 0, 1, "true or false",
+       "Add the estimated normals to points.ply, unless a scan brings its own.", kPoints},
+
+      {"run", "threads", &run.threads, 0, 1024, "a whole number from 0 (one per core) to 1024",
+       "Threads at work; 0: one per core.", kNothing},
+      {"run", "memory_limit", &run.memory_limit, kLeastMemory, 0x1p60,
+       "0 (automatic) or a size of at least 64MiB, such as 512MiB, 2GiB or 4000000000",
+       "Memory that the run may take; 0: half of the machine's.", kNothing},
+      {"run", "tile_points", &run.tile_points, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
+       "Points per tile at most; 0: chosen from threads and memory limit.", kNothing},
+      {"run", "workspace", &run.workspace, 0, 0, "the name of a folder",
+       "Folder for what does not fit in memory; empty: inside the output folder.", kNothing},
+  };
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+}  // namespace lacuna
