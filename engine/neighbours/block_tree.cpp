@@ -10,28 +10,11 @@ BlockTree::Level::Level(std::size_t boxes) : count(boxes) {
   }
 }
 
-BlockTree::Level::Sides BlockTree::Level::sides(std::size_t group) const {
-  Sides sides{};
-  for (int axis = 0; axis < 3; ++axis) {
-    sides.lows[axis] = low[axis].data() + group * kFan;
-    sides.highs[axis] = high[axis].data() + group * kFan;
-  }
-  return sides;
-}
-
 void BlockTree::Level::set(std::size_t index, const BlockBox& box) {
   for (int axis = 0; axis < 3; ++axis) {
     low[axis][index] = box.low[axis];
     high[axis][index] = box.high[axis];
   }
-}
-
-std::uint32_t BlockTree::Level::within(std::size_t group, const BlockBox& from, double squared_radius) const {
-  const Sides to = sides(group);
-  const std::size_t there =
-      std::min(kFan, count - group * kFan);  // where distances overflow, so does padding
-  return boxes_within(from.low.data(), from.high.data(), to.lows, to.highs, squared_radius) &
-         ((1U << there) - 1);
 }
 
 BlockTree::BlockTree(std::span<const Eigen::Vector3d> positions)
@@ -60,35 +43,22 @@ BlockTree::BlockTree(std::span<const Eigen::Vector3d> positions)
     }
     levels_.push_back(std::move(level));
   }
+  for (const Level& level : levels_) {
+    LevelSides& sides = sides_.emplace_back(LevelSides{.count = level.count});
+    for (int axis = 0; axis < 3; ++axis) {
+      sides.lows[axis] = level.low[axis].data();
+      sides.highs[axis] = level.high[axis].data();
+    }
+  }
 }
 
 bool BlockTree::find_near(const BlockBox& box, double squared_radius, Surroundings& surroundings) const {
-  struct Place {
-    std::size_t level, group;
-  };
-  std::array<Place, 128> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {levels_.size() - 1, 0};
-  surroundings.count = 0;
-  while (depth > 0) {
-    const auto [level, group] = stack[--depth];
-    for (std::uint32_t within = levels_[level].within(group, box, squared_radius); within != 0;
-         within &= within - 1) {
-      const std::size_t index = group * kFan + static_cast<std::size_t>(std::countr_zero(within));
-      if (level > 0) {
-        stack[depth++] = {level - 1, index};
-        continue;
-      }
-      if (surroundings.count == kMostBlocks) return false;
-      surroundings.blocks[surroundings.count++] = static_cast<std::uint32_t>(index);
-    }
-  }
-  return true;
+  return find_blocks(sides_.data(), sides_.size() - 1, box.low.data(), box.high.data(), squared_radius,
+                     surroundings);
 }
 
 void BlockTree::fill_surroundings(Surroundings& surroundings) const {
-  const Level::Sides boxes = levels_[0].sides(0);
-  lacuna::fill_surroundings(blocks_.data(), boxes.lows, boxes.highs, surroundings);
+  lacuna::fill_surroundings(blocks_.data(), sides_[0].lows, sides_[0].highs, surroundings);
 }
 
 }  // namespace lacuna

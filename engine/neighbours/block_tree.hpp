@@ -34,6 +34,8 @@ struct BlockBox {
 // Memory: 28 bytes a point.
 class BlockTree {
  public:
+  BlockTree(const BlockTree&) = delete;
+  BlockTree& operator=(const BlockTree&) = delete;
   explicit BlockTree(std::span<const Eigen::Vector3d> positions);
 
   // Sets `surroundings.blocks` to all blocks within the radius of a box. False where they are more than
@@ -57,22 +59,14 @@ class BlockTree {
     std::array<std::vector<double>, 3> low, high;
 
     explicit Level(std::size_t count);
-    // Where the boxes of a group begin.
-    struct Sides {
-      const double *lows[3], *highs[3];
-    };
-    Sides sides(std::size_t group) const;
     void set(std::size_t index, const BlockBox& box);
-    // A bit for each box of a group that is within the radius of a box.
-    std::uint32_t within(std::size_t group, const BlockBox& from, double squared_radius) const;
   };
 
   template <class Bound, class Visit>
   void walk(const Eigen::Vector3d& from, std::size_t level, std::size_t group, Bound& bound,
             Visit& visit) const {
     std::array<double, kFan> gaps;
-    const Level::Sides to = levels_[level].sides(group);
-    box_gaps(from.data(), from.data(), to.lows, to.highs, gaps.data());
+    box_gaps(from.data(), from.data(), sides_[level], group, gaps.data());
     std::array<std::size_t, kFan> order;
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return gaps[a] < gaps[b]; });
@@ -90,7 +84,8 @@ class BlockTree {
 
   std::size_t points_;
   std::vector<Block> blocks_;
-  std::vector<Level> levels_;  // of blocks, of groups of eight, of groups of these, ...
+  std::vector<Level> levels_;
+  std::vector<LevelSides> sides_;  // of the levels: places in their memory
 };
 
 }  // namespace lacuna

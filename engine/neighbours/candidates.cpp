@@ -119,19 +119,45 @@ void find_ambiguous(const float* ends, const float* margins, std::size_t wanted,
 
 }  // namespace
 
-void box_gaps(const double* low, const double* high, const double* const lows[3],
-              const double* const highs[3], double* gaps) {
-  for (std::size_t first = 0; first < kFan; first += kLanes<Doubles>)
-    hn::StoreU(squared_gaps(Doubles(), low, high, lows, highs, first), Doubles(), gaps + first);
+void box_gaps(const double* low, const double* high, const LevelSides& level, std::size_t group,
+              double* gaps) {
+  for (std::size_t i = 0; i < kFan; i += kLanes<Doubles>) {
+    const auto from = squared_gaps(Doubles(), low, high, level.lows, level.highs, group * kFan + i);
+    hn::StoreU(from, Doubles(), gaps + i);
+  }
 }
 
-std::uint32_t boxes_within(const double* low, const double* high, const double* const lows[3],
-                           const double* const highs[3], double squared_radius) {
+bool find_blocks(const LevelSides* levels, std::size_t top, const double* low, const double* high,
+                 double squared_radius, Surroundings& surroundings) {
   const auto limit = hn::Set(Doubles(), squared_radius);
-  std::uint32_t within = 0;
-  for (std::size_t first = 0; first < kFan; first += kLanes<Doubles>)
-    within |= bits_of(Doubles(), squared_gaps(Doubles(), low, high, lows, highs, first) <= limit) << first;
-  return within;
+  struct Place {
+    std::size_t level, group;
+  };
+  Place stack[128];
+  std::size_t depth = 0;
+  stack[depth++] = {top, 0};
+  surroundings.count = 0;
+  while (depth > 0) {
+    const Place at = stack[--depth];
+    const LevelSides& boxes = levels[at.level];
+    const std::size_t first_box = at.group * kFan, left = boxes.count - first_box;
+    std::uint32_t within = 0;
+    for (std::size_t i = 0; i < kFan; i += kLanes<Doubles>) {
+      const auto gaps = squared_gaps(Doubles(), low, high, boxes.lows, boxes.highs, first_box + i);
+      within |= bits_of(Doubles(), gaps <= limit) << i;
+    }
+    if (left < kFan) within &= (1U << left) - 1;  // where distances overflow, so does padding
+    for (; within != 0; within &= within - 1) {
+      const std::size_t index = first_box + static_cast<std::size_t>(__builtin_ctz(within));
+      if (at.level > 0) {
+        stack[depth++] = {at.level - 1, index};
+        continue;
+      }
+      if (surroundings.count == kMostBlocks) return false;
+      surroundings.blocks[surroundings.count++] = static_cast<std::uint32_t>(index);
+    }
+  }
+  return true;
 }
 
 void fill_surroundings(const Block* all, const double* const lows[3], const double* const highs[3],
@@ -226,15 +252,15 @@ HWY_AFTER_NAMESPACE();
 namespace lacuna {
 
 HWY_EXPORT(box_gaps);
-void box_gaps(const double* low, const double* high, const double* const lows[3],
-              const double* const highs[3], double* gaps) {
-  HWY_DYNAMIC_DISPATCH(box_gaps)(low, high, lows, highs, gaps);
+void box_gaps(const double* low, const double* high, const LevelSides& level, std::size_t group,
+              double* gaps) {
+  HWY_DYNAMIC_DISPATCH(box_gaps)(low, high, level, group, gaps);
 }
 
-HWY_EXPORT(boxes_within);
-std::uint32_t boxes_within(const double* low, const double* high, const double* const lows[3],
-                           const double* const highs[3], double squared_radius) {
-  return HWY_DYNAMIC_DISPATCH(boxes_within)(low, high, lows, highs, squared_radius);
+HWY_EXPORT(find_blocks);
+bool find_blocks(const LevelSides* levels, std::size_t top, const double* low, const double* high,
+                 double squared_radius, Surroundings& surroundings) {
+  return HWY_DYNAMIC_DISPATCH(find_blocks)(levels, top, low, high, squared_radius, surroundings);
 }
 
 HWY_EXPORT(fill_surroundings);

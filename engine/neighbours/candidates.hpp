@@ -17,13 +17,16 @@ inline constexpr std::size_t kBlock = 16;        // points a block
 inline constexpr std::size_t kFan = 8;           // blocks or groups a group
 inline constexpr std::size_t kMostBlocks = 128;  // in surroundings
 
-// Squared distances between a box and those of a group.
-void box_gaps(const double* low, const double* high, const double* const lows[3],
-              const double* const highs[3], double* gaps);
+// The boxes of a level of the tree: of blocks, of groups of eight, of groups of these, ... Padded to whole
+// groups.
+struct LevelSides {
+  const double *lows[3], *highs[3];
+  std::size_t count;
+};
 
-// Those boxes of a group, a bit for each, that are within the radius of a box.
-std::uint32_t boxes_within(const double* low, const double* high, const double* const lows[3],
-                           const double* const highs[3], double squared_radius);
+// Squared distances between a box and the kFan boxes of a group.
+void box_gaps(const double* low, const double* high, const LevelSides& level, std::size_t group,
+              double* gaps);
 
 // Sixteen points; beyond the last one: infinite.
 struct alignas(64) Block {
@@ -43,6 +46,11 @@ struct alignas(64) Surroundings {
   std::uint32_t blocks[kMostBlocks];  // their numbers among all
   std::size_t count = 0;
 };
+
+// Sets `surroundings.blocks` to all blocks within the radius of a box. False where they are more than
+// kMostBlocks. `levels`: `top` is the last one.
+bool find_blocks(const LevelSides* levels, std::size_t top, const double* low, const double* high,
+                 double squared_radius, Surroundings& surroundings);
 
 // Fills the boxes and coordinates of the blocks. `lows`, `highs`: sides of the boxes of all blocks.
 void fill_surroundings(const Block* all, const double* const lows[3], const double* const highs[3],
