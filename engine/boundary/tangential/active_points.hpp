@@ -10,7 +10,6 @@
 #include "engine/boundary/tangential/stars.hpp"
 #include "engine/config.hpp"
 #include "engine/criteria/evaluation.hpp"
-#include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/points.hpp"
 
