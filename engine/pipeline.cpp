@@ -124,10 +124,10 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
       config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
   const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
-  // What tiles tell each other, links, sites and waiting stars, is of points along their borders: measured on
+  // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.
-  const auto told = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
-  estimate.workspace_bytes = points * (stored + told + normals + orientation + results);
+  const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
+  estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results);
   return estimate;
 }
 

@@ -26,7 +26,7 @@ class BoundaryMethod : public TileConsumer {
 
   // All tiles are taken. Consumes the edges: to be called once.
   virtual FoundLoops find_loops(const Totals& totals, Job& job) = 0;
-  // The candidates that belong to the boundary, beside the points on loops.
+  // The candidates that belong to the boundary, in addition to the points on loops.
   virtual RowSet boundary_candidates(const Candidates& candidates, const RowSet& coherent,
                                      const RawLoops& loops, Job& job) const = 0;
 

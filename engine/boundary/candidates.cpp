@@ -61,18 +61,18 @@ RowSet Candidates::coherent(Job& job) const {
   return boundary;
 }
 
-RowSet Candidates::beside(const RawLoops& loops, Job& job) const {
-  RowSet on_loop(tiling_.row_count()), beside(tiling_.row_count());
+RowSet Candidates::between_loop_points(const RawLoops& loops, Job& job) const {
+  RowSet on_loop(tiling_.row_count()), between(tiling_.row_count());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (const Vertex& v : loops.read(i)) on_loop.insert(v.row);
   }
   job.arena.for_each(tiling_.tiles.size(), [&](std::size_t t) {
     for (const StoredCandidate& c : lists_.read(t)) {
       if (on_loop.contains(c.candidate.gap_near) && on_loop.contains(c.candidate.gap_far))
-        beside.insert(c.candidate.row);
+        between.insert(c.candidate.row);
     }
   });
-  return beside;
+  return between;
 }
 
 }  // namespace lacuna

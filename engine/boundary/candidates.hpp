@@ -37,7 +37,7 @@ class Candidates final : public TileConsumer {
   // order does not matter. Memory: one bit per row.
   RowSet coherent(Job& job) const;
   // Those whose gap neighbours both lie on one of the loops.
-  RowSet beside(const RawLoops& loops, Job& job) const;
+  RowSet between_loop_points(const RawLoops& loops, Job& job) const;
 
  private:
   const Tiling& tiling_;

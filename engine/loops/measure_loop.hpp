@@ -8,9 +8,9 @@
 
 namespace lacuna {
 
-// Hole or rim: the loop's points are moved towards the surface (by the mean of their neighbours). If the
-// area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: a rim. For a
-// cap of a sphere that makes a rim of less than about half a sphere, a hole of more.
+// Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours). If the
+// area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer
+// boundary. A cap of less than about half a sphere has an outer boundary, a larger one a hole.
 //
 // normal: of the area vector of the polygon (Newell), by the right hand rule about the written direction.
 // area: its length, that of the loop seen along the normal. planarity: 1 - sqrt(smallest / largest

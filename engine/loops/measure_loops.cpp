@@ -12,7 +12,7 @@
 namespace lacuna {
 namespace {
 
-// A place on a loop that waits for its point.
+// A place on a loop that needs its point.
 struct Wanted {
   Row row;
   std::size_t slot;

@@ -49,7 +49,7 @@ struct Summary {
 
 inline constexpr std::size_t kMostCriteria = 8;
 
-// Result of one point of the input; a duplicate has those of the point that stands for it.
+// Result of one point of the input; a duplicate has those of the point that it is a copy of.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table

@@ -1,4 +1,4 @@
-// What a tile sees, and the proximity graph over it.
+// The points of a tile and its halo, and the proximity graph over them.
 #pragma once
 
 #include "engine/model/ids.hpp"

@@ -31,7 +31,7 @@ class PointSource {
   virtual void rewind() = 0;
   // Fills the batch with the next points; false, and an empty batch, at the end.
   virtual bool next(PointBatch& batch) = 0;
-  // Number of points where the headers tell, for progress and buffer sizes; text files do not.
+  // Number of points where headers have it, for progress and buffer sizes; text files do not.
   virtual std::optional<std::uint64_t> expected_points() const = 0;
   virtual bool has_normals() const = 0;
 };

@@ -1,4 +1,4 @@
-// block_search: the k nearest neighbours of points that stand in store order, many at a time.
+// block_search: the k nearest neighbours of points in store order, many at a time.
 #pragma once
 
 #include "engine/model/neighbourhoods.hpp"

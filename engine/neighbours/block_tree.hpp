@@ -1,4 +1,4 @@
-// A tree over points that stand in store order: its leaves are blocks of sixteen consecutive points. Points
+// A tree over points in store order: its leaves are blocks of sixteen consecutive points. Points
 // near in the order are near in space, so the tree needs no building beyond its boxes.
 #pragma once
 

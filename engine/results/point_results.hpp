@@ -25,7 +25,7 @@ struct StoredResult {
 // Ids per block of results.
 inline constexpr std::uint64_t kResultBlock = 1 << 17;
 
-// By block of ids. Duplicates have the results of the point that stands for them.
+// By block of ids. Duplicates have the results of the point that they are copies of.
 class PointResults final : public TileConsumer {
  public:
   // `ids`: points of the input.

@@ -21,7 +21,7 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  // For what an algorithm keeps beside its arrays.
+  // For other containers of the same algorithm.
   const std::filesystem::path& folder() const { return folder_; }
   std::uint64_t budget() const { return budget_; }
 

@@ -1,5 +1,5 @@
-// cycles: what of a spanning graph can lie on a loop, and what of that is settled where only a part of the
-// graph is known.
+// cycles: the edges of a spanning graph that can lie on a loop, and which of these are complete where only a part
+// of the graph is known.
 #pragma once
 
 #include "engine/store/scratch.hpp"
@@ -11,18 +11,18 @@
 namespace lacuna {
 
 // The graph without its bridges and the trees that hang off it: the edges that lie on some cycle, in the same
-// order. A search for loops cannot tell the difference: what lies beyond a bridge stays in one branch and
-// joins no two. Cost: linear.
+// order. A search for loops gives the same: vertices beyond a bridge stay in one branch and join
+// no two. Cost: linear.
 SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch);
 
 // Of a graph that is known in part only, on whichever side of its bridges the unknown lies.
 struct PartCycles {
-  SpanningGraph settled;                    // cycles that the rest of the graph has nothing to do with
+  SpanningGraph complete;                   // cycles that the rest of the graph has nothing to do with
   std::span<const std::uint8_t> leads_out;  // by vertex: not cut off from the open ones by a bridge
 };
 
 // `open`: vertices that may have more edges than are known here; ascending, each once. Paths between vertices
-// that lead out keep to such, and so do all loops through one. Without open vertices all cycles are settled.
+// that lead out keep to such, and so do all loops through one. Without open vertices all cycles are complete.
 // Cost: linear.
 PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch);
 

@@ -36,8 +36,8 @@ struct TileEdges {
   std::vector<Crossing> crossings;  // from owned points strong enough to make the edge eligible
 };
 
-// An edge is eligible only if one of its ends is strong: Pi > 1 - max_prob_weight / 2. So only the strong
-// points' neighbours are looked at, and of an edge between tiles every strong end's tile tells.
+// An edge is eligible only if one of its ends is strong: Pi > 1 - max_prob_weight / 2. So only the
+// neighbours of strong points are compared, and the tile of each strong end reports an edge between tiles.
 TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
                          std::span<const Evaluation> evaluations, const SpanningConfig& config);
 bool is_strong(double probability, const SpanningConfig& config);

@@ -129,16 +129,16 @@ void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>&
   for (const EligibleCrossing& crossing : crossings)
     edges.push_back({vertices.own(crossing.owned), vertices.foreign(crossing), crossing.weight});
   std::atomic_ref(found.edges) += static_cast<std::uint64_t>(std::count_if(
-      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().tells(edge); }));
+      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().reports(edge); }));
 
   Scratch scratch(job.workspace, job.memory.limit);
-  const PartialSpanning settled = span_partially(vertices.part(), std::move(edges), e, scratch);
+  const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), e, scratch);
   find_loops_of(
-      settled.settled, [&](LocalIndex v) { return vertices[v].row; }, scratch, found.loops);
-  GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = settled.links};
+      spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, found.loops);
+  GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = spanned.links};
   for (const EligibleCrossing& c : crossings)
     part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
-  for (const WeightedEdge& edge : settled.passed_on) {
+  for (const WeightedEdge& edge : spanned.passed_on) {
     part.records.push_back(boundary_edge(edge.weight, vertices[edge.a], vertices[edge.b]));
     part.vertex_of.push_back(edge.a);
   }

@@ -18,11 +18,11 @@ PartialSpanning span_partially(const PartVertices& vertices, std::vector<Weighte
   std::vector<WeightedEdge> undecided;
   std::vector<std::uint8_t> is_open(vertices.size());
   std::erase_if(edges, [&](const WeightedEdge& edge) {
-    const EdgeDecision verdict = spanning.add({edge.a, edge.b});
-    if (verdict == EdgeDecision::undecided) undecided.push_back(edge);
-    // The other part may tell of it, not knowing the path that speaks against it: that has to go on too.
-    if (verdict == EdgeDecision::left_out && !vertices.tells(edge)) is_open[edge.a] = 1;
-    return verdict != EdgeDecision::taken;
+    const EdgeDecision decision = spanning.add({edge.a, edge.b});
+    if (decision == EdgeDecision::undecided) undecided.push_back(edge);
+    // The other part may report it without knowing the path that excludes it: the path is passed on, too.
+    if (decision == EdgeDecision::left_out && !vertices.reports(edge)) is_open[edge.a] = 1;
+    return decision != EdgeDecision::taken;
   });
   edges.insert(edges.end(), undecided.begin(), undecided.end());
   const std::span<LocalIndex> links = scratch.array<LocalIndex>(vertices.size());
@@ -35,9 +35,9 @@ PartialSpanning span_partially(const PartVertices& vertices, std::vector<Weighte
   }
   const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
   std::erase_if(edges, [&](const WeightedEdge& edge) {
-    return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.tells(edge);
+    return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.reports(edge);
   });
-  return {cycles.settled, std::move(edges), links};
+  return {cycles.complete, std::move(edges), links};
 }
 
 }  // namespace lacuna

@@ -1,5 +1,5 @@
-// span_partially: what a part of the graph of eligible edges, such as a tile, can tell of the spanning graph and
-// its loops without knowing the rest.
+// span_partially: what of the spanning graph, and of its loops, a part of the eligible edges decides alone, such as
+// those of a tile.
 #pragma once
 
 #include "engine/store/scratch.hpp"
@@ -18,19 +18,19 @@ struct PartVertices {
   LocalIndex owned;
 
   LocalIndex size() const { return static_cast<LocalIndex>(ids.size()); }
-  // Two parts know of an edge between them: the one that owns the lower id tells of it. a: owned.
-  bool tells(const WeightedEdge& edge) const { return edge.b < owned || ids[edge.a] < ids[edge.b]; }
+  // Two parts have an edge between them; the one that owns the lower id reports it. a: owned.
+  bool reports(const WeightedEdge& edge) const { return edge.b < owned || ids[edge.a] < ids[edge.b]; }
 };
 
 struct PartialSpanning {
-  SpanningGraph settled;                // whose loops are loops of the whole
+  SpanningGraph complete;               // whose loops are loops of the whole
   std::vector<WeightedEdge> passed_on;  // in any order
   std::span<LocalIndex> links;          // of a UnionFind: vertices that all edges of the part connect
 };
 
 // `edges`: all that have an owned end, in any order; a: owned. Spanned again with what other parts pass on,
-// the edges passed on give a graph whose loops are those of the whole, save the settled ones. Left behind is
-// what is known to be left out, as are most edges, and what no loop needs: trees, and cycles beyond a bridge.
+// the edges passed on give a graph whose loops are those of the whole, save the complete ones. Most edges are
+// certainly left out, and are not passed on; nor is what no loop needs: trees, and cycles beyond a bridge.
 // Without foreign vertices nothing is passed on. The graph lives in `scratch`.
 // Cost: that of spanning the part.
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,

@@ -13,7 +13,7 @@ constexpr std::int64_t kToUnknown = 1;
 
 }  // namespace
 
-// Two distinct edges close no loop of 2: e = 1 is as good as e = 2, and leaves room for half steps.
+// Two distinct edges close no loop of 2: e = 1 is as good as e = 2, and leaves a margin for half steps.
 Spanning::Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,
                    std::span<const LocalIndex> open)
     : ids_(ids),
@@ -84,10 +84,10 @@ void Spanning::link(LocalIndex from, LocalIndex to) {
 
 template <class Visit>
 void Spanning::for_each_neighbour(const Node& node, Visit&& visit) const {
-  const std::size_t beside = std::min<std::size_t>(node.degree, Node::kInline);
-  for (std::size_t i = 0; i < beside; ++i) visit(node.neighbours[i]);
+  const std::size_t inlined = std::min<std::size_t>(node.degree, Node::kInline);
+  for (std::size_t i = 0; i < inlined; ++i) visit(node.neighbours[i]);
   constexpr std::size_t kBlock = std::tuple_size_v<decltype(MoreNeighbours::neighbours)>;
-  std::size_t left = node.degree - beside;
+  std::size_t left = node.degree - inlined;
   for (std::uint32_t block = node.more; block != 0; block = more_[block - 1].next) {
     const std::size_t here = (left - 1) % kBlock + 1;  // only the newest block is not full
     for (std::size_t i = 0; i < here; ++i) visit(more_[block - 1].neighbours[i]);
@@ -117,20 +117,20 @@ bool Spanning::connects(LocalIndex a, LocalIndex b, std::int64_t limit) {
   return false;
 }
 
-// One step of the near front; true if it meets the far ball.
+// One step of the near front; true if it touches the far ball.
 bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
-  bool met = false;
+  bool touches = false;
   next_.clear();
   for (const LocalIndex v : near_) {
     scratch_.trim();
     for_each_neighbour(nodes_[v], [&](LocalIndex w) {
       std::uint32_t& mark = nodes_[w].mark;
-      if (mark == there) met = true;
+      if (mark == there) touches = true;
       if (mark >= stamp_) return;
       mark = here;
       next_.push_back(w);
     });
-    if (met) return true;
+    if (touches) return true;
   }
   near_.swap(next_);
   return false;

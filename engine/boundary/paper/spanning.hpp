@@ -46,11 +46,11 @@ class Spanning {
   SpanningGraph finish();
 
  private:
-  // A vertex with its first neighbours beside it: most of the graph is chains and trees, and a search meets
+  // A vertex with its first neighbours inlined: most of the graph is chains and trees, and a search touches
   // half a cache line per vertex.
   struct Node {
     static constexpr std::size_t kInline = 5;
-    std::uint32_t mark;  // of the search that met it last
+    std::uint32_t mark;  // of the search that reached it last
     std::uint32_t degree;
     std::uint32_t more;  // 1 + place of further neighbours; 0: none
     std::array<LocalIndex, kInline> neighbours;

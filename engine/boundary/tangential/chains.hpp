@@ -1,4 +1,4 @@
-// chains: open chains of wedges, joined across tiles to closed curves (method.md, C.4).
+// chains: open chains of wedges, joined across tiles to closed curves (method.md, C.5).
 #pragma once
 
 #include "engine/boundary/tangential/curves.hpp"

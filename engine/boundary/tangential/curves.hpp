@@ -1,4 +1,4 @@
-// curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md, C.4).
+// curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md, C.5).
 #pragma once
 
 #include "engine/boundary/tangential/wedge.hpp"

@@ -1,5 +1,5 @@
 // radius_bound: the largest ball that makes a triangle, from how points lie around the star's point (method.md,
-// C.2).
+// C.3).
 //
 // The balls of a star show how large the empty circles of the sampling are, and how much they differ. On a grid
 // all have 0.71 spacings; among points at random there are small and large ones. Beside a hole some balls are

@@ -1,4 +1,4 @@
-// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.1).
+// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.2).
 #pragma once
 
 #include "engine/model/ids.hpp"

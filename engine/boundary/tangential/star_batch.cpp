@@ -24,7 +24,7 @@ HWY_INLINE Count count(std::size_t number) {
   return hn::Set(kWhole, number);
 }
 
-// A view beside an edge by no more than this is on it, in units of the edge's |x| + |y| times the distance of
+// A view at most this far from an edge is on it, in units of the edge's |x| + |y| times the distance of
 // the farthest view: 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 

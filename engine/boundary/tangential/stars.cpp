@@ -8,7 +8,7 @@
 namespace lacuna {
 namespace {
 
-// In units of r^2: far above rounding, far below what a scanner can tell.
+// In units of r^2: far above rounding, far below the precision of a scanner.
 constexpr double kWeights = 1e-4;
 
 // A number in [0, 1) that looks random.

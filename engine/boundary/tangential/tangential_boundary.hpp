@@ -18,11 +18,11 @@ class TangentialBoundary final : public BoundaryMethod {
   void take(const EvaluatedTile& tile) override;
   // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges by itself.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
-  // Those between neighbours on a loop: they lie on the boundary beside the points that the curve passes
+  // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes
   // through.
   RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
                              Job& job) const override {
-    return candidates.beside(loops, job);
+    return candidates.between_loop_points(loops, job);
   }
 
  private:

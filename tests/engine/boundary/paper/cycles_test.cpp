@@ -18,9 +18,9 @@ using Vertices = std::vector<LocalIndex>;
 using Cycle = std::vector<LocalIndex>;
 
 struct Split {
-  Edges settled;
+  Edges complete;
   Vertices leads_out;
-  std::vector<Cycle> loops;  // of what is settled
+  std::vector<Cycle> loops;  // of the complete cycles
 };
 
 // Spans what it is given with e = 2, which takes every edge.
@@ -35,11 +35,11 @@ Split split(LocalIndex vertices, const Edges& edges, const Vertices& open) {
   Split found;
   for (LocalIndex v = 0; v < vertices; ++v) {
     if (cycles.leads_out[v]) found.leads_out.push_back(v);
-    for (const LocalIndex w : cycles.settled[v]) {
-      if (v < w) found.settled.emplace_back(v, w);
+    for (const LocalIndex w : cycles.complete[v]) {
+      if (v < w) found.complete.emplace_back(v, w);
     }
   }
-  find_loops(cycles.settled, scratch,
+  find_loops(cycles.complete, scratch,
              [&](std::span<const LocalIndex> loop) { found.loops.emplace_back(loop.begin(), loop.end()); });
   return found;
 }
@@ -47,21 +47,21 @@ Split split(LocalIndex vertices, const Edges& edges, const Vertices& open) {
 // Two triangles and a bridge between them.
 const Edges kTriangles = {{0, 1}, {1, 2}, {0, 2}, {2, 3}, {3, 4}, {4, 5}, {3, 5}};
 
-TEST_CASE("without open vertices all cycles are settled and no bridge is kept") {
+TEST_CASE("without open vertices all cycles are complete and no bridge is kept") {
   const Split found = split(6, kTriangles, {});
-  CHECK(found.settled == Edges{{0, 1}, {0, 2}, {1, 2}, {3, 4}, {3, 5}, {4, 5}});
+  CHECK(found.complete == Edges{{0, 1}, {0, 2}, {1, 2}, {3, 4}, {3, 5}, {4, 5}});
   CHECK(found.leads_out.empty());
 }
 
 TEST_CASE("a cycle with one open vertex leads out, one beyond a bridge does not") {
   const Split found = split(6, kTriangles, {1});
-  CHECK(found.settled == Edges{{3, 4}, {3, 5}, {4, 5}});
+  CHECK(found.complete == Edges{{3, 4}, {3, 5}, {4, 5}});
   CHECK(found.leads_out == Vertices{0, 1, 2});
 }
 
 TEST_CASE("a path between open vertices leads out, the tree that hangs off it does not") {
   const Split found = split(6, {{0, 1}, {1, 2}, {2, 3}, {1, 4}, {4, 5}}, {0, 3});
-  CHECK(found.settled.empty());
+  CHECK(found.complete.empty());
   CHECK(found.leads_out == Vertices{0, 1, 2, 3});
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("an open vertex leads out even without an edge, and an empty graph is 
 }
 
 // The vertices from `owned` on are elsewhere; so are all edges between these.
-TEST_CASE("loops settled in a part and those of what leads out are the loops of the whole") {
+TEST_CASE("complete loops of a part and those of what leads out are the loops of the whole") {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     const auto vertices = static_cast<LocalIndex>(random.whole(4, 40));

@@ -57,7 +57,7 @@ TEST_CASE("eligible edges are those of the plain method, each once, with their w
   }
 }
 
-TEST_CASE("of an eligible edge between tiles the tile of a strong end tells") {
+TEST_CASE("the tile of a strong end reports an eligible edge between tiles") {
   const Cloud cloud = plane(14).punched({7, 7}, 3).jittered(0.2, 5);
   Config config = with_paper_loops({});
   const reference::Detection plain = reference::detect(cloud.positions, {}, config);

@@ -65,9 +65,9 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
     for (const LocalIndex v : vertices) ids.push_back(whole.ids[v]);
     const test::ScratchFolder folder;
     Scratch scratch(folder / "", 1 << 20);
-    const PartialSpanning settled = span_partially({ids, owned}, edges, e, scratch);
-    add_loops(settled.settled, scratch, loops);
-    for (const WeightedEdge& edge : settled.passed_on)
+    const PartialSpanning spanned = span_partially({ids, owned}, edges, e, scratch);
+    add_loops(spanned.complete, scratch, loops);
+    for (const WeightedEdge& edge : spanned.passed_on)
       rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight});
   }
   if (passed_on) *passed_on += rest.size();
@@ -86,7 +86,7 @@ Whole ring(LocalIndex n) {
   return whole;
 }
 
-TEST_CASE("a ring inside one part is settled there, one over two parts is passed on whole") {
+TEST_CASE("a ring inside one part is complete there, one over two parts is passed on whole") {
   const Whole whole = ring(10);
   std::size_t passed_on = 0;
   const Loops once = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
@@ -97,10 +97,10 @@ TEST_CASE("a ring inside one part is settled there, one over two parts is passed
   CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 10).empty());
 }
 
-// 0 and 1 are of one part, which tells of the edges between. The other is a path 2 3 4 5, with 6 beside 3.
+// 0 and 1 are of one part, which reports the edges between. The other is a path 2 3 4 5, with 6 next to 3.
 // Only it knows that neither (0, 6) nor (1, 6) closes a loop of more than 5 edges: by way of 3, where
 // otherwise nothing leads out.
-TEST_CASE("a path that speaks against an edge of which the other part tells is passed on") {
+TEST_CASE("a path that excludes an edge that the other part reports is passed on") {
   Whole whole;
   for (LocalIndex v = 0; v < 7; ++v) whole.ids.push_back(PointId{v});
   for (const auto& [a, b] : std::vector<std::pair<LocalIndex, LocalIndex>>{
@@ -154,7 +154,7 @@ TEST_CASE("a part without vertices passes nothing on") {
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", 1 << 20);
   const PartialSpanning part = span_partially({{}, 0}, {}, 14, scratch);
-  CHECK(part.settled.size() == 0);
+  CHECK(part.complete.size() == 0);
   CHECK(part.passed_on.empty());
 }
 
