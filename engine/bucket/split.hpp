@@ -24,7 +24,6 @@ struct TilePlan {
 
   bool has_far() const { return aside.size() > heavy; }
   std::size_t groups() const { return heavy + has_far(); }
-  std::size_t group_of(std::size_t aside_cell) const { return std::min(aside_cell, heavy); }
   std::uint64_t group_points(std::size_t group) const;
   // No less than the number of tiles in the end.
   std::uint64_t most_tiles() const;
@@ -32,8 +31,7 @@ struct TilePlan {
 
 // Halves the cells along the longest side of their box, at the point count's median, until a part holds at
 // most `tile_points` points: a tile. Goes on below, down to few cells, so that cells near in the order are
-// near in space. Far are cells without end, and those in regions with few points: they would widen the boxes
-// of all parts. Cost: n log n in cells.
+// near in space. Far cells are set aside: they would widen the boxes of all parts. Cost: n log n in cells.
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points);
 
 }  // namespace lacuna

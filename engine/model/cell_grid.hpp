@@ -41,7 +41,8 @@ struct CellGrid {
 
 struct CountedCell {
   CellCoord coord{};
-  std::uint64_t points = 0;
+  std::uint32_t points = 0;
+  bool is_far = false;  // from almost all other points
 };
 
 }  // namespace lacuna
