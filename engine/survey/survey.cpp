@@ -19,6 +19,11 @@ constexpr int kMaxExponent = 500;
 // Taken for a scan of an unknown number of points: rather too fine than too coarse.
 constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
+// Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for each point at
+// most, those of one outlier in a hundred points 40. With more outliers, passes over their cells would take most of the
+// time.
+constexpr std::uint64_t kFewBytes = std::uint64_t{16} << 20, kBytesPerPoint = 48;
+
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
 
@@ -120,7 +125,7 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
 }
 
 Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
-    : memory_(memory),
+    : memory_(std::min(memory, kFewBytes + kBytesPerPoint * (expected_points > 0 ? expected_points : kUnknownPoints))),
       is_expected_(expected_points > 0),
       expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
 
@@ -130,6 +135,7 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);
+  scan_.middle = place.middle;
   const double farthest = place.middle.cwiseAbs().maxCoeff();
   double extent = place.extent;
   if (extent == 0) extent = place.farthest > 0 ? place.farthest : 1;  // most points at one place
