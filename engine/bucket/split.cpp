@@ -16,7 +16,7 @@ class Splitter {
  public:
   explicit Splitter(TilePlan& plan) : plan_(plan) {}
 
-  // `in_tile`: a part that holds these cells is a tile already.
+  // `in_tile`: a tile holds these cells already.
   void split(std::uint32_t first, std::uint32_t last, bool in_tile) {
     const Part part = bound(first, last);
     if (!in_tile && part.points <= plan_.tile_points) {

@@ -57,7 +57,7 @@ TileIndex Tiling::tile_of_row(Row row) const {
 std::vector<TileIndex> Tiling::tiles_of(std::span<const Row> rows) const {
   std::vector<TileIndex> found;
   for (const Row row : rows) {
-    // The one found last is asked first: rows mostly come in runs.
+    // The one found last is tried first: rows mostly come in runs.
     const bool is_new =
         std::none_of(found.rbegin(), found.rend(), [&](TileIndex t) { return tiles[t].owns(row); });
     if (is_new) found.push_back(tile_of_row(row));

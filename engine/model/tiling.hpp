@@ -46,7 +46,7 @@ struct Tile {
 
 using TileIndex = std::uint32_t;
 
-// The index of a scan: boxes, counts and places, never points. Cells and tiles stand in the order of points
+// The index of a scan: boxes, counts and places, never points. Cells and tiles are in the order of points
 // in the store (near in the order: near in space).
 struct Tiling {
   static constexpr std::uint32_t kLeafCells = 4;

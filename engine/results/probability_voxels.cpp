@@ -58,12 +58,15 @@ CellGrid final_lattice(CellGrid grid, int doublings) {
   return grid;
 }
 
-// The voxels of one tile, each once.
+// The voxels of one tile, each once. Voxels without end have no place in a grid of OpenVDB: their points are left out.
 std::vector<TileVoxel> voxels_of(const std::vector<StoredPoint>& points, const std::vector<float>& probabilities,
                                  const CellGrid& grid) {
-  std::vector<TileVoxel> voxels(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    voxels[i] = {grid.cell_of(points[i].position()), probabilities[i], 1};
+  std::vector<TileVoxel> voxels;
+  voxels.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CellCoord voxel = grid.cell_of(points[i].position());
+    if (!grid.is_endless(voxel)) voxels.push_back({voxel, probabilities[i], 1});
+  }
   std::sort(voxels.begin(), voxels.end(), AlongZ());
   std::size_t kept = 0;
   for (const TileVoxel& voxel : voxels) {
@@ -145,13 +148,18 @@ ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, double mean_ed
     phase.advance(tile.points);
   });
 
+  std::uint64_t placed = 0;
   VoxelSizes sizes(tiling.points());
-  for_each_voxel(sort, 0, [&](const auto& voxel) { sizes.add(voxel.coord, voxel.points); });
+  for_each_voxel(sort, 0, [&](const auto& voxel) {
+    sizes.add(voxel.coord, voxel.points);
+    placed += voxel.points;
+  });
   sizes.finish();
   const int doublings = sizes.doublings_within(std::min(kMostBytes, job.memory.global));
 
   const std::int32_t shift = shift_of(doublings);
   ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)}, Column<ProbabilityVoxel>(job.file("voxels"))};
+  grid.lattice.points_left_out = tiling.points() - placed;
   VoxelWriter writer(grid.voxels);
   std::span<const CellCoord> nodes = sizes.kept_nodes(doublings);
   for_each_voxel(sort, doublings, [&](const auto& voxel) {

@@ -24,7 +24,7 @@ class Outbox {
 
   // What is gathered; at the end, the rest.
   void send() {
-    for (const auto& [to, letter] : outbox_) lists_.append(to, letter);
+    for (const auto& [to, records] : outbox_) lists_.append(to, records);
     outbox_.clear();
     gathered_ = 0;
   }

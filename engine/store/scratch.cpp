@@ -14,10 +14,10 @@
 namespace lacuna {
 namespace {
 
-// Calls of trim() between two looks at how much is resident. A fault may map a 64 KiB window of pages.
+// Calls of trim() between two measurements of what is resident. A fault may map a 64 KiB window of pages.
 constexpr std::uint64_t kTrims = 256;
 
-// Parts of each mapping that are given back in turn: most of what is in use stays.
+// Pieces of each mapping that are given back in turn: most of what is in use stays.
 constexpr std::uint64_t kParts = 8;
 
 // Bytes of mapped files that are resident in this process.
@@ -54,7 +54,7 @@ std::byte* Scratch::allocate(std::size_t bytes) {
   if (mappings_.empty()) mapped_before_ = resident_mapped();
   // The mapping alone keeps the file: it has no name and no descriptor by which anyone could cut it short.
   std::byte* const address = ScratchFile(folder_ / unique_name()).map(bytes);
-  ::madvise(address, bytes, MADV_RANDOM);  // no read-around: a fault brings in what was asked for
+  ::madvise(address, bytes, MADV_RANDOM);  // no read-around: a fault brings in its page alone
   mappings_.push_back({address, bytes});
   return address;
 }

@@ -25,7 +25,7 @@ struct StoredNormal {
   double x, y, z;
 };
 
-// A point at the coordinates of another of the same tile, which has a lower id and stands for it.
+// A point at the coordinates of another of the same tile, which has a lower id and is kept for both.
 struct Duplicate {
   PointId id;
   LocalIndex of;

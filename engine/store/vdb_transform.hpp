@@ -1,4 +1,4 @@
-// Where the voxels of a grid stand in the world. Only for sources that use OpenVDB.
+// The places of a grid's voxels in the world. Only for sources that use OpenVDB.
 #pragma once
 
 #include "engine/model/cell_grid.hpp"

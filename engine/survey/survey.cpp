@@ -22,7 +22,7 @@ constexpr std::uint64_t kUnknownPoints = 1 << 24;
 // Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for each point at
 // most, those of one outlier in a hundred points 40. With more outliers, passes over their cells would take most of the
 // time.
-constexpr std::uint64_t kFewBytes = std::uint64_t{16} << 20, kBytesPerPoint = 48;
+constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 48;
 
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
@@ -73,7 +73,7 @@ std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
 
 constexpr std::size_t kMostRuns = 256;
 
-// visit(part): parts that are counted at a time.
+// visit(some): runs that are counted at a time.
 template <class Visit>
 void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
   for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kMostRuns)))
@@ -130,7 +130,7 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
       expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
 
 // A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it; half of that size
-// is small enough for a first batch from a part of the scan. Where that is spread over the whole scan, in random
+// is small enough for a first batch from a small area of the scan. Where that is spread over the whole scan, in random
 // order, its cells show how many there will be: sizes with several times too many are passed over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
