@@ -104,7 +104,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   // Results, in the order of the input.
   std::optional<ProbabilityGrid> probabilities;
   if (voxels)
-    probabilities.emplace(voxels->finish(store, totals.mean_edge_length(), survey.middle, job));
+    probabilities.emplace(voxels->finish(store, survey.middle, job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);

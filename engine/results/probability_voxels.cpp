@@ -38,11 +38,10 @@ std::int32_t shift_of(int doublings) {
   return (kMiddle >> doublings) / 4096 * 4096;
 }
 
-CellGrid finest_lattice(double edge, const Eigen::Vector3d& middle) {
+CellGrid finest_lattice(int exponent, const Eigen::Vector3d& middle) {
   // No voxel is smaller than the last digit of the coordinates.
   const double far = middle.cwiseAbs().maxCoeff();
   const int digit = far > 0 ? std::ilogb(far) - std::numeric_limits<double>::digits : -500;
-  const int exponent = edge > 0 && std::isfinite(edge) ? std::ilogb(edge) : 0;
   CellGrid grid{.finest = std::clamp(exponent, std::max(digit, -500), 500)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = std::ldexp(middle[static_cast<Eigen::Index>(axis)], -grid.finest);
@@ -128,13 +127,30 @@ void ProbabilityVoxels::take(const EvaluatedTile& tile) {
   std::vector<float> probabilities(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
   probabilities_.write(value(tile.tile.first_row), probabilities);
+
+  std::map<int, std::uint64_t> exponents;
+  for (const Evaluation& e : tile.evaluations) {
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
+  }
+  const std::lock_guard lock(mutex_);
+  for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
 }
 
-ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, double mean_edge_length,
-                                          const Eigen::Vector3d& middle, Job& job) const {
+// Of the median; 0 without any.
+int ProbabilityVoxels::typical_exponent() const {
+  std::uint64_t all = 0, before = 0;
+  for (const auto& [exponent, points] : exponents_) all += points;
+  for (const auto& [exponent, points] : exponents_) {
+    before += points;
+    if (2 * before >= all) return exponent;
+  }
+  return 0;
+}
+
+ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const {
   const Tiling& tiling = store.tiling();
   Phase phase(job, "voxels", tiling.points());
-  const CellGrid finest = finest_lattice(mean_edge_length, middle);
+  const CellGrid finest = finest_lattice(typical_exponent(), middle);
   VoxelSort sort(job.file("voxel-sort"), job.memory.global / 3);
   std::mutex mutex;
   std::vector<std::uint64_t> needs;
