@@ -87,6 +87,7 @@ struct InputConfig {
 
 struct OutputConfig {
   bool points = false;   // write points.ply
+  bool vdb = false;      // write probability.vdb
   bool normals = false;  // with nx ny nz where they were estimated
 };
 

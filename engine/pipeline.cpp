@@ -10,6 +10,7 @@
 #include "engine/loops/measure_loops.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/orientation_graph.hpp"
+#include "engine/results/probability_voxels.hpp"
 #include "engine/survey/survey_scan.hpp"
 
 #include <cmath>
@@ -85,9 +86,11 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   Candidates candidates(store, job);
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
   std::optional<PointResults> points;
+  std::optional<ProbabilityVoxels> voxels;
   std::optional<OrientationGraph> orientation;
   std::vector<TileConsumer*> consumers = {&candidates, boundary.get()};
   if (config.output.points) consumers.push_back(&points.emplace(survey.points, store, job));
+  if (config.output.vdb) consumers.push_back(&voxels.emplace(job));
   if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
   const Totals totals = evaluate_tiles(store, std::move(halo), eps, extent, consumers, job);
 
@@ -99,11 +102,15 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
       measure_loops(found.loops, boundary->loop_points(), store.tiling(), totals.mean_edge_length(), job);
 
   // Results, in the order of the input.
+  std::optional<ProbabilityGrid> probabilities;
+  if (voxels)
+    probabilities.emplace(voxels->finish(store, survey.middle, job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
   return collect_results({std::move(summary), std::move(loops), std::move(coherent),
-                          std::move(boundary_candidates), std::move(points), std::move(opposed_normals)},
+                          std::move(boundary_candidates), std::move(points), std::move(probabilities),
+                          std::move(opposed_normals)},
                          candidates, store, job);
 }
 
@@ -123,11 +130,13 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   const std::uint64_t orientation =
       config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
+  const std::uint64_t voxels =
+      config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20 : 0;  // at most one for each point, sorted
   const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
   // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.
   const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
-  estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results);
+  estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results + voxels);
   return estimate;
 }
 

@@ -16,24 +16,41 @@ struct ResultFile {
   std::string_view name;
   std::string_view mark;
   void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
+  bool (*is_wanted)(const Config&);
 };
 
 using D = const Detection&;
 using S = const FileScan&;
 using C = const Config&;
-constexpr ResultFile kPoints{"points.ply", kPlyMark,
-                             [](D d, S s, C c, OutputFile& out) { write_points(d, s, c.output, out); }};
+bool always(C) {
+  return true;
+}
+
 // In the order in which they appear: the report comes last, and stands for all the others.
-constexpr ResultFile kResults[] = {
-    {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }},
-    {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }},
-    kPoints,
-    {"holes.json", kReportMark, write_report}};
+const std::vector<ResultFile>& all_results() {
+  static const std::vector<ResultFile> results = {
+      {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }, always},
+      {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }, always},
+      {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points(d, s, c.output, out); },
+       [](C c) { return c.output.points; }},
+      {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
+       [](C c) { return c.output.vdb; }},
+      {"holes.json", kReportMark, write_report, always}};
+  return results;
+}
 
 std::vector<ResultFile> results_of(const Config& config) {
   std::vector<ResultFile> results;
-  std::copy_if(std::begin(kResults), std::end(kResults), std::back_inserter(results),
-               [&](const ResultFile& result) { return result.name != kPoints.name || config.output.points; });
+  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
+               [&](const ResultFile& result) { return result.is_wanted(config); });
+  return results;
+}
+
+// Those that this run does not write. An earlier run may have.
+std::vector<ResultFile> unwanted_results(const Config& config) {
+  std::vector<ResultFile> results;
+  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
+               [&](const ResultFile& result) { return !result.is_wanted(config); });
   return results;
 }
 
@@ -60,7 +77,9 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
   }
-  if (is_own_file(folder / kPoints.name, kPoints.mark)) check_not_input(folder / kPoints.name, scan);
+  for (const ResultFile& result : unwanted_results(config)) {
+    if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
+  }
 }
 
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
@@ -74,7 +93,7 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results) files.push_back(&set.add(folder / result.name, result.mark));
-  if (!config.output.points) set.drop(folder / kPoints.name, kPoints.mark);
+  for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(results.size(), [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
   scan.check_unchanged();

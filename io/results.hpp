@@ -13,7 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, points.ply if the config wants it, and holes.json.
+// The files that a run writes: loops.ply, boundary.ply, holes.json, and points.ply and probability.vdb where the
+// config wants them.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
@@ -22,8 +23,8 @@ std::vector<std::filesystem::path> result_files(const Config& config, const std:
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite);
 
-// Writes the result files as one set (io/output_set.hpp). The points.ply of an earlier run does not belong to
-// the new results: it goes. Makes the folder if it is missing. Throws `Error`.
+// Writes the result files as one set (io/output_set.hpp). A points.ply or probability.vdb of an earlier run
+// does not belong to the new results: it goes. Makes the folder if it is missing. Throws `Error`.
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
 
@@ -47,6 +48,13 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 // property of the input with the name of a result is left out. Reads every file once more.
 void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
+
+// The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the coordinates of
+// the scan. The same grid gives the same bytes. Throws `Error`.
+void write_probability_grid(const Detection& detection, OutputFile& out);
+
+// How a probability.vdb begins.
+std::string_view vdb_mark();
 
 // Bytes of a row of points.ply.
 std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config);

@@ -116,7 +116,7 @@ void add_detect_command(CLI::App& app) {
       ->type_name("STYLE");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
   command->add_flag("--keep-workspace", arguments->keep_workspace,
-                    "Leave the workspace with index.vdb, the cells and tiles for OpenVDB's tools");
+                    "Leave the workspace with index.vdb, the cells and tiles as OpenVDB has them");
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace files that lacuna detect did not write, too, where results need their names");
   command->callback([command, arguments] { run_detect(*command, *arguments); });

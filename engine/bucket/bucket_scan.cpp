@@ -19,21 +19,24 @@ constexpr std::size_t kBatches = 4;  // in flight
 // Where the points of every cell go: a tile, or, from `aside` on, a group of those that are set aside.
 struct Destinations {
   explicit Destinations(const TilePlan& plan)
-      : index(plan.grid, plan.cells, plan.aside),
-        of_cell(plan.cells.size() + plan.aside.size()),
+      : index(plan.grid, plan.cells, std::span(plan.aside).first(plan.heavy)),
+        of_cell(plan.cells.size() + plan.heavy),
         aside(static_cast<std::uint32_t>(plan.tiles.size())),
+        far(aside + static_cast<std::uint32_t>(plan.heavy)),
         end(aside + static_cast<std::uint32_t>(plan.groups())) {
     for (std::uint32_t t = 0; t < aside; ++t) {
       const Tile& tile = plan.tiles[t];
       std::fill(of_cell.begin() + tile.first_cell, of_cell.begin() + tile.last_cell, t);
     }
-    for (std::size_t cell = 0; cell < plan.aside.size(); ++cell)
-      of_cell[plan.cells.size() + cell] = aside + static_cast<std::uint32_t>(plan.group_of(cell));
+    std::iota(of_cell.end() - static_cast<std::ptrdiff_t>(plan.heavy), of_cell.end(), aside);
   }
+
+  // `end` where no point was counted.
+  std::uint32_t operator[](std::uint32_t cell) const { return cell == CellIndex::kNoCell ? far : of_cell[cell]; }
 
   CellIndex index;
   std::vector<std::uint32_t> of_cell;
-  std::uint32_t aside, end;
+  std::uint32_t aside, far, end;
 };
 
 // The finite points of one batch, sorted by destination.
@@ -57,8 +60,8 @@ void Scattered::scatter(const Destinations& to) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const std::uint32_t cell = destinations[i];
     const bool finite = batch.positions[i].allFinite();
-    if (finite && cell == CellIndex::kNoCell) fail_changed("a point lies where none was counted");
-    destinations[i] = finite ? to.of_cell[cell] : to.end;
+    if (finite && to[cell] == to.end) fail_changed("a point lies where none was counted");
+    destinations[i] = finite ? to[cell] : to.end;
     ++ends[destinations[i] + 1];
   }
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
@@ -139,19 +142,6 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
   filler.finish();
 }
 
-void save_index(const TilePlan& plan, const std::filesystem::path& file) {
-  std::vector<IndexedCell> cells;
-  const auto add = [&](const CountedCell& cell, std::int32_t tile) {
-    cells.push_back({cell.coord, static_cast<std::int32_t>(cell.points), tile});
-  };
-  for (std::size_t t = 0; t < plan.tiles.size(); ++t) {
-    for (std::uint32_t cell = plan.tiles[t].first_cell; cell < plan.tiles[t].last_cell; ++cell)
-      add(plan.cells[cell], static_cast<std::int32_t>(t));
-  }
-  for (const CountedCell& cell : plan.aside) add(cell, -1);
-  save_index(plan.grid, cells, file);
-}
-
 }  // namespace
 
 TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
@@ -164,7 +154,7 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
   TileStore store(job.workspace, plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
                   job.memory.spills / 8);
   SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
-  const Destinations to(plan);
+  Destinations to(plan);
   fill(store, aside, scan, to, job, phase);
   aside.store(store, cell_points);
 
@@ -183,7 +173,10 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
     phase.advance(raw.size());
   });
   store.seal();
-  if (job.config.run.keep_index) save_index(plan, job.file("index.vdb"));
+  if (job.config.run.keep_index) {
+    to.index.number_by(store.tiling());
+    save_index(to.index, store.tiling(), job.file("index.vdb"));
+  }
   return store;
 }
 

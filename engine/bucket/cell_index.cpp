@@ -1,48 +1,91 @@
-#include "engine/bucket/cell_index.hpp"
-
-#include "engine/survey/leaf_table.hpp"
+#include "engine/bucket/index_grid.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 
 namespace lacuna {
+namespace {
 
-struct CellIndex::Grid {
-  CellGrid cells;
-  LeafTable<std::int32_t> leaves{-1};
-};
+using Tree = openvdb::Int32Tree;
+using Leaf = Tree::LeafNodeType;
+using Lower = Tree::RootNodeType::ChildNodeType::ChildNodeType;
+
+openvdb::Coord coord_of(const CellCoord& cell) {
+  return {cell[0], cell[1], cell[2]};
+}
+
+const Leaf* leaf_at(const Lower* node, const openvdb::Coord& cell) {
+  if (node == nullptr) return nullptr;
+  const openvdb::Index at = Lower::coordToOffset(cell);
+  return node->isChildMaskOn(at) ? node->getTable()[at].getChild() : nullptr;
+}
+
+}  // namespace
+
+CellIndex::CellIndex(const CellGrid& grid) : grid_(std::make_unique<Grid>(Grid{grid})) {}
 
 CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
                      std::span<const CountedCell> aside)
-    : grid_(std::make_unique<Grid>(Grid{grid})) {
+    : CellIndex(grid) {
+  auto numbers = grid_->numbers->getUnsafeAccessor();
   std::int32_t number = 0;
   for (const std::span<const CountedCell> part : {cells, aside}) {
     for (const CountedCell& cell : part) {
-      const auto& entry = grid_->leaves.touch(cell.coord);
-      entry.values[grid_->leaves.offset(cell.coord)] = number++;
+      if (!cell.is_far) numbers.setValueOn(coord_of(cell.coord), number);
+      ++number;
     }
   }
 }
 
+CellIndex::CellIndex(CellIndex&&) noexcept = default;
 CellIndex::~CellIndex() = default;
 
-void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> cells) const {
-  assert(positions.size() == cells.size());
+const CellGrid& CellIndex::cells() const {
+  return grid_->cells;
+}
+
+// In steps through the levels of the tree, each for many positions: the cache misses of positions in random order
+// overlap.
+void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const {
+  assert(positions.size() == numbers.size());
+  constexpr std::size_t kTogether = 256;
   static constexpr std::int32_t kNone = -1;
-  const auto& leaves = grid_->leaves;
-  std::array<CellCoord, 256> coords;
-  std::array<const std::int32_t*, 256> numbers;
-  for (std::size_t first = 0; first < positions.size(); first += coords.size()) {
-    const std::size_t count = std::min(coords.size(), positions.size() - first);
-    grid_->cells.cells_of(positions.subspan(first, count), std::span(coords).first(count));
-    // Where all the numbers are, then the numbers: the cache misses of points in random order overlap.
+  std::array<CellCoord, kTogether> cells;
+  std::array<const Lower*, kTogether> nodes;
+  std::array<const Leaf*, kTogether> leaves;
+  std::array<const std::int32_t*, kTogether> values;
+  const auto accessor = grid_->numbers->getConstUnsafeAccessor();
+  for (std::size_t first = 0; first < positions.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, positions.size() - first);
+    grid_->cells.cells_of(positions.subspan(first, count), std::span(cells).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& entry = leaves.find(coords[i]);
-      numbers[i] = entry.leaf == nullptr ? &kNone : entry.values + leaves.offset(coords[i]);
-      __builtin_prefetch(numbers[i]);
+      const openvdb::Coord cell = coord_of(cells[i]);
+      nodes[i] = accessor.probeConstNode<Lower>(cell);
+      if (nodes[i] != nullptr) __builtin_prefetch(nodes[i]->getTable() + Lower::coordToOffset(cell));
     }
-    for (std::size_t i = 0; i < count; ++i) cells[first + i] = static_cast<std::uint32_t>(*numbers[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      leaves[i] = leaf_at(nodes[i], coord_of(cells[i]));
+      __builtin_prefetch(leaves[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = leaves[i] == nullptr
+                      ? &kNone
+                      : leaves[i]->buffer().data() + Leaf::coordToOffset(coord_of(cells[i]));
+      __builtin_prefetch(values[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) numbers[first + i] = static_cast<std::uint32_t>(*values[i]);
+  }
+}
+
+// A cell of the tiling lies inside one cell of the grid, unless its points were far: then it may span many.
+void CellIndex::number_by(const Tiling& tiling) {
+  auto numbers = grid_->numbers->getUnsafeAccessor();
+  for (std::size_t c = tiling.cells.size(); c-- > 0;) {
+    const CellCoord cell = grid_->cells.cell_of(tiling.cells[c].box.min());
+    const bool is_inside = cell == grid_->cells.cell_of(tiling.cells[c].box.max());
+    if (is_inside && numbers.isValueOn(coord_of(cell)))
+      numbers.setValueOnly(coord_of(cell), static_cast<std::int32_t>(c));
   }
 }
 

@@ -47,7 +47,7 @@ std::uint32_t index_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
 
-// By place, then by coordinates and id. Few points share a place: only those are looked at.
+// By place, then by coordinates and id. Few points share a place: only those are sorted again.
 void sort_cell(std::span<std::uint64_t> keys, std::span<const StoredPoint> points) {
   const auto by_point = [&](std::uint64_t a, std::uint64_t b) {
     const StoredPoint &p = points[index_of(a)], &q = points[index_of(b)];

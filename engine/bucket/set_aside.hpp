@@ -14,7 +14,7 @@
 namespace lacuna {
 
 // They are sorted on disk, group by group and along a Z curve through each group, which takes any density and
-// any extent in one go. Copies of a point follow each other, so they merge as they stream. Runs of the curve
+// any extent in one pass. Copies of a point follow each other, so they merge as they stream. Runs of the curve
 // become tiles and cells. Memory: that of the sort, and one tile.
 class SetAside {
  public:

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <numeric>
 #include <span>
-#include <unordered_map>
 
 namespace lacuna {
 namespace {
@@ -17,7 +16,7 @@ class Splitter {
  public:
   explicit Splitter(TilePlan& plan) : plan_(plan) {}
 
-  // `in_tile`: a part that holds these cells is a tile already.
+  // `in_tile`: a tile holds these cells already.
   void split(std::uint32_t first, std::uint32_t last, bool in_tile) {
     const Part part = bound(first, last);
     if (!in_tile && part.points <= plan_.tile_points) {
@@ -50,7 +49,7 @@ class Splitter {
     return part;
   }
 
-  // Parts the cells across the longest side, half of the points before and half behind; returns the
+  // Divides the cells across the longest side, half of the points before and half behind; returns the
   // first cell of the second half.
   std::uint32_t halve(const Part& node) {
     const auto side = [&](int axis) { return std::int64_t{node.high[axis]} - node.low[axis]; };
@@ -102,31 +101,6 @@ class Splitter {
   std::vector<std::uint64_t> slabs_;  // points of each
 };
 
-// Counts points per region of 64^3 cells; a surface that passes through one has tens of thousands there.
-class Regions {
- public:
-  explicit Regions(std::span<const CountedCell> cells) {
-    std::uint64_t points = 0;
-    for (const CountedCell& cell : cells) {
-      points_[key(cell.coord)] += cell.points;
-      points += cell.points;
-    }
-    few_ = std::min<std::uint64_t>(256, points / 1024);
-  }
-
-  bool are_few_near(const CellCoord& cell) const { return points_.at(key(cell)) < few_; }
-
- private:
-  // Regions with the same key count as one: then neither is far.
-  static std::uint64_t key(const CellCoord& cell) {
-    const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[std::size_t(axis)] >> 6); };
-    return part(0) * 0x9e3779b97f4a7c15 + part(1) * 0xc2b2ae3d27d4eb4f + part(2) * 0x165667b19e3779f9;
-  }
-
-  std::unordered_map<std::uint64_t, std::uint64_t> points_;
-  std::uint64_t few_ = 0;
-};
-
 }  // namespace
 
 std::uint64_t TilePlan::group_points(std::size_t group) const {
@@ -145,12 +119,8 @@ std::uint64_t TilePlan::most_tiles() const {
 
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points) {
   TilePlan plan{.grid = grid, .cells = std::move(cells), .tile_points = tile_points};
-  const Regions regions(plan.cells);
-  const auto is_far = [&](const CountedCell& cell) {
-    return grid.is_endless(cell.coord) || regions.are_few_near(cell.coord);
-  };
   const auto begin = plan.cells.begin(), end = plan.cells.end();
-  const auto far = std::partition(begin, end, [&](const CountedCell& cell) { return !is_far(cell); });
+  const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
   const auto heavy =
       std::partition(begin, far, [&](const CountedCell& cell) { return cell.points <= tile_points; });
   plan.heavy = static_cast<std::size_t>(far - heavy);

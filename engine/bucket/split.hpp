@@ -16,7 +16,7 @@ struct TilePlan {
   CellGrid grid;
   std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
   std::vector<Tile> tiles;         // of these cells; their rows begin where all copies would fit
-  // Cells that are no part of a tile, since their points are set aside: first those with more points than a
+  // Cells in no tile, since their points are set aside: first those with more points than a
   // tile may hold, each by itself, then those far from all others, together.
   std::vector<CountedCell> aside;
   std::size_t heavy = 0;          // how many of the first kind
@@ -24,16 +24,14 @@ struct TilePlan {
 
   bool has_far() const { return aside.size() > heavy; }
   std::size_t groups() const { return heavy + has_far(); }
-  std::size_t group_of(std::size_t aside_cell) const { return std::min(aside_cell, heavy); }
   std::uint64_t group_points(std::size_t group) const;
   // No less than the number of tiles in the end.
   std::uint64_t most_tiles() const;
 };
 
-// Halves the cells along the longest side of their box, at the point count's median, until a part holds at
+// Halves the cells along the longest side of their box, at the point count's median, until a run holds at
 // most `tile_points` points: a tile. Goes on below, down to few cells, so that cells near in the order are
-// near in space. Far are cells without end, and those in regions with few points: they would widen the boxes
-// of all parts. Cost: n log n in cells.
+// near in space. Far cells are set aside: they would widen the boxes of all runs. Cost: n log n in cells.
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points);
 
 }  // namespace lacuna

@@ -11,13 +11,13 @@ namespace lacuna {
 
 using CellCoord = std::array<std::int32_t, 3>;
 
-// a == b, which calls memcmp: too dear for every point.
+// a == b, which calls memcmp: too slow for every point.
 inline bool same_cell(const CellCoord& a, const CellCoord& b) {
   return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
 }
 
 // Cells are cubes of edge 2^(finest + shift): `shift` doublings of the size that a survey began with. They
-// are counted from an origin near the points, so a scan may stand anywhere on Earth with millimetre spacing.
+// are counted from an origin near the points, so a scan may lie anywhere on Earth with millimetre spacing.
 // The origin is a whole number of finest cells along each axis, and cells are found by rounding down before
 // it is subtracted: both steps are exact. Points more than `kLast` finest cells away belong to the last cell
 // on that side, which therefore has no end. A point keeps its cell's ancestor however often cells are merged.
@@ -41,7 +41,8 @@ struct CellGrid {
 
 struct CountedCell {
   CellCoord coord{};
-  std::uint64_t points = 0;
+  std::uint32_t points = 0;
+  bool is_far = false;  // from almost all other points
 };
 
 }  // namespace lacuna

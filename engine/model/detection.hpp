@@ -2,6 +2,7 @@
 // from the workspace.
 #pragma once
 
+#include "engine/model/cell_grid.hpp"
 #include "engine/model/loop.hpp"
 
 #include <array>
@@ -67,6 +68,18 @@ struct BoundaryPoint {
   std::int32_t loop = -1;
 };
 
+// The largest probability of the points in a cube of a lattice.
+struct ProbabilityVoxel {
+  CellCoord coord{};
+  float probability = 0;
+};
+
+struct ProbabilityLattice {
+  CellGrid grid;  // each of its cells is a voxel
+  std::uint64_t voxels = 0;
+  std::uint64_t points_left_out = 0;  // far from almost all others; distinct ones
+};
+
 // A reported loop: selected, in order of (first id, length, ids).
 struct ReportedLoop {
   LoopMeasures measures;
@@ -86,6 +99,9 @@ class Detection {
   // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
   virtual void for_each_result_block(
       const std::function<void(PointId first, std::span<const PointResult>)>& visit) const = 0;
+  // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
+  virtual ProbabilityLattice probability_lattice() const = 0;
+  virtual void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const = 0;
 };
 
 }  // namespace lacuna

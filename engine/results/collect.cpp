@@ -42,13 +42,15 @@ class WorkspaceDetection final : public Detection {
  public:
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
                      Column<StoredBoundary> boundary, std::uint64_t marked,
-                     std::optional<PointResults> results, std::optional<RowSet> turned)
+                     std::optional<PointResults> results, std::optional<ProbabilityGrid> probabilities,
+                     std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
         selected_(std::move(selected)),
         boundary_(std::move(boundary)),
         marked_(marked),
         results_(std::move(results)),
+        probabilities_(std::move(probabilities)),
         turned_(std::move(turned)) {
     for (const std::size_t loop : selected_) loops_.push_back(raw_loops_.measures[loop]);
   }
@@ -65,6 +67,13 @@ class WorkspaceDetection final : public Detection {
       const StoredBoundary& p = boundary.next();
       if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
     }
+  }
+
+  ProbabilityLattice probability_lattice() const override { return probabilities_->lattice; }
+
+  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
+    ColumnReader<ProbabilityVoxel> voxels(probabilities_->voxels);
+    for (std::uint64_t i = 0; i < probabilities_->lattice.voxels; ++i) visit(voxels[i]);
   }
 
   void for_each_result_block(
@@ -122,6 +131,7 @@ class WorkspaceDetection final : public Detection {
   Column<StoredBoundary> boundary_;  // in ascending id
   std::uint64_t marked_;             // points in it
   std::optional<PointResults> results_;
+  std::optional<ProbabilityGrid> probabilities_;
   std::optional<RowSet> turned_;
 };
 
@@ -226,7 +236,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(
       std::move(summary), std::move(findings.loops), std::move(selected), std::move(boundary_points), marked,
-      std::move(findings.points), std::move(findings.opposed_normals));
+      std::move(findings.points), std::move(findings.probabilities), std::move(findings.opposed_normals));
 }
 
 }  // namespace lacuna

@@ -5,6 +5,7 @@
 #include "engine/loops/measure_loops.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/results/point_results.hpp"
+#include "engine/results/probability_voxels.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
@@ -21,6 +22,7 @@ struct Findings {
   RowSet coherent;                        // candidates that are (paper, 5.1)
   RowSet boundary_candidates;             // candidates that belong to the boundary
   std::optional<PointResults> points;     // only with output.points
+  std::optional<ProbabilityGrid> probabilities;  // only with output.vdb
   std::optional<RowSet> opposed_normals;  // rows whose normal is to be turned round
 };
 

@@ -34,7 +34,7 @@ class AppendBytes {
   std::size_t lists() const { return lists_.size(); }
   // Not while others append to the same list. to: `size(list)` bytes.
   void read(std::size_t list, std::byte* to) const;
-  // The same in parts, in any order: visit(bytes) when so many of `part` are filled.
+  // The same piece by piece, in any order: visit(bytes) when so many of `part` are filled.
   void for_each_part(std::size_t list, std::span<std::byte> part,
                      const std::function<void(std::size_t)>& visit) const;
   // Frees the list's buffer; what it held is gone.
@@ -85,7 +85,7 @@ class AppendLists {
     bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
     return records;
   }
-  // visit(record) for each, in any order, with only a part of them in memory.
+  // visit(record) for each, in any order, with only some of them in memory.
   template <class Visit>
   void for_each(std::size_t list, Visit&& visit) const {
     constexpr std::uint64_t kPart = 1 << 14;

@@ -62,6 +62,14 @@ class FakeDetection final : public Detection {
     }
   }
 
+  ProbabilityLattice probability_lattice() const override { return lattice; }
+  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
+    for (const ProbabilityVoxel& voxel : voxels) visit(voxel);
+  }
+
+  ProbabilityLattice lattice;
+  std::vector<ProbabilityVoxel> voxels;
+
  private:
   std::vector<LoopMeasures> measures_;
 };

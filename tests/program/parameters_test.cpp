@@ -73,7 +73,7 @@ class Runs {
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     std::string bytes;
-    for (const char* name : {"loops.ply", "boundary.ply", "points.ply"}) {
+    for (const char* name : {"loops.ply", "boundary.ply", "points.ply", "probability.vdb"}) {
       if (fs::exists(out / name)) bytes += name + test::read_file(out / name);
     }
     fs::remove_all(out);

@@ -7,15 +7,21 @@
 #include <map>
 #include <string>
 
+#include <Eigen/Geometry>
+
 namespace lacuna::test {
 
 struct VdbGrid {
   double voxel = 0;  // edge, units of the scan
-  std::int32_t background = 0;
-  std::map<std::array<std::int32_t, 3>, std::int32_t> values;  // of the active voxels
+  double background = 0;
+  std::map<std::array<std::int32_t, 3>, double> values;  // of the active voxels
+  std::array<double, 3> first_voxel{};                   // the middle of voxel (0, 0, 0)
+  std::map<std::string, std::string> metadata;           // as text
+
+  Eigen::AlignedBox3d box(const std::array<std::int32_t, 3>& voxel) const;
 };
 
-// Every grid by name; each holds 32-bit integers, else std::runtime_error.
+// Every grid by name; each holds 32-bit integers or floats, else std::runtime_error.
 std::map<std::string, VdbGrid> read_vdb_grids(const std::filesystem::path& file);
 
 }  // namespace lacuna::test

@@ -78,6 +78,14 @@ TEST_CASE("every counted cell is found by a position in it, and no other") {
   CHECK(std::count(cells.begin(), cells.end(), CellIndex::kNoCell) > 3000);
 }
 
+TEST_CASE("far cells have no number, and the others keep theirs") {
+  const std::vector<CountedCell> counted = {{{1, 2, 3}, 5}, {{70, 0, 0}, 1, true}, {{-9, 0, 4}, 2}};
+  const std::vector<Eigen::Vector3d> positions = {{1.5, 2.5, 3.5}, {70.5, 0.5, 0.5}, {-8.5, 0, 4}};
+  std::vector<std::uint32_t> cells(3);
+  CellIndex(CellGrid{}, counted).find(positions, cells);
+  CHECK(cells == std::vector<std::uint32_t>{0, CellIndex::kNoCell, 2});
+}
+
 TEST_CASE("an index of nothing finds nothing") {
   const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {NAN, 0, 0}, {-INFINITY, 0, 0}};
   std::vector<std::uint32_t> cells(3);

@@ -94,7 +94,8 @@ TEST_CASE("a survey counts every finite point in the cell that the final grid gi
 TEST_CASE("cells merge while they need more memory than allowed, and no point is lost") {
   const Cloud cloud = scattered(3000, 1).scaled(50).joined(lattice(8));
   std::size_t before = 0;
-  for (const std::uint64_t memory : {1, 20'000, 40'000, 200'000}) {
+  // OpenVDB's standard tree takes 300 KB for its first cell.
+  for (const std::uint64_t memory : {1, 400'000, 450'000, 1'000'000}) {
     const SurveyedScan scan = survey(cloud, memory, 100);
     INFO(memory << " bytes allowed");
     check_counts(cloud, scan);
@@ -143,10 +144,44 @@ TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a m
     INFO(place.transpose());
     CHECK(surveyed.cells.size() > cells / 2);
     CHECK(surveyed.cells.size() < cells * 2);
-    std::uint64_t most = 0;
+    std::uint32_t most = 0;
     for (const CountedCell& cell : surveyed.cells) most = std::max(most, cell.points);
     CHECK(most < 200);
   }
+}
+
+TEST_CASE("cells without end and cells in regions with few points are far") {
+  Cloud cloud = plane(200).joined(scattered(100, 2).scaled(1e7));
+  cloud.positions.push_back({1e30, 0, 0});
+  const SurveyedScan scan = survey(cloud);
+  std::uint64_t far_points = 0;
+  std::size_t wrong = 0;
+  for (const CountedCell& cell : scan.cells) {
+    if (cell.is_far) far_points += cell.points;
+    wrong += scan.grid.is_endless(cell.coord) && !cell.is_far;
+  }
+  CHECK(wrong == 0);
+  CHECK(far_points >= 90);
+  CHECK(far_points <= 101 + plane(200).size() / 20);
+}
+
+TEST_CASE("the standard tree of cells that are not far fits in the memory of the survey, wherever they are") {
+  Cloud clusters;
+  for (int i = 0; i < 600; ++i) {
+    const Eigen::Vector3d centre(i % 10 * 1e4, i / 10 % 10 * 1e4, i / 100 * 1e4);
+    clusters = clusters.joined(scattered(60, static_cast<std::uint64_t>(i)).translated(centre));
+  }
+  constexpr std::uint64_t kMemory = 4'000'000;
+  const SurveyedScan scan = survey(clusters, kMemory, 1000);
+  check_counts(clusters, scan);
+  std::set<CellCoord> lower, upper;  // nodes of the tree, of 33 and 270 KB
+  for (const CountedCell& cell : scan.cells) {
+    if (cell.is_far) continue;
+    lower.insert({cell.coord[0] >> 7, cell.coord[1] >> 7, cell.coord[2] >> 7});
+    upper.insert({cell.coord[0] >> 12, cell.coord[1] >> 12, cell.coord[2] >> 12});
+  }
+  CHECK(lower.size() * 33'000 + upper.size() * 270'000 < kMemory);
+  CHECK(scan.cells.size() > 100);
 }
 
 TEST_CASE("far outliers are counted like any point") {
@@ -271,12 +306,11 @@ TEST_CASE("a tiling is found wrong where cells are missing, rows overlap or node
   CHECK_FALSE(is_right_with([](Tiling& t) { t.nodes.clear(); }));
 }
 
-TEST_CASE("a single heavy cell is set aside, as is one without end, and no cells make no tiles") {
+TEST_CASE("a single heavy cell is set aside, as is a far one, and no cells make no tiles") {
   const std::vector<CountedCell> cells = {
-      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, CellGrid::kLast, 0}, 1}};
+      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, 1'000, 0}, 1, true}};
   const TilePlan plan = split_tiles(cells, CellGrid{}, 12);
-  CHECK(counts_of(plan.aside) ==
-        std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, CellGrid::kLast, 0}, 1}});
+  CHECK(counts_of(plan.aside) == std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, 1'000, 0}, 1}});
   CHECK(plan.heavy == 1);
   CHECK(plan.cells.size() == 3);
   CHECK(split_tiles({}, CellGrid{}, 12).tiles.empty());

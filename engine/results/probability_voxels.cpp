@@ -1,0 +1,195 @@
+#include "engine/results/probability_voxels.hpp"
+
+#include "engine/results/voxel_sizes.hpp"
+#include "engine/store/sorted_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{128} << 20;
+
+// A voxel of the finest size, and the points of one tile in it.
+struct TileVoxel {
+  CellCoord coord{};
+  float probability = 0;
+  std::uint32_t points = 0;
+};
+
+struct AlongZ {
+  bool operator()(const TileVoxel& a, const TileVoxel& b) const { return comes_before_along_z(a.coord, b.coord); }
+};
+
+// Voxels in any order of equal ones have the same largest probability and the same number of points.
+using VoxelSort = SortedRuns<TileVoxel, AlongZ>;
+
+// The middle is at this coordinate along each axis. Its bits alternate, so that its distance to the nearest border of a
+// node of OpenVDB's tree is a third of the node's size, however often voxels double.
+constexpr std::int32_t kMiddle = 0x2aaaaaa;
+
+// Of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
+std::int32_t shift_of(int doublings) {
+  return (kMiddle >> doublings) / 4096 * 4096;
+}
+
+CellGrid finest_lattice(int exponent, const Eigen::Vector3d& middle) {
+  // No voxel is smaller than the last digit of the coordinates.
+  const double far = middle.cwiseAbs().maxCoeff();
+  const int digit = far > 0 ? std::ilogb(far) - std::numeric_limits<double>::digits : -500;
+  CellGrid grid{.finest = std::clamp(exponent, std::max(digit, -500), 500)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double at = std::ldexp(middle[static_cast<Eigen::Index>(axis)], -grid.finest);
+    grid.origin[axis] = std::floor(at) - kMiddle;
+  }
+  return grid;
+}
+
+// The lattice with the coordinates that the voxels get in the end.
+CellGrid final_lattice(CellGrid grid, int doublings) {
+  grid.shift = doublings;
+  for (double& origin : grid.origin) origin += std::ldexp(shift_of(doublings), doublings);
+  return grid;
+}
+
+// The voxels of one tile, each once. Voxels without end have no place in a grid of OpenVDB: their points are left out.
+std::vector<TileVoxel> voxels_of(const std::vector<StoredPoint>& points, const std::vector<float>& probabilities,
+                                 const CellGrid& grid) {
+  std::vector<TileVoxel> voxels;
+  voxels.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CellCoord voxel = grid.cell_of(points[i].position());
+    if (!grid.is_endless(voxel)) voxels.push_back({voxel, probabilities[i], 1});
+  }
+  std::sort(voxels.begin(), voxels.end(), AlongZ());
+  std::size_t kept = 0;
+  for (const TileVoxel& voxel : voxels) {
+    if (kept > 0 && same_cell(voxels[kept - 1].coord, voxel.coord)) {
+      TileVoxel& same = voxels[kept - 1];
+      same.probability = std::max(same.probability, voxel.probability);
+      ++same.points;
+    } else {
+      voxels[kept++] = voxel;
+    }
+  }
+  voxels.resize(kept);
+  return voxels;
+}
+
+// visit(voxel), each once, along the Z curve, after `doublings`; coordinates still those of `sort`, divided.
+template <class Visit>
+void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
+  struct Large {
+    CellCoord coord;
+    float probability;
+    std::uint64_t points;
+  };
+  std::optional<Large> last;
+  sort.for_each([&](const TileVoxel& small) {
+    const CellCoord coord = {small.coord[0] >> doublings, small.coord[1] >> doublings, small.coord[2] >> doublings};
+    if (last && same_cell(last->coord, coord)) {
+      last->probability = std::max(last->probability, small.probability);
+      last->points += small.points;
+      return;
+    }
+    if (last) visit(*last);
+    last = Large{coord, small.probability, small.points};
+  });
+  if (last) visit(*last);
+}
+
+// Buffered appends of voxels.
+class VoxelWriter {
+ public:
+  explicit VoxelWriter(Column<ProbabilityVoxel>& column) : column_(column) {}
+  void add(const ProbabilityVoxel& voxel) {
+    block_.push_back(voxel);
+    if (block_.size() == 4096) flush();
+  }
+  void flush() {
+    column_.append(block_);
+    block_.clear();
+  }
+
+ private:
+  Column<ProbabilityVoxel>& column_;
+  std::vector<ProbabilityVoxel> block_;
+};
+
+}  // namespace
+
+void ProbabilityVoxels::take(const EvaluatedTile& tile) {
+  std::vector<float> probabilities(tile.points.owned);
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
+  probabilities_.write(value(tile.tile.first_row), probabilities);
+
+  std::map<int, std::uint64_t> exponents;
+  for (const Evaluation& e : tile.evaluations) {
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
+  }
+  const std::lock_guard lock(mutex_);
+  for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
+}
+
+// Of the median; 0 without any.
+int ProbabilityVoxels::typical_exponent() const {
+  std::uint64_t all = 0, before = 0;
+  for (const auto& [exponent, points] : exponents_) all += points;
+  for (const auto& [exponent, points] : exponents_) {
+    before += points;
+    if (2 * before >= all) return exponent;
+  }
+  return 0;
+}
+
+ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const {
+  const Tiling& tiling = store.tiling();
+  Phase phase(job, "voxels", tiling.points());
+  const CellGrid finest = finest_lattice(typical_exponent(), middle);
+  VoxelSort sort(job.file("voxel-sort"), job.memory.global / 3);
+  std::mutex mutex;
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * 64);
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+    const Tile& tile = tiling.tiles[t];
+    const std::vector<TileVoxel> voxels = voxels_of(
+        store.points(static_cast<TileIndex>(t)), probabilities_.read(value(tile.first_row), tile.points), finest);
+    const std::lock_guard lock(mutex);
+    sort.add(voxels);
+    phase.advance(tile.points);
+  });
+
+  std::uint64_t placed = 0;
+  VoxelSizes sizes(tiling.points());
+  for_each_voxel(sort, 0, [&](const auto& voxel) {
+    sizes.add(voxel.coord, voxel.points);
+    placed += voxel.points;
+  });
+  sizes.finish();
+  const int doublings = sizes.doublings_within(std::min(kMostBytes, job.memory.global));
+
+  const std::int32_t shift = shift_of(doublings);
+  ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)}, Column<ProbabilityVoxel>(job.file("voxels"))};
+  grid.lattice.points_left_out = tiling.points() - placed;
+  VoxelWriter writer(grid.voxels);
+  std::span<const CellCoord> nodes = sizes.kept_nodes(doublings);
+  for_each_voxel(sort, doublings, [&](const auto& voxel) {
+    const CellCoord node = VoxelSizes::node_of(voxel.coord, 0);
+    while (!nodes.empty() && comes_before_along_z(nodes.front(), node)) nodes = nodes.subspan(1);
+    if (nodes.empty() || !same_cell(nodes.front(), node)) {
+      grid.lattice.points_left_out += voxel.points;
+      return;
+    }
+    ++grid.lattice.voxels;
+    writer.add({{voxel.coord[0] - shift, voxel.coord[1] - shift, voxel.coord[2] - shift}, voxel.probability});
+  });
+  writer.flush();
+  return grid;
+}
+
+}  // namespace lacuna

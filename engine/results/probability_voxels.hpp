@@ -1,0 +1,40 @@
+// The largest boundary probability in each voxel of a grid, for probability.vdb.
+#pragma once
+
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/tile_store.hpp"
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+namespace lacuna {
+
+struct ProbabilityGrid {
+  ProbabilityLattice lattice;
+  Column<ProbabilityVoxel> voxels;  // each once
+};
+
+class ProbabilityVoxels final : public TileConsumer {
+ public:
+  explicit ProbabilityVoxels(const Job& job) : probabilities_(job.file("probabilities")) {}
+
+  void take(const EvaluatedTile& tile) override;
+
+  // Once every tile was taken. The edge of a voxel is the largest power of two that is no more than the median, over the
+  // points, of the mean distance to the neighbours. Outliers hardly change it. It doubles until OpenVDB's tree takes no more than 128 MiB and the job's memory for the global stage. The grid does not
+  // depend on that memory if it is at least 128 MiB. `middle`: a place near the points. Voxels are sorted on disk.
+  ProbabilityGrid finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const;
+
+ private:
+  int typical_exponent() const;
+
+  Column<float> probabilities_;  // by row
+  std::mutex mutex_;
+  std::map<int, std::uint64_t> exponents_;  // of mean distances: how many points have each
+};
+
+}  // namespace lacuna
