@@ -64,23 +64,18 @@ class Stitch {
   // on_disk(for_each, count): of one component whose records do not fit in memory; one at a time.
   void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
                           const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
-    Scratch scratch(job_.workspace, job_.memory.global / 3);
     const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
-    const Components::Batches batches =
-        components_.join(std::max<std::uint64_t>(fits / job_.arena.threads(), 1), scratch);
-    AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
-    job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
-
+    const AppendLists<Member> batches = make_batches(std::max<std::uint64_t>(fits / job_.arena.threads(), 1));
     std::vector<std::uint64_t> needs;
-    for (const std::uint64_t records : batches.records)
-      needs.push_back(records > fits ? 0 : records * record_bytes_);
+    for (std::size_t b = 0; b < batches.lists(); ++b)
+      needs.push_back(batches.count(b) > fits ? 0 : batches.count(b) * record_bytes_);
     job_.arena.for_each_within_budget(needs, job_.memory.global / 2, [&](std::size_t b) {
-      if (batches.records[b] <= fits) visit_batch(lists.read(b), in_memory);
+      if (batches.count(b) <= fits) visit_batch(batches.read(b), in_memory);
     });
-    for (std::size_t b = 0; b < batches.records.size(); ++b) {
-      if (batches.records[b] <= fits) continue;
-      on_disk([&](const auto& visit) { lists.for_each(b, [&](const Member& m) { visit(m.record); }); },
-              batches.records[b]);
+    for (std::size_t b = 0; b < batches.lists(); ++b) {
+      if (batches.count(b) <= fits) continue;
+      on_disk([&](const auto& visit) { batches.for_each(b, [&](const Member& m) { visit(m.record); }); },
+              batches.count(b));
     }
   }
 
@@ -91,6 +86,15 @@ class Stitch {
     std::uint64_t component;  // at first: the open part of its tile
     Record record;
   };
+
+  // Whole components in each: at most `most_records` records, save for one component of more.
+  AppendLists<Member> make_batches(std::uint64_t most_records) {
+    Scratch scratch(job_.workspace, job_.memory.global / 3);
+    const Components::Batches batches = components_.join(most_records, scratch);
+    AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
+    job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
+    return lists;
+  }
 
   void distribute(std::size_t tile, const Components::Batches& batches, AppendLists<Member>& lists) {
     std::vector<Member> members = open_.read(tile);

@@ -47,7 +47,7 @@ void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_e
       add(edge.b.row);
     });
   });
-  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"), job.memory.global / 4);
+  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"), job.memory.global / 8);
   Scratch scratch(job.workspace, job.memory.global * 5 / 8);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {

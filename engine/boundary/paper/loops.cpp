@@ -77,7 +77,7 @@ void find_loops(const SpanningGraph& graph, Scratch& scratch,
                 const std::function<void(std::span<const LocalIndex>)>& report) {
   const SpanningGraph cycles = keep_cycles(graph, scratch);
   if (cycles.indices.empty()) return;
-  SortedRuns<Origin> origins(scratch.folder() / "origins", scratch.budget() / 4);
+  SortedRuns<Origin> origins(scratch.folder() / "origins", scratch.budget() / 8);
   for (LocalIndex v = 0; v < graph.size(); ++v) {
     scratch.trim();
     if (!cycles[v].empty()) origins.add({graph.ids[v], v});
