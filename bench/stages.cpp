@@ -2,21 +2,21 @@
 // other parameter at its default. Counter `per_point`: time per point of the tile, comparable between
 // stages and with a whole run; counters of other names: per thing that the stage goes through.
 #include "bench/sample.hpp"
-#include "engine/config.hpp"
-#include "engine/bucket/cell_index.hpp"
-#include "engine/neighbours/block_search.hpp"
 #include "engine/boundary/coherence.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
-#include "engine/evaluate/evaluate.hpp"
 #include "engine/boundary/paper/loops.hpp"
-#include "engine/loops/measure_loop.hpp"
-#include "engine/neighbours/neighbourhoods.hpp"
-#include "engine/bucket/order_tile.hpp"
 #include "engine/boundary/paper/spanning.hpp"
-#include "engine/bucket/split.hpp"
-#include "engine/survey/survey.hpp"
 #include "engine/boundary/tangential/active_points.hpp"
+#include "engine/bucket/cell_index.hpp"
+#include "engine/bucket/order_tile.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/config.hpp"
+#include "engine/evaluate/evaluate.hpp"
+#include "engine/loops/measure_loop.hpp"
+#include "engine/neighbours/block_search.hpp"
+#include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/store/scratch.hpp"
+#include "engine/survey/survey.hpp"
 #include "io/file_scan.hpp"
 #include "io/output_set.hpp"
 #include "tests/support/point_tree.hpp"
@@ -350,9 +350,8 @@ void find_stars(benchmark::State& state, double noise) {
   const NoisySample sample(noise);
   std::size_t vertices = 0;
   for (auto _ : state) {
-    const TileStars found =
-        lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seeds, sample.is_border,
-                           kConfig.tangential);
+    const TileStars found = lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seeds,
+                                               sample.is_border, kConfig.tangential);
     vertices = found.stars.vertices.size();
   }
   time_per(state, "per_point", kPoints);

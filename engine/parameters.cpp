@@ -104,7 +104,8 @@ std::vector<Parameter> parameters(Config& config) {
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write points.ply too: every point of the input with its probabilities.", kNothing},
       {"output", "vdb", &output.vdb, 0, 1, "true or false",
-       "Write probability.vdb too: the boundary probability as a grid of OpenVDB, for Houdini and Blender.", kNothing},
+       "Write probability.vdb too: the boundary probability as a grid of OpenVDB, for Houdini and Blender.",
+       kNothing},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to points.ply, unless a scan brings its own.", kPoints},
 

@@ -103,15 +103,14 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
 
   // Results, in the order of the input.
   std::optional<ProbabilityGrid> probabilities;
-  if (voxels)
-    probabilities.emplace(voxels->finish(store, survey.middle, job));
+  if (voxels) probabilities.emplace(voxels->finish(store, survey.middle, job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
-  return collect_results({std::move(summary), std::move(loops), std::move(coherent),
-                          std::move(boundary_candidates), std::move(points), std::move(probabilities),
-                          std::move(opposed_normals)},
-                         candidates, store, job);
+  return collect_results(
+      {std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates),
+       std::move(points), std::move(probabilities), std::move(opposed_normals)},
+      candidates, store, job);
 }
 
 Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
@@ -130,8 +129,8 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   const std::uint64_t orientation =
       config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
-  const std::uint64_t voxels =
-      config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20 : 0;  // at most one for each point, sorted
+  const std::uint64_t voxels = config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20
+                                                 : 0;  // at most one for each point, sorted
   const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
   // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.

@@ -11,22 +11,25 @@
 #include <streambuf>
 #include <string>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {
 
-// An OpenVDB stream begins with its magic number, three versions, whether it has offsets of its grids, and an identifier
-// of 36 characters.
+// An OpenVDB stream begins with its magic number, three versions, whether it has offsets of its grids, and an
+// identifier of 36 characters.
 constexpr std::size_t kFixedBytes = 21, kIdentifierBytes = 36;
 
-// How Lacuna's identifiers begin: its name, and the version of identifiers that are a program's own (RFC 9562).
+// How Lacuna's identifiers begin: its name, and the version of identifiers that are a program's own (RFC
+// 9562).
 constexpr std::string_view kIdentifierMark = "4c616375-6e61-8";
 
 std::string fixed_bytes() {
   std::string bytes;
-  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   add(static_cast<openvdb::Int64>(openvdb::OPENVDB_MAGIC));
   add(static_cast<openvdb::Index32>(openvdb::OPENVDB_FILE_VERSION));
   add(static_cast<openvdb::Index32>(openvdb::OPENVDB_LIBRARY_MAJOR_VERSION));
@@ -88,12 +91,15 @@ openvdb::FloatGrid::Ptr grid_of(const Detection& detection) {
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   grid->setCreator("lacuna detect");
   grid->setTransform(vdb_transform(lattice.grid));
-  grid->insertMeta("value", openvdb::StringMetadata("largest boundary probability of the points in the voxel, 0 to 1"));
-  grid->insertMeta("unit", openvdb::StringMetadata(is_in_world_units(lattice.grid)
-                                                       ? "unit of the scan"
-                                                       : "voxel: those in units of the scan are too small or too large"));
+  grid->insertMeta(
+      "value", openvdb::StringMetadata("largest boundary probability of the points in the voxel, 0 to 1"));
+  grid->insertMeta(
+      "unit", openvdb::StringMetadata(is_in_world_units(lattice.grid)
+                                          ? "unit of the scan"
+                                          : "voxel: those in units of the scan are too small or too large"));
   grid->insertMeta("voxel_edge", openvdb::DoubleMetadata(lattice.grid.edge()));
-  grid->insertMeta("points_left_out", openvdb::Int64Metadata(static_cast<std::int64_t>(lattice.points_left_out)));
+  grid->insertMeta("points_left_out",
+                   openvdb::Int64Metadata(static_cast<std::int64_t>(lattice.points_left_out)));
   return grid;
 }
 

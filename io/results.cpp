@@ -95,7 +95,8 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   for (const ResultFile& result : results) files.push_back(&set.add(folder / result.name, result.mark));
   for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(results.size(), [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
+  arena.for_each(results.size(),
+                 [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
   scan.check_unchanged();
   set.commit();
 }

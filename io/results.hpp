@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, holes.json, and points.ply and probability.vdb where the
-// config wants them.
+// The files that a run writes: loops.ply, boundary.ply, holes.json, and points.ply and probability.vdb where
+// the config wants them.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
@@ -49,8 +49,8 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
 
-// The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the coordinates of
-// the scan. The same grid gives the same bytes. Throws `Error`.
+// The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the
+// coordinates of the scan. The same grid gives the same bytes. Throws `Error`.
 void write_probability_grid(const Detection& detection, OutputFile& out);
 
 // How a probability.vdb begins.

@@ -1,16 +1,16 @@
 #include "tools/detect_command.hpp"
 
 #include "engine/config.hpp"
-#include "engine/run/error.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
-#include "tools/visible_text.hpp"
 #include "tools/value_options.hpp"
+#include "tools/visible_text.hpp"
 #include "tools/workspace.hpp"
 
 #include <array>
@@ -76,9 +76,10 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
 
   const Clock::time_point end = Clock::now();
   std::string summary = print_summary(*detection, arguments.scans,
-                                   {.write_seconds = std::chrono::duration<double>(end - writing).count(),
-                                    .total_seconds = std::chrono::duration<double>(end - start).count()});
-  for (const fs::path& file : result_files(config, out)) summary += "written: " + visible(file.string()) + "\n";
+                                      {.write_seconds = std::chrono::duration<double>(end - writing).count(),
+                                       .total_seconds = std::chrono::duration<double>(end - start).count()});
+  for (const fs::path& file : result_files(config, out))
+    summary += "written: " + visible(file.string()) + "\n";
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }

@@ -32,7 +32,9 @@ struct Destinations {
   }
 
   // `end` where no point was counted.
-  std::uint32_t operator[](std::uint32_t cell) const { return cell == CellIndex::kNoCell ? far : of_cell[cell]; }
+  std::uint32_t operator[](std::uint32_t cell) const {
+    return cell == CellIndex::kNoCell ? far : of_cell[cell];
+  }
 
   CellIndex index;
   std::vector<std::uint32_t> of_cell;

@@ -45,8 +45,8 @@ const CellGrid& CellIndex::cells() const {
   return grid_->cells;
 }
 
-// In steps through the levels of the tree, each for many positions: the cache misses of positions in random order
-// overlap.
+// In steps through the levels of the tree, each for many positions: the cache misses of positions in random
+// order overlap.
 void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const {
   assert(positions.size() == numbers.size());
   constexpr std::size_t kTogether = 256;
@@ -69,9 +69,8 @@ void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::
       __builtin_prefetch(leaves[i]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      values[i] = leaves[i] == nullptr
-                      ? &kNone
-                      : leaves[i]->buffer().data() + Leaf::coordToOffset(coord_of(cells[i]));
+      values[i] = leaves[i] == nullptr ? &kNone
+                                       : leaves[i]->buffer().data() + Leaf::coordToOffset(coord_of(cells[i]));
       __builtin_prefetch(values[i]);
     }
     for (std::size_t i = 0; i < count; ++i) numbers[first + i] = static_cast<std::uint32_t>(*values[i]);

@@ -12,8 +12,8 @@
 
 namespace lacuna {
 
-// A grid of OpenVDB with a number in each cell. Its tree is OpenVDB's standard one, so that any program with OpenVDB can
-// read the grid from disk. Far cells have no number: each would take 300 KB.
+// A grid of OpenVDB with a number in each cell. Its tree is OpenVDB's standard one, so that any program with
+// OpenVDB can read the grid from disk. Far cells have no number: each would take 300 KB.
 class CellIndex {
  public:
   static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
@@ -30,8 +30,8 @@ class CellIndex {
   // The number of each position's cell; `kNoCell` where the cell has none. From any thread.
   void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const;
 
-  // Each cell of the grid that has a number gets that of the first cell of the tiling inside it. Those that follow
-  // inside it have the next numbers.
+  // Each cell of the grid that has a number gets that of the first cell of the tiling inside it. Those that
+  // follow inside it have the next numbers.
   void number_by(const Tiling& tiling);
 
  private:

@@ -18,7 +18,8 @@ namespace {
 
 using Bytes = openvdb::UnknownMetadata::ByteVec;
 
-constexpr const char *kGrid = "cell", *kFinest = "finest", *kShift = "shift", *kOrigin = "origin", *kTiles = "tiles", *kVoxels = "voxels";
+constexpr const char *kGrid = "cell", *kFinest = "finest", *kShift = "shift", *kOrigin = "origin",
+                     *kTiles = "tiles", *kVoxels = "voxels";
 // OpenVDB keeps metadata of a type that it does not know as bytes.
 constexpr const char* kTileType = "lacuna_tile";
 
@@ -43,10 +44,8 @@ Bytes record_of(const Tiling& tiling, const Tile& tile) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const Cell& cell = tiling.cells[tile.first_cell + i];
     const Eigen::Vector3d &low = cell.box.min(), &high = cell.box.max();
-    const StoredCell stored{{low.x(), low.y(), low.z()},
-                            {high.x(), high.y(), high.z()},
-                            value(cell.first_row),
-                            cell.points};
+    const StoredCell stored{
+        {low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}, value(cell.first_row), cell.points};
     std::memcpy(bytes.data() + sizeof head + i * sizeof stored, &stored, sizeof stored);
   }
   return bytes;
@@ -65,9 +64,10 @@ void add_record(const Bytes& bytes, Tiling& tiling) {
   for (std::uint64_t i = 0; i < head.cells; ++i) {
     StoredCell stored;
     std::memcpy(&stored, bytes.data() + sizeof head + i * sizeof stored, sizeof stored);
-    tiling.cells.push_back({{Eigen::Map<const Eigen::Vector3d>(stored.low), Eigen::Map<const Eigen::Vector3d>(stored.high)},
-                            Row{stored.first_row},
-                            stored.points});
+    tiling.cells.push_back(
+        {{Eigen::Map<const Eigen::Vector3d>(stored.low), Eigen::Map<const Eigen::Vector3d>(stored.high)},
+         Row{stored.first_row},
+         stored.points});
   }
   tiling.tiles.push_back({first_cell, static_cast<std::uint32_t>(tiling.cells.size()), Row{head.first_row},
                           head.raw, head.points});
@@ -90,11 +90,13 @@ Tiling read_tiling(const openvdb::MetaMap& metadata) {
 // OpenVDB reads zeros behind the end of a file that was cut short.
 void check_numbers(const openvdb::Int32Grid& grid, const CellGrid& lattice, const Tiling& tiling,
                    const openvdb::MetaMap& metadata) {
-  if (static_cast<std::int64_t>(grid.activeVoxelCount()) != metadata.metaValue<std::int64_t>(kVoxels)) refuse();
+  if (static_cast<std::int64_t>(grid.activeVoxelCount()) != metadata.metaValue<std::int64_t>(kVoxels))
+    refuse();
   for (auto number = grid.cbeginValueOn(); number; ++number) {
     const openvdb::Coord at = number.getCoord();
     const auto cell = static_cast<std::uint32_t>(*number);
-    if (cell >= tiling.cells.size() || lattice.cell_of(tiling.cells[cell].box.min()) != CellCoord{at.x(), at.y(), at.z()})
+    if (cell >= tiling.cells.size() ||
+        lattice.cell_of(tiling.cells[cell].box.min()) != CellCoord{at.x(), at.y(), at.z()})
       refuse();
   }
 }

@@ -13,9 +13,9 @@ struct StoredIndex {
   Tiling tiling;
 };
 
-// Writes the grid `cell`: in each voxel the number of its first cell of the tiling. Far cells have no voxel. The
-// metadata of the file holds the lattice of the cells, and one record for each tile: its cells with their boxes.
-// Memory: 64 bytes for each cell. Throws `Error`.
+// Writes the grid `cell`: in each voxel the number of its first cell of the tiling. Far cells have no voxel.
+// The metadata of the file holds the lattice of the cells, and one record for each tile: its cells with their
+// boxes. Memory: 64 bytes for each cell. Throws `Error`.
 void save_index(const CellIndex& index, const Tiling& tiling, const std::filesystem::path& file);
 
 // Returns what `save_index` wrote, with the tree over the cells. Throws `Error` for any other file.

@@ -1,7 +1,7 @@
 #include "engine/bucket/order_tile.hpp"
 
-#include "engine/simd/vectorised.hpp"
 #include "engine/bucket/z_curve.hpp"
+#include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>

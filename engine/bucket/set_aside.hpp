@@ -2,10 +2,10 @@
 // than the survey's cells are made for.
 #pragma once
 
-#include "engine/store/sorted_runs.hpp"
-#include "engine/store/tile_store.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/bucket/z_curve.hpp"
+#include "engine/store/sorted_runs.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,8 +14,8 @@
 namespace lacuna {
 
 // They are sorted on disk, group by group and along a Z curve through each group, which takes any density and
-// any extent in one pass. Copies of a point follow each other, so they merge as they stream. Runs of the curve
-// become tiles and cells. Memory: that of the sort, and one tile.
+// any extent in one pass. Copies of a point follow each other, so they merge as they stream. Runs of the
+// curve become tiles and cells. Memory: that of the sort, and one tile.
 class SetAside {
  public:
   // `bounds`: of all points. The plan must outlive this.

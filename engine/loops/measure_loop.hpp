@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-// Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours). If the
-// area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer
+// Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours).
+// If the area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer
 // boundary. A cap of less than about half a sphere has an outer boundary, a larger one a hole.
 //
 // normal: of the area vector of the polygon (Newell), by the right hand rule about the written direction.

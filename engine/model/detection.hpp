@@ -17,11 +17,11 @@
 namespace lacuna {
 
 struct Counts {
-  std::uint64_t points = 0;      // rows of the input
-  std::uint64_t dropped = 0;     // with a non-finite coordinate
-  std::uint64_t duplicates = 0;  // at the coordinates of a point with a lower id
-  std::uint64_t candidates = 0;  // distinct points with Pi above the threshold
-  std::uint64_t coherent = 0;    // of these, those that are coherent (paper, 5.1)
+  std::uint64_t points = 0;           // rows of the input
+  std::uint64_t dropped = 0;          // with a non-finite coordinate
+  std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id
+  std::uint64_t candidates = 0;       // distinct points with Pi above the threshold
+  std::uint64_t coherent = 0;         // of these, those that are coherent (paper, 5.1)
   std::uint64_t boundary_points = 0;  // points of the input, duplicates too
   std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
   std::uint64_t components = 0;       // of the boundary graph
@@ -54,9 +54,11 @@ inline constexpr std::size_t kMostCriteria = 8;
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table
-  // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop (tangential).
+  // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop
+  // (tangential).
   std::uint8_t boundary = 0;
-  std::uint8_t coherent = 0;  // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops
+  std::uint8_t coherent =
+      0;                   // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops
   std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
   Eigen::Vector3f normal;  // NaN where undefined
 };
@@ -101,7 +103,8 @@ class Detection {
       const std::function<void(PointId first, std::span<const PointResult>)>& visit) const = 0;
   // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
   virtual ProbabilityLattice probability_lattice() const = 0;
-  virtual void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const = 0;
+  virtual void for_each_probability_voxel(
+      const std::function<void(const ProbabilityVoxel&)>& visit) const = 0;
 };
 
 }  // namespace lacuna

@@ -12,10 +12,11 @@
 
 namespace lacuna {
 
-// One walk through a `BlockTree` finds the blocks around a run of queries. Each query takes the points within a
-// radius, which it guesses from how many the query before found. Sixteen queries are ranked side by side, in single
-// precision, relative to the run. Few queries are ambiguous: the radius holds too few points or too many, or two
-// distances are too near to each other. Distances in double precision decide these, one query at a time.
+// One walk through a `BlockTree` finds the blocks around a run of queries. Each query takes the points within
+// a radius, which it guesses from how many the query before found. Sixteen queries are ranked side by side,
+// in single precision, relative to the run. Few queries are ambiguous: the radius holds too few points or too
+// many, or two distances are too near to each other. Distances in double precision decide these, one query at
+// a time.
 //
 // Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {

@@ -19,11 +19,11 @@ namespace lacuna {
 struct Findings {
   Summary summary;
   MeasuredLoops loops;
-  RowSet coherent;                        // candidates that are (paper, 5.1)
-  RowSet boundary_candidates;             // candidates that belong to the boundary
-  std::optional<PointResults> points;     // only with output.points
+  RowSet coherent;                               // candidates that are (paper, 5.1)
+  RowSet boundary_candidates;                    // candidates that belong to the boundary
+  std::optional<PointResults> points;            // only with output.points
   std::optional<ProbabilityGrid> probabilities;  // only with output.vdb
-  std::optional<RowSet> opposed_normals;  // rows whose normal is to be turned round
+  std::optional<RowSet> opposed_normals;         // rows whose normal is to be turned round
 };
 
 // Fills in the counts of boundary points.

@@ -23,14 +23,16 @@ struct TileVoxel {
 };
 
 struct AlongZ {
-  bool operator()(const TileVoxel& a, const TileVoxel& b) const { return comes_before_along_z(a.coord, b.coord); }
+  bool operator()(const TileVoxel& a, const TileVoxel& b) const {
+    return comes_before_along_z(a.coord, b.coord);
+  }
 };
 
 // Voxels in any order of equal ones have the same largest probability and the same number of points.
 using VoxelSort = SortedRuns<TileVoxel, AlongZ>;
 
-// The middle is at this coordinate along each axis. Its bits alternate, so that its distance to the nearest border of a
-// node of OpenVDB's tree is a third of the node's size, however often voxels double.
+// The middle is at this coordinate along each axis. Its bits alternate, so that its distance to the nearest
+// border of a node of OpenVDB's tree is a third of the node's size, however often voxels double.
 constexpr std::int32_t kMiddle = 0x2aaaaaa;
 
 // Of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
@@ -57,9 +59,10 @@ CellGrid final_lattice(CellGrid grid, int doublings) {
   return grid;
 }
 
-// The voxels of one tile, each once. Voxels without end have no place in a grid of OpenVDB: their points are left out.
-std::vector<TileVoxel> voxels_of(const std::vector<StoredPoint>& points, const std::vector<float>& probabilities,
-                                 const CellGrid& grid) {
+// The voxels of one tile, each once. Voxels without end have no place in a grid of OpenVDB: their points are
+// left out.
+std::vector<TileVoxel> voxels_of(const std::vector<StoredPoint>& points,
+                                 const std::vector<float>& probabilities, const CellGrid& grid) {
   std::vector<TileVoxel> voxels;
   voxels.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -91,7 +94,8 @@ void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
   };
   std::optional<Large> last;
   sort.for_each([&](const TileVoxel& small) {
-    const CellCoord coord = {small.coord[0] >> doublings, small.coord[1] >> doublings, small.coord[2] >> doublings};
+    const CellCoord coord = {small.coord[0] >> doublings, small.coord[1] >> doublings,
+                             small.coord[2] >> doublings};
     if (last && same_cell(last->coord, coord)) {
       last->probability = std::max(last->probability, small.probability);
       last->points += small.points;
@@ -147,7 +151,8 @@ int ProbabilityVoxels::typical_exponent() const {
   return 0;
 }
 
-ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const {
+ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle,
+                                          Job& job) const {
   const Tiling& tiling = store.tiling();
   Phase phase(job, "voxels", tiling.points());
   const CellGrid finest = finest_lattice(typical_exponent(), middle);
@@ -157,8 +162,9 @@ ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::V
   for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * 64);
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
-    const std::vector<TileVoxel> voxels = voxels_of(
-        store.points(static_cast<TileIndex>(t)), probabilities_.read(value(tile.first_row), tile.points), finest);
+    const std::vector<TileVoxel> voxels =
+        voxels_of(store.points(static_cast<TileIndex>(t)),
+                  probabilities_.read(value(tile.first_row), tile.points), finest);
     const std::lock_guard lock(mutex);
     sort.add(voxels);
     phase.advance(tile.points);
@@ -174,7 +180,8 @@ ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::V
   const int doublings = sizes.doublings_within(std::min(kMostBytes, job.memory.global));
 
   const std::int32_t shift = shift_of(doublings);
-  ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)}, Column<ProbabilityVoxel>(job.file("voxels"))};
+  ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)},
+                       Column<ProbabilityVoxel>(job.file("voxels"))};
   grid.lattice.points_left_out = tiling.points() - placed;
   VoxelWriter writer(grid.voxels);
   std::span<const CellCoord> nodes = sizes.kept_nodes(doublings);

@@ -37,8 +37,8 @@ struct Job {
   Memory memory;
   std::vector<PhaseTime> phases;
 
-  // Gives memory that was freed back to the system, where more than half of the limit is in use. At the end of
-  // each phase, and between steps that need much.
+  // Gives memory that was freed back to the system, where more than half of the limit is in use. At the end
+  // of each phase, and between steps that need much.
   void trim() const;
   // A file of the workspace.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }

@@ -50,8 +50,8 @@ void release_symbol_tables() {
       const auto& segment = library->dlpi_phdr[i];
       if (segment.p_type != PT_LOAD || segment.p_flags != PF_R) continue;  // neither code nor data
       const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
-      ::madvise(reinterpret_cast<void*>(begin), library->dlpi_addr + segment.p_vaddr + segment.p_memsz - begin,
-                MADV_DONTNEED);
+      ::madvise(reinterpret_cast<void*>(begin),
+                library->dlpi_addr + segment.p_vaddr + segment.p_memsz - begin, MADV_DONTNEED);
     }
     return 0;
   };

@@ -13,15 +13,15 @@ std::uint64_t machine_memory();
 // `groups` is as /proc/self/cgroup, `root` as /sys/fs/cgroup.
 std::uint64_t group_memory(const std::filesystem::path& groups, const std::filesystem::path& root);
 
-// Bytes of the process that are in memory now; `mapped`: those of files, the program and its libraries included.
-// Zeros where the system does not say. Cost: one system call.
+// Bytes of the process that are in memory now; `mapped`: those of files, the program and its libraries
+// included. Zeros where the system does not say. Cost: one system call.
 struct ResidentMemory {
   std::uint64_t all, mapped;
 };
 ResidentMemory resident_memory();
 
-// Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The system
-// reads them again if they are needed.
+// Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The
+// system reads them again if they are needed.
 void release_symbol_tables();
 
 }  // namespace lacuna

@@ -39,7 +39,8 @@ class Components {
   Components(std::size_t tiles, const Job& job);
 
   // The open parts of a tile; their `records` are for the caller to count. `connected`: of all `vertices` of
-  // the tile's part of the graph. Counts the closed components with an edge, or all of them. From any thread, once for each tile.
+  // the tile's part of the graph. Counts the closed components with an edge, or all of them. From any thread,
+  // once for each tile.
   TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
                            std::span<const CrossingEdge> crossings, bool single_vertices_count);
   void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }

@@ -44,7 +44,8 @@ class Stitch {
   // From any thread, once for each tile.
   void add(TileIndex tile, const GraphPart<Record>& part) {
     UnionFind connected(part.links);
-    TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings, part.single_vertices_count);
+    TileOpenParts open =
+        components_.open_parts(tile, connected, part.vertices, part.crossings, part.single_vertices_count);
     std::vector<Member> members;
     members.reserve(part.records.size());
     for (std::size_t i = 0; i < part.records.size(); ++i) {

@@ -10,8 +10,8 @@
 
 namespace lacuna {
 
-// visit(begin, end): runs of `rows`, which ascend. Rows between runs are not touched: most were never written,
-// and reading these, too, would fill the system's cache with zeros.
+// visit(begin, end): runs of `rows`, which ascend. Rows between runs are not touched: most were never
+// written, and reading these, too, would fill the system's cache with zeros.
 template <class Visit>
 void for_each_run(std::span<const Row> rows, Visit&& visit) {
   constexpr std::uint64_t kNear = 64;

@@ -32,8 +32,8 @@ class Scratch {
   }
 
   // To be called from loops over the arrays (most calls are one subtraction): gives mapped pages back to the
-  // system while they are more than the budget. Their contents stay. `bytes`: what the loop has passed since the
-  // last call where it goes along an array; else one access may map a window of pages.
+  // system while they are more than the budget. Their contents stay. `bytes`: what the loop has passed since
+  // the last call where it goes along an array; else one access may map a window of pages.
   void trim(std::uint64_t bytes = kWindow) {
     if ((untrimmed_ += bytes) >= between_looks_) release();
   }

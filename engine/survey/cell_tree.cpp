@@ -55,8 +55,8 @@ void for_each_region(const Tree& tree, Visit&& visit) {
 
 struct CellTree::Nodes {
   Tree tree{0};
-  // Remembers a leaf and a top node. OpenVDB 10.0.1 finds wrong nodes where an accessor of a tree of five levels remembers
-  // one of each level, as it would by default.
+  // Remembers a leaf and a top node. OpenVDB 10.0.1 finds wrong nodes where an accessor of a tree of five
+  // levels remembers one of each level, as it would by default.
   openvdb::tree::ValueAccessor2<Tree, /*IsSafe=*/true, 0, 3> accessor{tree};
 };
 
@@ -132,8 +132,7 @@ std::vector<CountedCell> CellTree::counted_cells(std::uint64_t few) const {
     for (const Leaf* leaf : leaves) {
       for (auto count = leaf->cbeginValueOn(); count; ++count) {
         const openvdb::Coord cell = count.getCoord();
-        cells.push_back(
-            {{cell.x(), cell.y(), cell.z()}, static_cast<std::uint32_t>(*count), points < few});
+        cells.push_back({{cell.x(), cell.y(), cell.z()}, static_cast<std::uint32_t>(*count), points < few});
       }
     }
   });

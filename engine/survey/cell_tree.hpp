@@ -19,8 +19,8 @@ struct CellRun {
 // Where counting stops: such a cell is divided anyway.
 inline constexpr std::uint64_t kMostCounted = (std::uint64_t{1} << 31) - 1;
 
-// Leaves hold 8^3 cells, as in OpenVDB's standard tree. Above them are three levels of 4^3 nodes, since each far outlier
-// has nodes of its own: they take 4 KB here, 300 KB in the standard tree.
+// Leaves hold 8^3 cells, as in OpenVDB's standard tree. Above them are three levels of 4^3 nodes, since each
+// far outlier has nodes of its own: they take 4 KB here, 300 KB in the standard tree.
 class CellTree {
  public:
   CellTree();
@@ -39,8 +39,8 @@ class CellTree {
   // Cells that are not alone in their leaf. Those of outliers are.
   std::uint64_t cells_in_company() const;
 
-  // Every cell, with its count, in an order that depends on the cells alone. A cell is far where its region of 128^3
-  // cells holds fewer than `few` points.
+  // Every cell, with its count, in an order that depends on the cells alone. A cell is far where its region
+  // of 128^3 cells holds fewer than `few` points.
   std::vector<CountedCell> counted_cells(std::uint64_t few) const;
   // Bytes of OpenVDB's standard tree with the cells that are not far.
   std::uint64_t standard_bytes(std::uint64_t few) const;

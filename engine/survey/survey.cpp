@@ -19,9 +19,9 @@ constexpr int kMaxExponent = 500;
 // Taken for a scan of an unknown number of points: rather too fine than too coarse.
 constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
-// Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for each point at
-// most, those of one outlier in a hundred points 40. With more outliers, passes over their cells would take most of the
-// time.
+// Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for
+// each point at most, those of one outlier in a hundred points 40. With more outliers, passes over their
+// cells would take most of the time.
 constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 48;
 
 // A cell's share of the index and the tree built from it.
@@ -60,9 +60,9 @@ Whereabouts whereabouts_of(const PointBatch& batch) {
   return place;
 }
 
-// The cell that holds the point is at `kMiddle` along each axis. Its bits alternate, so that its distance to the nearest
-// border of a node of the tree is a third of the node's size, however often cells merge. A scan in the middle of few
-// nodes needs few of them.
+// The cell that holds the point is at `kMiddle` along each axis. Its bits alternate, so that its distance to
+// the nearest border of a node of the tree is a third of the node's size, however often cells merge. A scan
+// in the middle of few nodes needs few of them.
 constexpr double kMiddle = 0x2aaaaaa;
 
 std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
@@ -87,8 +87,8 @@ bool lie_apart(std::uint64_t before, std::uint64_t after) {
   return before >= kEnough && 4 * after > 3 * before;
 }
 
-// A region of 128^3 cells with fewer points is far from the others: a surface that passes through one has hundreds of
-// thousands there.
+// A region of 128^3 cells with fewer points is far from the others: a surface that passes through one has
+// hundreds of thousands there.
 std::uint64_t few_points(std::uint64_t points) {
   return std::min<std::uint64_t>(256, points / 1024);
 }
@@ -125,13 +125,14 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
 }
 
 Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
-    : memory_(std::min(memory, kFewBytes + kBytesPerPoint * (expected_points > 0 ? expected_points : kUnknownPoints))),
+    : memory_(std::min(
+          memory, kFewBytes + kBytesPerPoint * (expected_points > 0 ? expected_points : kUnknownPoints))),
       is_expected_(expected_points > 0),
       expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
 
 // A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it; half of that size
-// is small enough for a first batch from a small area of the scan. Where that is spread over the whole scan, in random
-// order, its cells show how many there will be: sizes with several times too many are passed over.
+// is small enough for a first batch from a small area of the scan. Where that is spread over the whole scan,
+// in random order, its cells show how many there will be: sizes with several times too many are passed over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);
@@ -162,7 +163,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   };
   while (!count() && doublings < CellGrid::kMaxShift) ++doublings;
   const double most = 2 * points / kPointsPerCell;
-  for (double cells = std::ldexp(static_cast<double>(sample.cells_in_company()), 2 * doublings); cells > most; cells /= 4)
+  for (double cells = std::ldexp(static_cast<double>(sample.cells_in_company()), 2 * doublings); cells > most;
+       cells /= 4)
     ++scan_.grid.finest;
   scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
   sized_ = true;
@@ -210,8 +212,8 @@ bool Survey::needs_too_much() const {
 
 bool Survey::is_too_fine() const {
   if (counts_.leaves() <= 2 * apart_) return false;
-  // Even with all points to come in the same cells, these would hold too few in the end. A scan of an unknown number
-  // of points may have more than its cells were made for.
+  // Even with all points to come in the same cells, these would hold too few in the end. A scan of an unknown
+  // number of points may have more than its cells were made for.
   const std::uint64_t points = std::max(scan_.points, is_expected_ ? expected_points_ : 4 * expected_points_);
   // In random order leaves are touched before their cells are: a surface fills about 50 cells of those that
   // it passes through.

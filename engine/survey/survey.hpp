@@ -19,9 +19,9 @@ struct SurveyedScan {
   std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
   Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis of the first points
-  std::uint64_t points = 0;        // rows of the input
-  std::uint64_t dropped = 0;       // with a non-finite coordinate
-  bool is_single = true;           // every finite coordinate is a number of single precision
+  std::uint64_t points = 0;                          // rows of the input
+  std::uint64_t dropped = 0;                         // with a non-finite coordinate
+  bool is_single = true;  // every finite coordinate is a number of single precision
 
   Precision precision() const;
 };
@@ -36,11 +36,12 @@ struct CellCounts {
 };
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
-// Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge, whenever the
-// cells need more than `memory` bytes or hold too few points each. At the end they merge until a cell holds about
-// `kPointsPerCell` points on average, and until OpenVDB's standard tree of the cells that are not far fits, too. Cells
-// that would hardly merge stay: they are those of outliers, and larger ones would be too large for the other points.
-// Cost: one access of the tree for each run of points in the same cell.
+// Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge,
+// whenever the cells need more than `memory` bytes or hold too few points each. At the end they merge until a
+// cell holds about `kPointsPerCell` points on average, and until OpenVDB's standard tree of the cells that
+// are not far fits, too. Cells that would hardly merge stay: they are those of outliers, and larger ones
+// would be too large for the other points. Cost: one access of the tree for each run of points in the same
+// cell.
 class Survey {
  public:
   // `expected_points`: 0 where not known.

@@ -1,7 +1,7 @@
 // Whatever the input and the disk: a result where one exists, else one clear line and exit code 1, nothing
 // half-written.
-#include "engine/run/error.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"

@@ -20,23 +20,26 @@ using test::run_program;
 
 std::string make_surface(const test::ScratchFolder& scratch, const std::string& name) {
   const std::string scan = (scratch / name).string();
-  REQUIRE(run_program({"synth", "surface", scan, "--points", "12000", "--holes", "4", "--hole-radius", "3", "6", "--order",
-                       "random"})
+  REQUIRE(run_program({"synth", "surface", scan, "--points", "12000", "--holes", "4", "--hole-radius", "3",
+                       "6", "--order", "random"})
               .exit_code == 0);
   return scan;
 }
 
-TEST_CASE("OpenVDB's reader finds in each voxel of probability.vdb the largest probability of points.ply there") {
+TEST_CASE(
+    "OpenVDB's reader finds in each voxel of probability.vdb the largest probability of points.ply there") {
   const test::ScratchFolder scratch;
   const std::string surface = make_surface(scratch, "surface.ply");
   // The same scan on Earth, with all digits.
   const test::Table table = test::read_table(surface);
   std::string text = "x y z\n";
   for (const auto& row : table.rows)
-    text += std::to_string(row[0] + 500'000) + " " + std::to_string(row[1] + 5'400'000) + " " + std::to_string(row[2]) + "\n";
+    text += std::to_string(row[0] + 500'000) + " " + std::to_string(row[1] + 5'400'000) + " " +
+            std::to_string(row[2]) + "\n";
   for (const std::string& scan : {surface, scratch.write("earth.txt", text)}) {
     const fs::path out = scratch / "out";
-    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--vdb", "--quiet"}).exit_code == 0);
+    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--vdb", "--quiet"}).exit_code ==
+            0);
     const auto grids = test::read_vdb_grids(out / "probability.vdb");
     REQUIRE(grids.size() == 1);
     const test::VdbGrid& grid = grids.at("boundary_probability");

@@ -40,7 +40,8 @@ std::map<std::string, VdbGrid> read_vdb_grids(const std::filesystem::path& file)
     read.voxel = base->voxelSize().x();
     const openvdb::Vec3d first = base->indexToWorld(openvdb::Vec3d(0.0));
     read.first_voxel = {first.x(), first.y(), first.z()};
-    for (auto meta = base->beginMeta(); meta != base->endMeta(); ++meta) read.metadata[meta->first] = meta->second->str();
+    for (auto meta = base->beginMeta(); meta != base->endMeta(); ++meta)
+      read.metadata[meta->first] = meta->second->str();
     if (const auto numbers = openvdb::gridPtrCast<openvdb::Int32Grid>(base)) {
       read_values(*numbers, read);
     } else if (const auto reals = openvdb::gridPtrCast<openvdb::FloatGrid>(base)) {

@@ -23,10 +23,10 @@ struct SurfaceOptions {
   std::uint64_t holes = 8;                   // none touches another or the rim
   std::array<double, 2> hole_radius{4, 12};  // spacings, [1.5, ..), smallest and largest
   PositionKind positions = PositionKind::kJittered;
-  double jitter = 0.25;                      // of the local spacing, [0, 0.5]; not of random positions
-  double noise = 0;                          // along the normal, spacings, standard deviation
-  std::uint32_t density_step = 1;            // 1, 4, 9, 16, ...: one half has 1/F of the density
-  double density_factor = 1;                 // [1, 100]: densest over sparsest, changing smoothly
+  double jitter = 0.25;            // of the local spacing, [0, 0.5]; not of random positions
+  double noise = 0;                // along the normal, spacings, standard deviation
+  std::uint32_t density_step = 1;  // 1, 4, 9, 16, ...: one half has 1/F of the density
+  double density_factor = 1;       // [1, 100]: densest over sparsest, changing smoothly
   Order order = Order::kScanline;
   std::uint64_t seed = 1;
   std::array<double, 3> translate{0, 0, 0};  // units of the scan

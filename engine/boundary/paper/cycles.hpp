@@ -1,9 +1,9 @@
-// cycles: the edges of a spanning graph that can lie on a loop, and which of these are complete where only a part
-// of the graph is known.
+// cycles: the edges of a spanning graph that can lie on a loop, and which of these are complete where only a
+// part of the graph is known.
 #pragma once
 
-#include "engine/store/scratch.hpp"
 #include "engine/boundary/paper/spanning.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <cstdint>
 #include <span>

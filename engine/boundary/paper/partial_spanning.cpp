@@ -10,7 +10,7 @@
 namespace lacuna {
 
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
-                        Scratch& scratch) {
+                               Scratch& scratch) {
   std::vector<LocalIndex> foreign(vertices.size() - vertices.owned);
   std::iota(foreign.begin(), foreign.end(), vertices.owned);
   order_edges(edges, vertices.ids);

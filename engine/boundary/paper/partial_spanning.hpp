@@ -1,10 +1,10 @@
-// span_partially: what of the spanning graph, and of its loops, a part of the eligible edges decides alone, such as
-// those of a tile.
+// span_partially: what of the spanning graph, and of its loops, a part of the eligible edges decides alone,
+// such as those of a tile.
 #pragma once
 
-#include "engine/store/scratch.hpp"
-#include "engine/model/boundary_graph.hpp"
 #include "engine/boundary/paper/spanning.hpp"
+#include "engine/model/boundary_graph.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <cstdint>
 #include <span>
@@ -34,6 +34,6 @@ struct PartialSpanning {
 // Without foreign vertices nothing is passed on. The graph lives in `scratch`.
 // Cost: that of spanning the part.
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
-                        Scratch& scratch);
+                               Scratch& scratch);
 
 }  // namespace lacuna

@@ -1,9 +1,9 @@
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 
-#include "engine/store/scratch.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/stitch/union_find.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <array>
 #include <cstdint>

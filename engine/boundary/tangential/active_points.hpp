@@ -1,10 +1,11 @@
 // active_points: which points of a tile are active, and their stars (method.md, C.1).
 //
-// A surface ends where triangles are missing. The search starts at the seeds, which are the paper's candidates
-// (method.md, 4), and grows along inconsistent triangles. Seeds are active. Where a triangle in the star of an
-// active point is inconsistent (its ball is too large, or the star of another active vertex does not have it), all
-// its vertices are active. That is a least fixed point: neither the order of the search nor the tiles matter.
-// Along a boundary wedge all points are active, which closes the boundary curves.
+// A surface ends where triangles are missing. The search starts at the seeds, which are the paper's
+// candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. Where a triangle in
+// the star of an active point is inconsistent (its ball is too large, or the star of another active vertex
+// does not have it), all its vertices are active. That is a least fixed point: neither the order of the
+// search nor the tiles matter. Along a boundary wedge all points are active, which closes the boundary
+// curves.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
@@ -19,18 +20,20 @@
 
 namespace lacuna {
 
-// Of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active are measured
-// or in the belt: from the belt on, the search takes each triangle for inconsistent that may turn out so.
+// Of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active are
+// measured or in the belt: from the belt on, the search takes each triangle for inconsistent that may turn
+// out so.
 struct TileStars {
   std::vector<PointState> states;
   std::vector<std::uint8_t> is_active;  // for certain
   // Measured ones, with the consistency of each triangle. Others are found for their samplings only.
   Stars<LocalIndex> stars;
-  std::vector<Sampling> samplings;  // of measured and inner points, and of all their neighbours but border points
+  std::vector<Sampling>
+      samplings;  // of measured and inner points, and of all their neighbours but border points
 };
 
-// `seeds` ascend; `is_border`: of owned points, has foreign neighbours. Cost: proportional to the active points
-// and their neighbours, and one sweep over all points.
+// `seeds` ascend; `is_border`: of owned points, has foreign neighbours. Cost: proportional to the active
+// points and their neighbours, and one sweep over all points.
 TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
                      std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
                      std::span<const std::uint8_t> is_border, const TangentialConfig& config);

@@ -16,7 +16,9 @@ namespace {
 class Belt {
  public:
   Belt(const StarLists& lists, TileIndex t)
-      : points_(lists.belt.read(t)), rows_(lists.belt_rows.read(t)), neighbours_(lists.belt_neighbours.read(t)) {
+      : points_(lists.belt.read(t)),
+        rows_(lists.belt_rows.read(t)),
+        neighbours_(lists.belt_neighbours.read(t)) {
     queries_.reserve(points_.size());
     std::span<const LocalIndex> left = neighbours_;
     for (const BeltPoint& p : points_) {

@@ -91,9 +91,8 @@ class BorderExchange {
 
   bool has_active_belt(TileIndex t) const {
     const std::vector<Row> rows = lists_.belt_rows.read(t);
-    return std::any_of(rows.begin(), rows.end(), [&](Row row) {
-      return tiling_.tiles[t].owns(row) && lists_.active.contains(row);
-    });
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](Row row) { return tiling_.tiles[t].owns(row) && lists_.active.contains(row); });
   }
 
   // Requests the tiles of points that become active, where another tile has to know of it.
@@ -109,7 +108,8 @@ class BorderExchange {
 
   template <class Step>
   void for_each_growing(std::span<const TileIndex> tiles, Step&& step) {
-    for_each(tiles, [&](TileIndex t) { return growing_bytes(lists_, tiling_.tiles[t], t); }, step);
+    for_each(
+        tiles, [&](TileIndex t) { return growing_bytes(lists_, tiling_.tiles[t], t); }, step);
   }
 
   template <class Bytes, class Step>

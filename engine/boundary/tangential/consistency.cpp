@@ -33,7 +33,7 @@ HWY_INLINE std::uint32_t places_of(LocalIndex point, const LinkVertex<LocalIndex
 
 // The vertex of a large link after which b follows a, or a follows b.
 std::uint32_t find_in_large_link(const LinkVertex<LocalIndex>* link, std::uint32_t size, LocalIndex a,
-                            LocalIndex b) {
+                                 LocalIndex b) {
   for (std::uint32_t i = 0; i < size; ++i) {
     const LocalIndex here = link[i].point, next = link[i + 1 < size ? i + 1 : 0].point;
     if ((here == a && next == b) || (here == b && next == a)) return i;
@@ -88,8 +88,8 @@ namespace {
 
 // The triangles in the stars of active points [first, last), each in the star of its lowest active point, to
 // `queries`: returns how many. Without a branch: processors cannot predict which star that is.
-std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const PointState> states, LocalIndex first,
-                           LocalIndex last, TriangleQuery* queries) {
+std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const PointState> states,
+                           LocalIndex first, LocalIndex last, TriangleQuery* queries) {
   const auto is_lower_active = [&](LocalIndex p, LocalIndex q) {
     return (q < p) & (states[q] == PointState::kActive);
   };
@@ -115,7 +115,8 @@ std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const Point
 
 void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> states) {
   stars.consistencies.resize(stars.vertices.size(), Consistency::kInconsistent);
-  const StarTable table{stars.places.data(), stars.vertices.data(), states.data(), stars.consistencies.data()};
+  const StarTable table{stars.places.data(), stars.vertices.data(), states.data(),
+                        stars.consistencies.data()};
   constexpr LocalIndex kRun = 64;
   const auto points = static_cast<LocalIndex>(stars.size());
   std::vector<TriangleQuery> queries;

@@ -12,8 +12,8 @@ namespace lacuna {
 // Links that are compared in one step have no more vertices; as many are readable beyond the last link.
 inline constexpr std::uint32_t kFewVertices = 8;
 
-// Fills `consistencies`. A triangle is undecided where a vertex is active in the belt or may become active, and
-// the stars of the others have it. Links of more than kFewVertices take longer. Cost: linear.
+// Fills `consistencies`. A triangle is undecided where a vertex is active in the belt or may become active,
+// and the stars of the others have it. Links of more than kFewVertices take longer. Cost: linear.
 void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> states);
 
 // ---- For the kernel

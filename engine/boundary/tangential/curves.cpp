@@ -131,8 +131,9 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
     const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.vertex.row);
-    return at != repeated.end() && *at == p.vertex.row ? &places[static_cast<std::size_t>(at - repeated.begin())]
-                                                       : nullptr;
+    return at != repeated.end() && *at == p.vertex.row
+               ? &places[static_cast<std::size_t>(at - repeated.begin())]
+               : nullptr;
   };
   const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
                               turned = scratch.array<CurvePoint>(curve.size());

@@ -1,4 +1,5 @@
-// curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md, C.5).
+// curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md,
+// C.5).
 #pragma once
 
 #include "engine/boundary/tangential/wedge.hpp"
@@ -34,13 +35,13 @@ struct WedgeChain {
   std::size_t first_side, last_side;  // 0: from; 1: to
 };
 
-// visit(chain) for each; all wedges are in one. Their starts and directions depend on the order of the wedges.
-// Cost: linear.
+// visit(chain) for each; all wedges are in one. Their starts and directions depend on the order of the
+// wedges. Cost: linear.
 void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
                    const std::function<void(const WedgeChain&)>& visit);
 
-// Turned so that the curve starts at its smallest id and goes on to that one's smaller neighbour (of several such
-// ways, the one whose ids come first).
+// Turned so that the curve starts at its smallest id and goes on to that one's smaller neighbour (of several
+// such ways, the one whose ids come first).
 void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch);
 
 // visit(curve): a curve passes a point twice where two holes touch, and is split there into curves that pass
@@ -48,10 +49,10 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
 void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit);
 
-// How sure it is that the curve bounds a hole, in [0, 1]. Where a scan happens to be thin, a larger ball fits at
-// few points of the curve. A point counts in proportion to its excess radius, fully from `clear_excess` on.
-// Returns the mean of that over the points and `doubt` more that have none: a few points may have an excess by
-// chance. The sum is in the order of the curve.
+// How sure it is that the curve bounds a hole, in [0, 1]. Where a scan happens to be thin, a larger ball fits
+// at few points of the curve. A point counts in proportion to its excess radius, fully from `clear_excess`
+// on. Returns the mean of that over the points and `doubt` more that have none: a few points may have an
+// excess by chance. The sum is in the order of the curve.
 double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
 
 }  // namespace lacuna

@@ -6,14 +6,13 @@
 namespace lacuna {
 
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point) {
-  const auto at =
-      std::partition_point(remote_triangles.begin(), remote_triangles.end(),
-                           [&](const RemoteTriangle& triangle) { return triangle.to < point; });
+  const auto at = std::partition_point(remote_triangles.begin(), remote_triangles.end(),
+                                       [&](const RemoteTriangle& triangle) { return triangle.to < point; });
   return at != remote_triangles.end() && at->to == point;
 }
 
-Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_t> is_measured, RowSet& active,
-               const OpenStars& open, std::span<const RemoteTriangle> remote_triangles)
+Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_t> is_measured,
+               RowSet& active, const OpenStars& open, std::span<const RemoteTriangle> remote_triangles)
     : tiling_(tiling),
       tile_(tiling.tiles[tile]),
       is_measured_(is_measured),

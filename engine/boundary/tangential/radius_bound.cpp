@@ -19,7 +19,8 @@ using Counts = std::array<std::size_t, kBatchSize>;
 
 }  // namespace
 
-std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars, const TangentialConfig& config) {
+std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
+                                              const TangentialConfig& config) {
   std::size_t most = 0;
   for (const FoundStar& star : stars) most = std::max(most, star.size());
   std::vector<Batch<double>> many;

@@ -1,10 +1,10 @@
-// radius_bound: the largest ball that makes a triangle, from how points lie around the star's point (method.md,
-// C.3).
+// radius_bound: the largest ball that makes a triangle, from how points lie around the star's point
+// (method.md, C.3).
 //
-// The balls of a star show how large the empty circles of the sampling are, and how much they differ. On a grid
-// all have 0.71 spacings; among points at random there are small and large ones. Beside a hole some balls are
-// large since they lie in it, so a median over a point's neighbours decides. Balls that certainly lie in a hole
-// are left out, since on strips and islands half of the balls do.
+// The balls of a star show how large the empty circles of the sampling are, and how much they differ. On a
+// grid all have 0.71 spacings; among points at random there are small and large ones. Beside a hole some
+// balls are large since they lie in it, so a median over a point's neighbours decides. Balls that certainly
+// lie in a hole are left out, since on strips and islands half of the balls do.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"

@@ -6,8 +6,8 @@
 #define LACUNA_BOUNDARY_STAR_INL
 #endif
 
-#include "engine/simd/vector-inl.hpp"
 #include "engine/boundary/tangential/star_batch.hpp"
+#include "engine/simd/vector-inl.hpp"
 
 #include <limits>
 

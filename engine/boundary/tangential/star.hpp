@@ -88,8 +88,8 @@ inline bool is_in_belt(PointState state) {
 // Of a triangle of a star: the stars of all its active vertices must have it.
 enum class Consistency : std::uint32_t { kInconsistent, kConsistent, kUndecided };
 
-// visit(from, to, excess): each boundary wedge of a star's point, as in `Wedge`, with the largest excess radius
-// in it. None where no triangle is consistent.
+// visit(from, to, excess): each boundary wedge of a star's point, as in `Wedge`, with the largest excess
+// radius in it. None where no triangle is consistent.
 template <class Name, class Visit>
 void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Visit&& visit) {
   const auto is_consistent = [&](std::size_t i) { return consistencies[i] == Consistency::kConsistent; };

@@ -132,8 +132,8 @@ constexpr int kCountShift = 32;
 
 // The edge from a vertex such that no view is to its right. `back`: the edge before, turned; all views are to
 // its right by more than `margin` but those `on_edge`. Views nearer to a line than `rounding` are on it.
-HWY_INLINE View<V> next_edge(const Views& views, const HullVertex& at, const View<V>& back, V margin, V rounding,
-                             Count& on_edge) {
+HWY_INLINE View<V> next_edge(const Views& views, const HullVertex& at, const View<V>& back, V margin,
+                             V rounding, Count& on_edge) {
   const V least = hn::Neg(margin), right = hn::Neg(rounding);
   const auto first_of = [&](const View<V>& a, const View<V>& b) HWY_ATTR {
     const Mask is_right = cross(a, b) < right;
@@ -166,7 +166,8 @@ template <class Radius>
 HWY_INLINE void store_vertices(Count row, Radius radius, LinkVertex<LocalIndex>* link) {
   const hn::Rebind<std::uint32_t, Doubles> bits;
   std::uint64_t packed[kStep];
-  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, radius))), row), kWhole, packed);
+  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, radius))), row), kWhole,
+             packed);
   __builtin_memcpy(link, packed, sizeof packed);
 }
 

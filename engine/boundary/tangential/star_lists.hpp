@@ -71,9 +71,10 @@ struct StarLists {
   OpenStars read_open(TileIndex tile) const;  // in ascending owned index
   void drop(TileIndex tile);                  // all but the wedges
 
-  AppendLists<BeltPoint> belt;              // in ascending owned index
-  AppendLists<Row> belt_rows;               // of these points and their neighbours, ascending
-  AppendLists<LocalIndex> belt_neighbours;  // of one point after the other, in neighbour order: places of rows
+  AppendLists<BeltPoint> belt;  // in ascending owned index
+  AppendLists<Row> belt_rows;   // of these points and their neighbours, ascending
+  AppendLists<LocalIndex>
+      belt_neighbours;  // of one point after the other, in neighbour order: places of rows
   std::vector<std::vector<TileIndex>> around;  // tiles that own any of the belt's rows, ascending
   // By row, of the belts' rows. Each tile writes its own points.
   Column<Site> sites;

@@ -1,16 +1,18 @@
 // stars: the triangles around each point over which a ball can rest (method.md, C.2).
 //
-// A ball of radius R touches p with its centre in p's tangent plane and rolls around it. A neighbour at offset
-// d forbids the directions to the centre c in which the ball would contain it: c . d / |d|^2 > 1/2. So the
-// convex hull of the points Pi(d / |d|^2) decides for balls of all sizes, Pi being the projection into the tangent
-// plane. The vertices of the hull are the neighbours on which a ball can rest, in their order around p. At an
-// edge of the hull at distance h from p, the ball that rests on both its ends has radius 1 / (2h). The edge is
-// a triangle of p's star if h > 0 and 1 / (2h) <= R. The stars around p bound R (radius_bound.hpp).
+// A ball of radius R touches p with its centre in p's tangent plane and rolls around it. A neighbour at
+// offset d forbids the directions to the centre c in which the ball would contain it: c . d / |d|^2 > 1/2. So
+// the convex hull of the points Pi(d / |d|^2) decides for balls of all sizes, Pi being the projection into
+// the tangent plane. The vertices of the hull are the neighbours on which a ball can rest, in their order
+// around p. At an edge of the hull at distance h from p, the ball that rests on both its ends has radius 1 /
+// (2h). The edge is a triangle of p's star if h > 0 and 1 / (2h) <= R. The stars around p bound R
+// (radius_bound.hpp).
 //
 // A triangle is consistent if the stars of all its active vertices have it (active_points.hpp). Triangles of
 // one star never overlap, so consistent triangles are a surface with boundary whatever the noise. An edge has
-// at most two of them; around each point, fans of triangles and boundary wedges alternate. Each end of a wedge
-// is an edge with one triangle, and ends exactly one wedge at its other end: boundary curves are closed.
+// at most two of them; around each point, fans of triangles and boundary wedges alternate. Each end of a
+// wedge is an edge with one triangle, and ends exactly one wedge at its other end: boundary curves are
+// closed.
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"

@@ -61,9 +61,9 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
     if (is_around[p]) around.push_back(p);
   }
   // Rows ascend among the owned points, and among the foreign ones.
-  std::inplace_merge(
-      around.begin(), std::lower_bound(around.begin(), around.end(), tile.points.owned), around.end(),
-      [&](LocalIndex a, LocalIndex b) { return tile.points.rows[a] < tile.points.rows[b]; });
+  std::inplace_merge(around.begin(), std::lower_bound(around.begin(), around.end(), tile.points.owned),
+                     around.end(),
+                     [&](LocalIndex a, LocalIndex b) { return tile.points.rows[a] < tile.points.rows[b]; });
   std::vector<LocalIndex> place(tile.points.size());
   std::vector<Row> rows;
   for (const LocalIndex p : around) {
@@ -100,8 +100,8 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
 
 std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling,
                                      const TangentialConfig& config, StarLists& lists) {
-  const TileStars found = find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates,
-                                     tile.is_border, config);
+  const TileStars found =
+      find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates, tile.is_border, config);
   std::vector<std::uint8_t> is_vertex = add_stars(tile, found, lists);
   add_belt(tile, found, tiling, lists);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) is_vertex[p] |= is_in_belt(found.states[p]);

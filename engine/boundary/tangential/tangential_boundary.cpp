@@ -20,7 +20,8 @@ constexpr std::uint64_t kBytesPerWedge = 120;
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
 // Wedges of one point, which are next to each other, connect the chains that they are on.
-void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of, UnionFind connected) {
+void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
+                    UnionFind connected) {
   for (std::size_t i = 1; i < wedges.size(); ++i) {
     if (wedges[i].point == wedges[i - 1].point) connected.unite(chain_of[i - 1], chain_of[i]);
   }
@@ -51,7 +52,8 @@ std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
 }
 
 // The loops along a closed curve.
-void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scratch& scratch, RawLoops& loops) const {
+void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scratch& scratch,
+                                   RawLoops& loops) const {
   const auto least = static_cast<std::size_t>(config_.min_curve);
   if (curve.size() < least) return;
   split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
@@ -87,7 +89,8 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
       part.crossings.push_back({number, end.own, end.foreign});
       return end;
     };
-    const ChainEnd first = end(chain.wedges.front(), chain.first_side), last = end(chain.wedges.back(), chain.last_side);
+    const ChainEnd first = end(chain.wedges.front(), chain.first_side),
+                   last = end(chain.wedges.back(), chain.last_side);
     part.records.push_back({chain_points_.append(points), points.size(), {first, last}});
     part.vertex_of.push_back(number);
   });
@@ -107,9 +110,8 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   std::vector<std::uint64_t> needs(tiles);
   for (std::size_t t = 0; t < tiles; ++t) needs[t] = stars_.wedges.count(t) * kBytesPerWedge;
   Stitch<OpenChain> stitch(tiles, kBytesPerChain, job);
-  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t t) {
-    chain_tile(static_cast<TileIndex>(t), stitch, found);
-  });
+  job.arena.for_each_within_budget(
+      needs, job.memory.global, [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t), stitch, found); });
   const auto add = [&](auto curve, Scratch& scratch) { add_loops(curve, scratch, found.loops); };
   stitch.for_each_component(
       [&](std::span<const OpenChain> chains) {

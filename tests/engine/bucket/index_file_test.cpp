@@ -103,7 +103,8 @@ TEST_CASE("the index that is read back finds the first cell of the tiling at a p
   CHECK(far < 500);
 }
 
-TEST_CASE("OpenVDB's own reader opens the index: cells in world coordinates, with the places of their points") {
+TEST_CASE(
+    "OpenVDB's own reader opens the index: cells in world coordinates, with the places of their points") {
   const Eigen::Vector3d place(500'000, 5'400'000, 300);
   const TiledScan scan = kept(plane(60).scaled(0x1p-10).translated(place), 500);
   const auto grids = test::read_vdb_grids(scan.folder / "index.vdb");
@@ -127,7 +128,8 @@ TEST_CASE("an index that is cut short, or another file, is refused with its name
   const fs::path whole = scan.folder / "index.vdb", cut = scan.folder / "cut.vdb";
   std::ifstream in(whole, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, bytes.size() / 4, bytes.size() / 2, bytes.size() - 50}) {
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{10}, bytes.size() / 4, bytes.size() / 2, bytes.size() - 50}) {
     std::ofstream(cut, std::ios::binary) << bytes.substr(0, length);
     INFO(length << " bytes of " << bytes.size());
     CHECK_THROWS_WITH(read_index(cut), Catch::Contains("cut.vdb: cannot read"));

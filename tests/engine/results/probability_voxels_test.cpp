@@ -33,7 +33,8 @@ Voxels voxels_of(const Cloud& cloud, Config config = {}) {
   MemoryScan scan(cloud);
   NoProgress quiet;
   const auto detection = detect(scan, config, folder.path(), quiet);
-  Voxels voxels{.lattice = detection->probability_lattice(), .mean_edge_length = detection->summary().mean_edge_length};
+  Voxels voxels{.lattice = detection->probability_lattice(),
+                .mean_edge_length = detection->summary().mean_edge_length};
   detection->for_each_probability_voxel([&](const ProbabilityVoxel& voxel) {
     voxels.repeated += !voxels.values.emplace(voxel.coord, voxel.probability).second;
   });
@@ -60,9 +61,9 @@ void check_voxels(const Cloud& cloud, const Voxels& voxels) {
 
 TEST_CASE("each voxel has the largest probability of its points, and each finite point has a voxel") {
   const Cloud holes = plane(60).punched({30, 30}, 6);
-  for (const Cloud& cloud :
-       {holes, holes.scaled(0x1p-10).translated({500'000, 5.4e6, 300}), random_cloud(3).joined(coincident(40)),
-        plane(25).scaled(1e-12), plane(25).scaled(1e100), coincident(5), Cloud{}}) {
+  for (const Cloud& cloud : {holes, holes.scaled(0x1p-10).translated({500'000, 5.4e6, 300}),
+                             random_cloud(3).joined(coincident(40)), plane(25).scaled(1e-12),
+                             plane(25).scaled(1e100), coincident(5), Cloud{}}) {
     const Voxels voxels = voxels_of(cloud, tiled({}, 300));
     check_voxels(cloud, voxels);
     if (voxels.mean_edge_length > 0) {
@@ -142,7 +143,9 @@ TEST_CASE("the Z curve keeps voxels in order when their size doubles") {
   Random random(5);
   std::vector<CellCoord> voxels;
   for (int i = 0; i < 2000; ++i) {
-    const auto at = [&] { return static_cast<std::int32_t>(random.whole(-3000, 3000)) * (random.chance(0.1) ? 100'000 : 1); };
+    const auto at = [&] {
+      return static_cast<std::int32_t>(random.whole(-3000, 3000)) * (random.chance(0.1) ? 100'000 : 1);
+    };
     voxels.push_back({at(), at(), at()});
   }
   std::sort(voxels.begin(), voxels.end(), comes_before_along_z);

@@ -33,7 +33,8 @@ struct EvaluatedCloud {
   Rows rows;
   std::vector<Evaluation> evaluations;
 
-  explicit EvaluatedCloud(const Cloud& cloud) : points(whole_tile(cloud)), rows(find_neighbourhoods(points, 15, 0)) {
+  explicit EvaluatedCloud(const Cloud& cloud)
+      : points(whole_tile(cloud)), rows(find_neighbourhoods(points, 15, 0)) {
     const Config config;
     evaluations = evaluate(points, rows, {}, config.normals, config.criteria);
   }
@@ -43,7 +44,8 @@ struct EvaluatedCloud {
 std::vector<PlainStar> measured_stars(const EvaluatedCloud& evaluated) {
   std::vector<Site> sites;
   for (LocalIndex p = 0; p < evaluated.points.owned; ++p)
-    sites.push_back(site_of(evaluated.points.positions[p], evaluated.points.ids[p], evaluated.evaluations[p]));
+    sites.push_back(
+        site_of(evaluated.points.positions[p], evaluated.points.ids[p], evaluated.evaluations[p]));
   std::vector<PlainStar> stars(evaluated.points.owned);
   std::vector<Sampling> samplings(evaluated.points.owned);
   for (LocalIndex p = 0; p < evaluated.points.owned; ++p) {
@@ -75,7 +77,7 @@ bool is_consistent(const std::vector<PlainStar>& stars, const std::vector<bool>&
 
 // Seeds, these `others`, and vertices of inconsistent triangles, until there are no more.
 std::vector<bool> active_points(const EvaluatedCloud& evaluated, const std::vector<PlainStar>& stars,
-                               const std::vector<LocalIndex>& others) {
+                                const std::vector<LocalIndex>& others) {
   std::vector<bool> active(stars.size());
   for (LocalIndex p = 0; p < stars.size(); ++p) active[p] = evaluated.evaluations[p].probability > kThreshold;
   for (const LocalIndex p : others) active[p] = true;
@@ -94,7 +96,8 @@ std::vector<bool> active_points(const EvaluatedCloud& evaluated, const std::vect
 }
 
 bool same_link(const Star<LocalIndex>& a, const PlainStar& b) {
-  return a.size() == b.size() && (a.size() == 0 || std::memcmp(a.link.data(), b.link.data(), a.link.size_bytes()) == 0);
+  return a.size() == b.size() &&
+         (a.size() == 0 || std::memcmp(a.link.data(), b.link.data(), a.link.size_bytes()) == 0);
 }
 
 bool same_star(const Star<LocalIndex>& a, const PlainStar& b) {
@@ -163,7 +166,8 @@ TEST_CASE("whatever is found at the border, points and triangles that a tile dec
         if (!is_in_belt(found.states[p]) || round == 0) continue;
         if (is_border[p] && random.chance(0.3)) turned_out[p].link.clear();
         for (auto& vertex : turned_out[p].link) {
-          if (random.chance(0.2)) vertex.radius = turned_out[p].bound.largest * static_cast<float>(random.uniform(0, 2));
+          if (random.chance(0.2))
+            vertex.radius = turned_out[p].bound.largest * static_cast<float>(random.uniform(0, 2));
         }
       }
       const std::vector<bool> active = active_points(evaluated, turned_out, others);

@@ -32,7 +32,9 @@ struct Found {
 // The stars of all tiles, before the exchange.
 struct StarTaker final : TileConsumer {
   explicit StarTaker(const TiledScan& scan) : scan(scan), stars(scan.store, scan.job) {}
-  void take(const EvaluatedTile& tile) override { take_stars(tile, scan.store.tiling(), scan.config.tangential, stars); }
+  void take(const EvaluatedTile& tile) override {
+    take_stars(tile, scan.store.tiling(), scan.config.tangential, stars);
+  }
 
   const TiledScan& scan;
   StarLists stars;

@@ -39,7 +39,8 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   return curves;
 }
 
-std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids, const std::vector<float>& excess = {}) {
+std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
+                                 const std::vector<float>& excess = {}) {
   std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < ids.size(); ++i)
     curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, excess.empty() ? 0 : excess[i]});
@@ -55,7 +56,8 @@ std::vector<CurvePoint> normalised(const std::vector<CurvePoint>& curve) {
   return turned;
 }
 
-std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve, std::uint64_t budget = 1 << 20) {
+std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
+                                           std::uint64_t budget = 1 << 20) {
   const test::ScratchFolder folder;
   Scratch scratch(folder.path(), budget);
   std::vector<std::vector<CurvePoint>> curves;
@@ -104,7 +106,8 @@ TEST_CASE("curves that touch in a point stay apart") {
   CHECK(std::minmax({curves[0].size(), curves[1].size()}) == std::pair<std::size_t, std::size_t>(3, 6));
 }
 
-TEST_CASE("a curve of which a part is elsewhere is an open chain, and its ends say by which edges it leaves") {
+TEST_CASE(
+    "a curve of which a part is elsewhere is an open chain, and its ends say by which edges it leaves") {
   std::vector<Wedge> wedges = ring({1, 2, 3, 4, 5});
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
@@ -121,7 +124,9 @@ TEST_CASE("a curve of which a part is elsewhere is an open chain, and its ends s
       closed.push_back(chain.wedges.size());
       return;
     }
-    const auto beyond = [&](LocalIndex w, std::size_t side) { return side == 0 ? wedges[w].from : wedges[w].to; };
+    const auto beyond = [&](LocalIndex w, std::size_t side) {
+      return side == 0 ? wedges[w].from : wedges[w].to;
+    };
     open.push_back({beyond(chain.wedges.front(), chain.first_side)});
     for (const LocalIndex w : chain.wedges) open.back().push_back(wedges[w].point.row);
     open.back().push_back(beyond(chain.wedges.back(), chain.last_side));
@@ -144,7 +149,8 @@ TEST_CASE("a curve starts at its smallest id and goes on to the smaller neighbou
        {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
     CHECK(ids(normalised(curve_of(way))) == std::vector<std::uint64_t>{2, 5, 7, 9});
   }
-  const std::vector<CurvePoint> twice = normalised(curve_of({2, 8, 4, 2, 6, 5}));  // passes the smallest id twice
+  const std::vector<CurvePoint> twice =
+      normalised(curve_of({2, 8, 4, 2, 6, 5}));  // passes the smallest id twice
   CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
@@ -194,7 +200,8 @@ TEST_CASE("random curves are split into simple ones, in memory and in mapped fil
 }
 
 TEST_CASE(
-    "confidence is the mean of the points' excess radius, up to what is clear, with some points more that have none") {
+    "confidence is the mean of the points' excess radius, up to what is clear, with some points more that "
+    "have none") {
   const TangentialConfig config{.clear_excess = 2, .doubt = 4};
   const std::vector<std::uint64_t> twenty(20, 1);
   const double points = 20 + 4;

@@ -14,7 +14,8 @@ constexpr Row kForeign{200};
 // Two tiles; the first one grows.
 Tiling two_tiles() {
   Tiling tiling;
-  tiling.tiles = {{.first_row = Row{64}, .raw = 64, .points = 8}, {.first_row = Row{128}, .raw = 128, .points = 128}};
+  tiling.tiles = {{.first_row = Row{64}, .raw = 64, .points = 8},
+                  {.first_row = Row{128}, .raw = 128, .points = 128}};
   return tiling;
 }
 
@@ -51,8 +52,8 @@ struct Border {
 
 TEST_CASE("vertices of inconsistent triangles become active, from star to star, here and in other tiles") {
   Border border;
-  // The star of 1 lacks the triangle (0, 1, 2) of 0. The ball between 3 and the foreign point is too large for a
-  // triangle of 2. The star of 5 is not reached.
+  // The star of 1 lacks the triangle (0, 1, 2) of 0. The ball between 3 and the foreign point is too large
+  // for a triangle of 2. The star of 5 is not reached.
   border.add(0, {owned(1), owned(2), owned(4)}, {0, 0, 0});
   border.add(1, {owned(4), owned(3), owned(6)}, {0, 0, 0});
   border.add(2, {owned(3), kForeign, owned(0)}, {2, 0, 0});

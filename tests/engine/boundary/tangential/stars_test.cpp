@@ -121,7 +121,9 @@ std::vector<LocalIndex> names(const Link& star) {
 
 }  // namespace
 
-TEST_CASE("the vertices of a star's link are the neighbours that a ball can rest on, counterclockwise from the nearest") {
+TEST_CASE(
+    "the vertices of a star's link are the neighbours that a ball can rest on, counterclockwise from the "
+    "nearest") {
   const Link star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
   CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
   // The circle through (0, 0), (-1.2, 0) and (0, 1.2).
@@ -169,8 +171,7 @@ TEST_CASE("nearly every star is decided side by side, from every instruction set
         different += found.sizes[i] != expected.sizes[i];
         if (found.sizes[i] == BatchStars::kAmbiguous || found.sizes[i] != expected.sizes[i]) continue;
         for (std::uint32_t c = 0; c < found.sizes[i]; ++c)
-          different +=
-              std::memcmp(&found.links[c][i], &expected.links[c][i], sizeof found.links[0][0]) != 0;
+          different += std::memcmp(&found.links[c][i], &expected.links[c][i], sizeof found.links[0][0]) != 0;
       }
     });
     for (std::size_t i = 0; i < kBatchSize; ++i) {
