@@ -20,9 +20,9 @@ constexpr int kMaxExponent = 500;
 constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
 // Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for
-// each point at most, those of one outlier in a hundred points 40. With more outliers, passes over their
-// cells would take most of the time.
-constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 48;
+// each point at most. Where outliers or clusters need more, passes over their many small cells would take
+// most of the time.
+constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 8;
 
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
