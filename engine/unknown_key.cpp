@@ -6,7 +6,7 @@
 namespace lacuna {
 namespace {
 
-// Number of letters to insert, remove or replace to turn one word into the other.
+// Number of characters to insert, remove or replace to turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -25,7 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 // " (did you mean "k"?)" where one of the words is close, else nothing.
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& words) {
   std::string_view closest;
-  std::size_t least = 3;  // a swap of two letters costs 2
+  std::size_t least = 3;  // a swap of two characters costs 2
   for (const std::string_view candidate : words) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && distance < candidate.size()) {

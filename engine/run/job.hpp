@@ -14,8 +14,8 @@
 
 namespace lacuna {
 
-// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save four bits a
-// point (active, not measured, sent and boundary).
+// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save a few
+// bits a point (active, coherent, on a loop).
 struct Memory {
   std::uint64_t limit;   // all of it; where the config has none, half of what the process may have
   std::uint64_t cells;   // survey and index

@@ -21,14 +21,19 @@ void for_each_run(std::span<const Row> rows, Visit&& visit) {
   }
 }
 
+// The records from the first to the last of these rows, of one run.
+template <class Record>
+std::vector<Record> read_run(const Column<Record>& column, std::span<const Row> rows) {
+  return column.read(value(rows.front()), value(rows.back()) + 1 - value(rows.front()));
+}
+
 // The records of rows that ascend and were written.
 template <class Record>
 std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row> rows) {
-  std::vector<Record> records(rows.size()), run;
+  std::vector<Record> records(rows.size());
   for_each_run(rows, [&](std::size_t begin, std::size_t end) {
     const std::uint64_t first = value(rows[begin]);
-    run.resize(value(rows[end - 1]) + 1 - first);
-    column.read(first, std::span(run));
+    const std::vector<Record> run = read_run(column, rows.subspan(begin, end - begin));
     for (std::size_t i = begin; i < end; ++i) records[i] = run[value(rows[i]) - first];
   });
   return records;
@@ -37,11 +42,9 @@ std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row>
 // Replaces the records of rows that ascend and were written. No other thread writes rows between them.
 template <class Record>
 void replace_rows(Column<Record>& column, std::span<const Row> rows, std::span<const Record> records) {
-  std::vector<Record> run;
   for_each_run(rows, [&](std::size_t begin, std::size_t end) {
     const std::uint64_t first = value(rows[begin]);
-    run.resize(value(rows[end - 1]) + 1 - first);
-    column.read(first, std::span(run));
+    std::vector<Record> run = read_run(column, rows.subspan(begin, end - begin));
     for (std::size_t i = begin; i < end; ++i) run[value(rows[i]) - first] = records[i];
     column.write(first, run);
   });

@@ -11,8 +11,7 @@
 namespace lacuna {
 namespace {
 
-// An end by its boundary edge, which exactly one other end shares. Ends are numbered: those of chain c are 2
-// c and 2 c + 1.
+// An end by its boundary edge, which exactly one other end shares. Chain c has the ends 2c and 2c + 1.
 struct NumberedEnd {
   Row low, high;
   LocalIndex end;
