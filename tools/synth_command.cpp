@@ -1,7 +1,7 @@
 #include "tools/synth_command.hpp"
 
 #include "engine/run/error.hpp"
-#include "tools/synth/scanner.hpp"
+#include "tools/synth/scan.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/value_options.hpp"
 #include "tools/visible_text.hpp"
@@ -36,6 +36,8 @@ constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, 
 template <typename Options>
 void add_common(CLI::App& app, Options& options) {
   app.add_option("OUT", options.out, "the PLY file to write, binary little-endian")->required();
+  app.add_option("--truth", options.truth, "file of the true loops, 0-based point ids")
+      ->default_str("OUT.loops.txt");
   app.add_option("--points", options.points, "about how many points")
       ->check(whole_number())
       ->capture_default_str();
@@ -84,8 +86,6 @@ void add_surface(CLI::App& synth) {
   app.add_option("--density-factor", o.density_factor,
                  "the density changes smoothly over the surface by this factor, 1 to 100")
       ->capture_default_str();
-  app.add_option("--truth", o.truth, "file of the true loops, 0-based point ids")
-      ->default_str("OUT.loops.txt");
   app.callback([options, jitter] {
     if (options->positions == PositionKind::kRandom && jitter->count() > 0)
       throw Error("--jitter: random positions have no grid to be off; allowed with --positions jittered");
@@ -96,7 +96,8 @@ void add_surface(CLI::App& synth) {
 }
 
 void add_scan(CLI::App& synth) {
-  CLI::App& app = *synth.add_subcommand("scan", "A scene as terrestrial laser scanners see it, in metres");
+  CLI::App& app = *synth.add_subcommand(
+      "scan", "A scene as terrestrial laser scanners see it, in metres, and its true loops");
   const auto options = std::make_shared<ScanOptions>();
   ScanOptions& o = *options;
   add_common(app, o);
@@ -108,12 +109,22 @@ void add_scan(CLI::App& synth) {
       ->capture_default_str();
   app.add_option("--outliers", o.outliers, "fraction of the points that lie anywhere on their ray, 0 to 1")
       ->capture_default_str();
+  app.add_option("--registration", o.registration,
+                 "error of the place of each station after the first, standard deviation in metres")
+      ->capture_default_str();
   app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres")
       ->capture_default_str();
+  app.add_option("--ring-ratio", o.ring_ratio,
+                 "step of elevation over step of azimuth, 0.01 to 100; a spinning scanner with few beams has "
+                 "5 or more")
+      ->capture_default_str();
+  app.add_option("--field-of-view", o.field_of_view, "lowest and highest elevation, degrees")
+      ->type_name("LOW HIGH")
+      ->default_str("-60 90");
   app.callback([options] {
     const ScanSummary made = write_scan(*options);
     std::cout << visible(options->out.string()) << ": " << made.points << " points of " << made.rays
-              << " rays\n";
+              << " rays; " << visible(made.truth.string()) << ": " << made.loops << " true loops\n";
   });
 }
 

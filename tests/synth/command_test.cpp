@@ -55,8 +55,19 @@ TEST_CASE("the synth command makes what the options say") {
   CHECK(read_file(out) == read_file(options.out));
 
   run("synth scan " + quoted(out) +
-      " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20");
+      " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20" +
+      " --registration 0.03 --ring-ratio 4 --field-of-view -30 60 --truth " + quoted(out + ".txt"));
   CHECK(rows_of(out, 17).size() == Approx(5000).epsilon(0.1));
+  ScanOptions scan = {.out = options.out, .scene = SceneKind::kHall, .points = 5000, .stations = 3};
+  scan.noise = 0.01;
+  scan.outliers = 0.1;
+  scan.max_range = 20;
+  scan.registration = 0.03;
+  scan.ring_ratio = 4;
+  scan.field_of_view = {-30, 60};
+  write_scan(scan);
+  CHECK(read_file(out) == read_file(scan.out));
+  CHECK(loops_of(out + ".txt") == loops_of(folder / "again.loops.txt"));
 }
 
 TEST_CASE("the synth command refuses an unknown kind with the kinds that there are") {

@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/synth/scanner.hpp"
+#include "tools/synth/scan.hpp"
 #include "tools/synth/surface.hpp"
 
 #include <array>
@@ -94,6 +94,17 @@ inline std::vector<std::vector<std::uint64_t>> loops_of(const std::filesystem::p
     loops.emplace_back(std::istream_iterator<std::uint64_t>(words), std::istream_iterator<std::uint64_t>());
   }
   return loops;
+}
+
+// What the comment before each loop says.
+inline std::vector<std::string> names_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line))
+    if (line.starts_with("# ")) names.push_back(line.substr(2));
+  return names;
 }
 
 inline double distance(const Position& a, const Position& b) {

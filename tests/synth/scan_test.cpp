@@ -1,4 +1,6 @@
 #include "tests/synth/made.hpp"
+#include "tools/synth/scanner.hpp"
+#include "tools/synth/trig.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +51,8 @@ TEST_CASE("a scan of the same seed has the same bytes, of another seed other byt
   check_seed(small(folder), write_scan);
 }
 
-TEST_CASE("a scan has the bytes that it had on the machine where this test was written") {
+TEST_CASE(
+    "a scan and its true loops have the bytes that they had on the machine where this test was written") {
   const ScratchFolder folder;
   const auto hash = [&](SceneKind scene, Order order) {
     ScanOptions options = small(folder, scene);
@@ -62,6 +65,7 @@ TEST_CASE("a scan has the bytes that it had on the machine where this test was w
   CHECK(hash(SceneKind::kRoom, Order::kScanline) == 0x25d59ce3a4bffc8du);
   CHECK(hash(SceneKind::kCourt, Order::kRandom) == 0x3aa0958aba795917u);
   CHECK(hash(SceneKind::kHall, Order::kScanline) == 0x8db3d5542b4e6719u);
+  CHECK(fnv1a(read_file(folder / "made.loops.txt")) == 0x75acfa9cc7674a91u);
 }
 
 TEST_CASE("a scan has about the points asked for, of every station, with intensities in range") {
@@ -114,6 +118,71 @@ TEST_CASE("without noise and outliers the room's points lie on it, and its windo
   CHECK(in_window == 0);
 }
 
+TEST_CASE("rings are so many times as far apart as the points on them") {
+  const ScratchFolder folder;
+  ScanOptions options = small(folder);
+  options.ring_ratio = 8;
+  const Scanner scanner(options, make_scene(options.scene));
+  const Rays rays = scanner.rays();
+  const double rise = (scanner.highest() - scanner.lowest()) / double(rays.per_scanline);
+  CHECK(rise * double(rays.scanlines) == Approx(8).epsilon(0.05));
+  CHECK(double(rays.count()) == Approx(double(write_scan(small(folder)).rays)).epsilon(0.02));
+  // The n-th ray of every scanline is on one ring, as level as the rays on it are close.
+  for (std::uint64_t line = 0; line < rays.scanlines; ++line) {
+    const double elevation = scanner.ray(line * rays.per_scanline + 5).elevation;
+    CHECK(std::fabs(elevation - scanner.lowest() - 5.5 * rise) < 0.11 / double(rays.scanlines));
+  }
+}
+
+TEST_CASE("all points lie within the field of view of their station") {
+  const ScratchFolder folder;
+  ScanOptions options = small(folder);
+  options.stations = 1;
+  options.noise = 0;
+  options.field_of_view = {-15, 30};
+  write_scan(options);
+  const Vec3 eye = Scanner(options, make_scene(options.scene)).stations()[0];
+  double lowest = 90, highest = -90;
+  for (const Position& p : positions_of(options.out, kStride)) {
+    const double elevation = std::atan2(p[2] - eye.z, std::hypot(p[0] - eye.x, p[1] - eye.y)) / kTwoPi * 360;
+    lowest = std::min(lowest, elevation);
+    highest = std::max(highest, elevation);
+  }
+  CHECK(lowest == Approx(-15).margin(0.5));
+  CHECK(lowest > -15.001);
+  CHECK(highest == Approx(30).margin(0.5));
+  CHECK(highest < 30.001);
+}
+
+TEST_CASE("an error of registration moves each station after the first as one rigid body") {
+  const ScratchFolder folder;
+  ScanOptions options = small(folder);
+  options.coordinates = Coordinates::kDouble;
+  const auto rows = [&](double registration) {
+    options.registration = registration;
+    write_scan(options);
+    return rows_of(options.out, 24 + 1 + 4);
+  };
+  const auto place = [](const std::string& row) {
+    return Vec3{scalar<double>(row, 0), scalar<double>(row, 8), scalar<double>(row, 16)};
+  };
+  const auto apart = [](Vec3 a, Vec3 b) { return std::sqrt(dot(b - a, b - a)); };
+  const auto exact = rows(0), moved = rows(0.05);
+  REQUIRE(exact.size() == moved.size());
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const Vec3 from = place(exact[i]), to = place(moved[i]);
+    if (scalar<std::uint8_t>(exact[i], 24) == 0) {
+      CHECK(apart(from, to) == 0);
+      continue;
+    }
+    far += apart(from, to) > 0.01;
+    CHECK(apart(from, to) < 0.4);
+    CHECK(apart(to, place(moved.back())) == Approx(apart(from, place(exact.back()))).margin(1e-9));
+  }
+  CHECK(far > 5000);
+}
+
 TEST_CASE("doubles keep georeferenced coordinates") {
   const ScratchFolder folder;
   ScanOptions options = small(folder);
@@ -137,6 +206,11 @@ TEST_CASE("scans that cannot be made are refused in one line and leave no file")
   refused([](ScanOptions& o) { o.noise = -0.1; });
   refused([](ScanOptions& o) { o.outliers = std::nan(""); });
   refused([](ScanOptions& o) { o.max_range = 0; });
+  refused([](ScanOptions& o) { o.registration = -0.1; });
+  refused([](ScanOptions& o) { o.ring_ratio = 0; });
+  refused([](ScanOptions& o) { o.ring_ratio = std::nan(""); });
+  refused([](ScanOptions& o) { o.field_of_view = {30, 30}; });
+  refused([](ScanOptions& o) { o.field_of_view = {-91, 30}; });
   refused([](ScanOptions& o) { o.translate = {1e6, 0, 0}; });  // in floats
   refused([](ScanOptions& o) { o.out = o.out / "no-such-folder" / "made.ply"; });
 }

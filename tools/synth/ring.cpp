@@ -66,11 +66,14 @@ bool cut_return(NumberLoop& loop) {
 
 }  // namespace
 
-NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest) {
-  NumberLoop loop = Walk(outline, nearest).visits();
+NumberLoop without_returns(NumberLoop loop) {
   while (cut_return(loop)) {
   }
   return loop;
+}
+
+NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest) {
+  return without_returns(Walk(outline, nearest).visits());
 }
 
 }  // namespace lacuna::synth

@@ -8,6 +8,9 @@
 
 namespace lacuna::synth {
 
+// The loop without the shorter way between two visits of one point, until none is visited twice.
+NumberLoop without_returns(NumberLoop loop);
+
 // The values of `nearest` as its argument goes around the outline, each once, in that order. A value that
 // comes back later keeps one visit, and the shorter way from one to the other is left out: at a corner, the
 // nearest points of both sides can be one point, and the point in the corner another.

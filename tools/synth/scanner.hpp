@@ -1,41 +1,71 @@
-// A virtual terrestrial laser scanner.
+// A virtual terrestrial laser scanner, at several stations.
 #pragma once
 
-#include "io/output_set.hpp"
-#include "tools/synth/permutation.hpp"
-#include "tools/synth/ply_output.hpp"
-#include "tools/synth/scene.hpp"
+#include "tools/synth/random.hpp"
+#include "tools/synth/scan_options.hpp"
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
+#include <optional>
+#include <vector>
 
 namespace lacuna::synth {
 
-struct ScanOptions {
-  std::filesystem::path out;  // PLY
-  SceneKind scene = SceneKind::kRoom;
-  std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
-  std::uint32_t stations = 2;        // [1, 255]
-  double noise = 0.002;              // along the ray, metres, standard deviation
-  double outliers = 0;               // fraction of the points that lie anywhere on their ray instead, [0, 1]
-  double max_range = 80;             // metres
-  Order order = Order::kScanline;
-  std::uint64_t seed = 1;
-  std::array<double, 3> translate{0, 0, 0};  // metres
-  Coordinates coordinates = Coordinates::kFloat;
-  Overwrite overwrite = Overwrite::kOwn;
+struct Ray {
+  std::uint32_t station;
+  double azimuth, elevation;  // turns
 };
 
-struct ScanSummary {
-  std::uint64_t points = 0;
-  std::uint64_t rays = 0;
+// Equal steps of azimuth and elevation from every station.
+struct Rays {
+  std::uint64_t scanlines, per_scanline;  // per station
+  std::uint32_t stations;
+
+  std::uint64_t count() const { return scanlines * per_scanline * stations; }
 };
 
-// Writes what the stations see, station after station in upright scanlines (or all rays in random order): the
-// nearest surface in each direction, so things cast shadows, and glass, black and grazed surfaces and the far
-// distance return nothing. Each point has its station (`scan`) and an `intensity` in [0, 1]. Every point is a
-// function of the seed and its ray alone; memory does not depend on their number.
-ScanSummary write_scan(const ScanOptions& options);
+struct Echo {
+  Vec3 position;  // as measured: with noise, errors of registration and translation
+  Vec3 place;     // on the scene's surface
+  double intensity;
+  std::uint32_t shape;  // Hit::shape
+  bool stray;           // anywhere on its ray
+};
+
+// Every ray and every echo is a function of the seed and its index alone.
+class Scanner {
+ public:
+  // Below this cosine of the angle of incidence nothing comes back.
+  static constexpr double kGrazing = 0.03;
+
+  // Throws `Error` when no ray returns anything.
+  Scanner(const ScanOptions& options, Scene scene);
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<Vec3>& stations() const { return stations_; }
+  const Rays& rays() const { return rays_; }
+  double lowest() const { return lowest_; }              // turns
+  double highest() const { return lowest_ + upright_; }  // turns
+  double max_range() const { return options_.max_range; }
+
+  Ray ray(std::uint64_t index) const;
+  std::optional<Echo> measure(const Ray& ray, std::uint64_t index) const;
+
+ private:
+  struct Misplacement {
+    Vec3 shift;
+    double sine, cosine;  // of the turn about the upright axis through the station
+  };
+  void misplace_stations();
+  Rays lay_rays() const;
+  Vec3 registered(Vec3 position, std::uint32_t station) const;
+
+  ScanOptions options_;
+  Scene scene_;
+  double lowest_, upright_;
+  Random wobble_, range_, stray_;
+  std::vector<Vec3> stations_;
+  std::vector<Misplacement> misplaced_;  // of each station; empty: none is
+  Rays rays_{};
+};
 
 }  // namespace lacuna::synth

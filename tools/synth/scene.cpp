@@ -15,7 +15,7 @@ struct Ray {
 };
 
 void keep_nearer(Hit& best, double range, double cosine, double reflectance) {
-  if (range > kTooClose && range < best.range) best = {range, std::fabs(cosine), reflectance};
+  if (range > kTooClose && range < best.range) best = {range, std::fabs(cosine), reflectance, 0};
 }
 
 void meet(const Wall& wall, const Ray& ray, Hit& best) {
@@ -98,12 +98,31 @@ void meet(const Column& column, const Ray& ray, Hit& best) {
 
 Hit cast(const Scene& scene, Vec3 origin, Vec3 direction) {
   const Ray ray{origin, direction};
-  Hit best{std::numeric_limits<double>::infinity(), 1, 0};
-  for (const Wall& wall : scene.walls) meet(wall, ray, best);
-  for (const Box& box : scene.boxes) meet(box, ray, best);
-  for (const Ball& ball : scene.balls) meet(ball, ray, best);
-  for (const Column& column : scene.columns) meet(column, ray, best);
+  Hit best{std::numeric_limits<double>::infinity(), 1, 0, 0};
+  std::uint32_t shape = 0, nearest = 0;
+  const auto meet_all = [&](const auto& shapes) {
+    for (const auto& one : shapes) {
+      const double before = best.range;
+      meet(one, ray, best);
+      if (best.range < before) nearest = shape;
+      ++shape;
+    }
+  };
+  meet_all(scene.walls);
+  meet_all(scene.boxes);
+  meet_all(scene.balls);
+  meet_all(scene.columns);
+  best.shape = nearest;
   return best;
+}
+
+const char* Scene::name_of(std::uint32_t shape) const {
+  if (shape < walls.size()) return walls[shape].name;
+  shape -= static_cast<std::uint32_t>(walls.size());
+  if (shape < boxes.size()) return boxes[shape].name;
+  shape -= static_cast<std::uint32_t>(boxes.size());
+  if (shape < balls.size()) return balls[shape].name;
+  return columns[shape - balls.size()].name;
 }
 
 bool occupied(const Scene& scene, Vec3 place, double clearance) {

@@ -3,6 +3,7 @@
 
 #include "tools/synth/vec3.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace lacuna::synth {
@@ -12,6 +13,7 @@ struct Hit {
   double range;
   double cosine;  // of the angle of incidence, (0, 1]
   double reflectance;
+  std::uint32_t shape;  // its number: walls first, then boxes, balls and columns
 };
 
 // Part of a wall, in metres from its corner along u and v.
@@ -27,6 +29,7 @@ struct Wall {
   double width, height;
   double reflectance;
   std::vector<Opening> openings;
+  const char* name = "wall";
 };
 
 // Turned about the vertical by the angle with this cosine and sine.
@@ -35,12 +38,14 @@ struct Box {
   Vec3 half;
   double cosine, sine;
   double reflectance;
+  const char* name = "box";
 };
 
 struct Ball {
   Vec3 centre;
   double radius;
   double reflectance;
+  const char* name = "ball";
 };
 
 // Upright, with a lid.
@@ -48,6 +53,7 @@ struct Column {
   Vec3 base;
   double radius, height;
   double reflectance;
+  const char* name = "column";
 };
 
 struct Scene {
@@ -56,6 +62,9 @@ struct Scene {
   std::vector<Ball> balls;
   std::vector<Column> columns;
   Vec3 stand_low, stand_high;  // where a station may stand, its eye included
+
+  // Of the shape with this number (Hit::shape).
+  const char* name_of(std::uint32_t shape) const;
 };
 
 enum class SceneKind { kRoom, kCourt, kHall };

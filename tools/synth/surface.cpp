@@ -4,6 +4,7 @@
 #include "tools/synth/hole_field.hpp"
 #include "tools/synth/positions.hpp"
 #include "tools/synth/surface_shape.hpp"
+#include "tools/synth/truth_file.hpp"
 #include "tools/synth/truth_loops.hpp"
 
 #include <algorithm>
@@ -73,32 +74,11 @@ class PointMaker {
   Random height_;
 };
 
-// How each file of true loops begins: an earlier one is recognised by it.
-constexpr std::string_view kTruthMark = "# one boundary loop per line, 0-based point ids of ";
-
-std::string in_text(const std::vector<std::uint64_t>& loop) {
-  std::string line;
-  for (const std::uint64_t id : loop) line += std::to_string(id) + ' ';
-  line.back() = '\n';
-  return line;
-}
-
-bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  return std::filesystem::weakly_canonical(a) == std::filesystem::weakly_canonical(b);
-}
-
 }  // namespace
-
-std::filesystem::path truth_file_of(const SurfaceOptions& options) {
-  if (!options.truth.empty()) return options.truth;
-  return std::filesystem::path(options.out).replace_extension(".loops.txt");
-}
 
 SurfaceSummary write_surface(const SurfaceOptions& options) {
   check(options);
-  const std::filesystem::path truth_path = truth_file_of(options);
-  require(!are_one_file(truth_path, options.out),
-          truth_path.string() + ": the surface and its true loops need two files");
+  const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
   OutputSet set(options.overwrite);
   OutputFile& truth_file = set.add(truth_path, kTruthMark);
   PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kNone);
@@ -120,8 +100,8 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   }
 
   const auto in_ids = truth.in_ids();
-  truth_file.write(std::string(kTruthMark) + options.out.filename().string() + "\n");
-  for (const auto& loop : in_ids) truth_file.write(in_text(loop));
+  write_truth_head(truth_file, options.out);
+  for (const auto& loop : in_ids) write_loop(truth_file, loop);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};

@@ -14,9 +14,6 @@ struct SurfaceSummary {
   std::filesystem::path truth;
 };
 
-// Where the true loops go: beside the surface, unless the options name another file.
-std::filesystem::path truth_file_of(const SurfaceOptions& options);
-
 // Writes the surface and the file of its true loops: a comment, then one loop per line, the 0-based ids of
 // its points. Every point is a function of the seed and its number alone, so the order changes
 // only ids, and memory grows with the loops, not with the points. Throws `Error` for options that make no

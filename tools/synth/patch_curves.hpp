@@ -1,0 +1,13 @@
+// The curves between the sampled nodes of one patch and its others.
+#pragma once
+
+#include "tools/synth/boundary_curves.hpp"
+
+#include <vector>
+
+namespace lacuna::synth {
+
+// Every curve is closed: outside of the patch nothing is sampled.
+std::vector<Curve> patch_curves(const Lattice& lattice, const Scanner& scanner, const Visibility& visibility);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,76 @@
+#include "tools/synth/scan.hpp"
+
+#include "engine/run/error.hpp"
+#include "tools/synth/scan_truth.hpp"
+#include "tools/synth/scanner.hpp"
+#include "tools/synth/truth_file.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::synth {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw Error(message);
+}
+
+void check(const ScanOptions& o) {
+  require(o.points >= 1 && o.points <= 1'000'000'000'000, "--points: must be 1 to 1e12");
+  require(o.stations >= 1 && o.stations <= 255, "--stations: must be 1 to 255");
+  require(o.noise >= 0 && o.noise <= 10, "--noise: must be 0 to 10 metres");
+  require(o.outliers >= 0 && o.outliers <= 1, "--outliers: must be 0 to 1");
+  require(o.registration >= 0 && o.registration <= 1, "--registration: must be 0 to 1 metre");
+  require(o.max_range >= 1 && o.max_range <= 1e6, "--max-range: must be 1 to 1e6 metres");
+  require(o.ring_ratio >= 0.01 && o.ring_ratio <= 100, "--ring-ratio: must be 0.01 to 100");
+  require(
+      o.field_of_view[0] >= -90 && o.field_of_view[0] + 1 <= o.field_of_view[1] && o.field_of_view[1] <= 90,
+      "--field-of-view: needs -90 <= lowest < highest <= 90 degrees, 1 degree apart");
+  for (const double offset : o.translate) {
+    require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 metres");
+    require(o.coordinates == Coordinates::kDouble || std::fabs(offset) <= 10'000,
+            "--translate: floats are too coarse that far out; add --double");
+  }
+}
+
+}  // namespace
+
+ScanSummary write_scan(const ScanOptions& options) {
+  return write_scan(options, make_scene(options.scene));
+}
+
+ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
+  check(options);
+  const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
+  OutputSet set(options.overwrite);
+  OutputFile& truth_file = set.add(truth_path, kTruthMark);
+  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kScanAndIntensity);
+  const Scanner scanner(options, scene);
+  const std::uint64_t count = scanner.rays().count();
+  ScanTruth truth(scanner, options.points);
+  const Permutation shuffled(count, options.seed);
+
+  for (std::uint64_t turn = 0; turn < count; ++turn) {
+    const std::uint64_t index = options.order == Order::kRandom ? shuffled(turn) : turn;
+    const Ray ray = scanner.ray(index);
+    const std::optional<Echo> echo = scanner.measure(ray, index);
+    if (!echo) continue;
+    truth.note(*echo, index, ply.count());
+    ply.add(echo->position, static_cast<std::uint8_t>(ray.station), static_cast<float>(echo->intensity));
+  }
+
+  const std::vector<NamedLoop> loops = truth.loops();
+  write_truth_head(truth_file, options.out);
+  for (const NamedLoop& loop : loops) {
+    truth_file.write("# " + loop.name + "\n");
+    write_loop(truth_file, loop.ids);
+  }
+  ply.finish();
+  set.commit();
+  return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};
+}
+
+}  // namespace lacuna::synth

@@ -1,0 +1,34 @@
+// What `lacuna synth scan` can be asked for.
+#pragma once
+
+#include "io/output_set.hpp"
+#include "tools/synth/permutation.hpp"
+#include "tools/synth/ply_output.hpp"
+#include "tools/synth/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+
+namespace lacuna::synth {
+
+struct ScanOptions {
+  std::filesystem::path out;    // PLY
+  std::filesystem::path truth;  // the true loops; empty: beside `out`, as NAME.loops.txt
+  SceneKind scene = SceneKind::kRoom;
+  std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
+  std::uint32_t stations = 2;        // [1, 255]
+  double noise = 0.002;              // along the ray, metres, standard deviation
+  double outliers = 0;               // fraction of the points that lie anywhere on their ray instead, [0, 1]
+  double registration = 0;           // of each station after the first, metres, standard deviation
+  double max_range = 80;             // metres
+  double ring_ratio = 1;             // [0.01, 100]: step of elevation over step of azimuth
+  std::array<double, 2> field_of_view{-60, 90};  // lowest and highest elevation, degrees
+  Order order = Order::kScanline;
+  std::uint64_t seed = 1;
+  std::array<double, 3> translate{0, 0, 0};  // metres
+  Coordinates coordinates = Coordinates::kFloat;
+  Overwrite overwrite = Overwrite::kOwn;
+};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,142 @@
+#include "tools/synth/scan_truth.hpp"
+
+#include "tools/synth/ring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace lacuna::synth {
+
+namespace {
+
+constexpr double kPlaceStep = 0.25;  // spacings between places on a curve
+constexpr double kMostPlaces = 1e6;
+constexpr double kSearchRadius = 4;        // spacings: the coarse direction of grazing rays included
+constexpr double kSharePresent = 0.5;      // of the places must have a point
+constexpr std::size_t kFewestPoints = 12;  // around a hole four spacings across
+constexpr double kShareCaused = 0.8;       // of the curve must be where a station loses the surface
+constexpr double kShareNamed = 0.2;        // of that is what a cause needs to be named
+constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
+
+double distance(Vec3 a, Vec3 b) {
+  return std::sqrt(dot(b - a, b - a));
+}
+
+template <typename Use>
+void for_each_side(const Curve& curve, const Use& use) {
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const CurvePlace& from = curve[i];
+    const CurvePlace& to = curve[i + 1 < curve.size() ? i + 1 : 0];
+    use(from, to, distance(from.position, to.position));
+  }
+}
+
+// The causes of a fifth of the curve or more, most first; edges only if there is no other. Things of one name
+// are named once. Empty if a fifth of the curve runs through gaps that are too narrow for a hole.
+std::string name_of(const Curve& curve, const Scene& scene) {
+  std::map<std::string, double> edges, others;
+  double whole = 0, caused = 0;
+  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace&, double length) {
+    if (from.long_way) return;
+    whole += length;
+    if (from.cause.kind == Cause::kNone) return;
+    caused += length;
+    (from.cause.kind == Cause::kEdge ? edges : others)[in_words(from.cause, scene)] += length;
+  });
+  if (caused < kShareCaused * whole) return {};
+  const auto list = [&](const std::map<std::string, double>& causes) {
+    std::vector<std::pair<double, std::string>> sorted;
+    for (const auto& [words, length] : causes)
+      if (length >= kShareNamed * caused) sorted.emplace_back(-length, words);
+    std::sort(sorted.begin(), sorted.end());
+    std::string text;
+    for (const auto& [length, words] : sorted) text += (text.empty() ? "" : ", ") + words;
+    return text;
+  };
+  const std::string text = list(others);
+  return text.empty() ? list(edges) : text;
+}
+
+// One sphere per place, with its shape. Places are a step apart at most, but for long ways.
+std::vector<Sphere> walk(const Curve& curve, double least_step, std::vector<std::uint32_t>& shapes) {
+  std::vector<Sphere> spheres;
+  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace& to, double length) {
+    const double step = std::max(kPlaceStep * std::min(from.spacing, to.spacing), least_step);
+    const double steps = from.long_way ? 1 : std::max(std::ceil(length / step), 1.0);
+    for (double i = 0; i < steps; ++i) {
+      const double share = i / steps;
+      const CurvePlace& near = share < 0.5 ? from : to;
+      spheres.push_back(
+          {from.position + share * (to.position - from.position), kSearchRadius * near.spacing});
+      shapes.push_back(near.shape);
+    }
+  });
+  return spheres;
+}
+
+void to_canonical(std::vector<std::uint64_t>& ids) {
+  std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
+  if (ids.back() < ids[1]) std::reverse(ids.begin() + 1, ids.end());
+}
+
+}  // namespace
+
+ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) {
+  const Visibility visibility(scanner);
+  const std::vector<Curve> curves =
+      boundary_curves(sample_surfaces(scanner, visibility, points), scanner, visibility);
+  double whole = 0;
+  for (const Curve& curve : curves)
+    for_each_side(curve, [&](const CurvePlace&, const CurvePlace&, double length) { whole += length; });
+  std::vector<Sphere> spheres;
+  std::vector<std::uint32_t> shapes;
+  for (const Curve& curve : curves) {
+    const std::string name = name_of(curve, scanner.scene());
+    if (name.empty()) continue;
+    const std::vector<Sphere> own = walk(curve, whole / kMostPlaces, shapes);
+    loops_.push_back({spheres.size(), spheres.size() + own.size(), name});
+    spheres.insert(spheres.end(), own.begin(), own.end());
+  }
+  for (const std::uint32_t shape : shapes)
+    places_.push_back({shape, std::numeric_limits<double>::infinity(), kNobody, kNobody});
+  index_ = SphereIndex(std::move(spheres));
+}
+
+void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
+  if (echo.stray) return;
+  index_.for_each_around(echo.place, [&](std::uint32_t number) {
+    Place& place = places_[number];
+    if (place.shape != echo.shape) return;
+    const Vec3 arm = echo.place - index_.spheres()[number].centre;
+    const double squared = dot(arm, arm);
+    if (squared > place.nearest || (squared == place.nearest && ray > place.ray)) return;
+    place = {place.shape, squared, ray, id};
+  });
+}
+
+std::vector<NamedLoop> ScanTruth::loops() const {
+  std::vector<NamedLoop> all;
+  for (const Loop& loop : loops_) {
+    std::vector<std::uint64_t> ids;
+    std::size_t present = 0;
+    for (const Place& place : std::span(places_).subspan(loop.begin, loop.end - loop.begin)) {
+      if (place.id == kNobody) continue;
+      ++present;
+      if (ids.empty() || ids.back() != place.id) ids.push_back(place.id);
+    }
+    if (static_cast<double>(present) < kSharePresent * static_cast<double>(loop.end - loop.begin)) continue;
+    if (ids.size() > 1 && ids.back() == ids.front()) ids.pop_back();
+    ids = without_returns(std::move(ids));
+    if (ids.size() < kFewestPoints) continue;
+    to_canonical(ids);
+    all.push_back({std::move(ids), loop.name});
+  }
+  std::sort(all.begin(), all.end(), [](const NamedLoop& a, const NamedLoop& b) { return a.ids < b.ids; });
+  return all;
+}
+
+}  // namespace lacuna::synth

@@ -1,0 +1,29 @@
+#include "tools/synth/truth_file.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <string>
+
+namespace lacuna::synth {
+
+namespace fs = std::filesystem;
+
+fs::path truth_file_of(const fs::path& scan, const fs::path& truth) {
+  const fs::path file = truth.empty() ? fs::path(scan).replace_extension(".loops.txt") : truth;
+  if (fs::weakly_canonical(file) == fs::weakly_canonical(scan))
+    throw Error(file.string() + ": the scan and its true loops need two files");
+  return file;
+}
+
+void write_truth_head(OutputFile& file, const fs::path& scan) {
+  file.write(std::string(kTruthMark) + scan.filename().string() + "\n");
+}
+
+void write_loop(OutputFile& file, const std::vector<std::uint64_t>& loop) {
+  std::string line;
+  for (const std::uint64_t id : loop) line += std::to_string(id) + ' ';
+  line.back() = '\n';
+  file.write(line);
+}
+
+}  // namespace lacuna::synth

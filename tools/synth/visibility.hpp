@@ -1,0 +1,59 @@
+// From which stations a place of a scene's surface is sampled, and why not from the others.
+#pragma once
+
+#include "tools/synth/scanner.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace lacuna::synth {
+
+// Why a station does not sample a place.
+struct Cause {
+  enum Kind : std::uint8_t {
+    kNone,
+    kEdge,    // the surface of the shape ends there, or turns away
+    kShadow,  // of the shape
+    kWindow,
+    kDoor,
+    kBelow,  // the field of view of the station
+    kAbove,
+    kFar
+  } kind = kNone;
+  std::uint32_t number = 0;  // of the shape, or of the station
+
+  friend bool operator==(const Cause&, const Cause&) = default;
+  friend auto operator<=>(const Cause&, const Cause&) = default;
+};
+
+// As a person would say it.
+std::string in_words(const Cause& cause, const Scene& scene);
+
+struct SurfacePlace {
+  Vec3 position, normal;
+  std::uint32_t shape;
+  bool two_sided;
+};
+
+class Visibility {
+ public:
+  explicit Visibility(const Scanner& scanner);
+
+  // Of cause kNone if the station samples the place.
+  Cause cause(const SurfacePlace& place, std::uint32_t station) const;
+  bool any(const SurfacePlace& place) const;
+
+  // Mean distance of the points that all stations leave around the place; 0 if none samples it. Of a scanner
+  // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
+  // so, since their points lie close in one direction only.
+  double spacing(const SurfacePlace& place) const;
+
+ private:
+  double density(const SurfacePlace& place, std::uint32_t station) const;
+
+  const Scanner& scanner_;
+  double lowest_, highest_;  // sines of the elevation
+  double step_;              // radians between rays, in the coarser direction
+};
+
+}  // namespace lacuna::synth
