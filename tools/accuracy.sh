@@ -8,11 +8,12 @@ usage() {
 usage: tools/accuracy.sh [OPTIONS] [-- DETECT_OPTIONS]
 
 Builds the program, makes the sets, finds and evaluates their holes, prints one table and writes it as
-bench/accuracy/results/DATE.csv. Where PCL is installed (libpcl-dev), its boundary points stand beside ours.
+bench/accuracy/results/DATE.csv. Where PCL (libpcl-dev) or CGAL (libcgal-dev) are installed, the table has PCL's boundary
+points and the border loops of CGAL's advancing front, too.
 
   --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all but quick/
   --lacuna PROGRAM    this one, instead of building
-  --no-peers          without PCL
+  --no-peers          without PCL and CGAL
   --build DIR         default build
   --work DIR          sets and results of runs; sets are kept            default bench/work/accuracy
   --data DIR          the real scans                                     default ../shared/data
@@ -44,18 +45,24 @@ else
   lacuna=$build/lacuna
 fi
 
-pcl=()
-if ((!no_peers)); then
-  if [[ $(dpkg-query --show --showformat='${db:Status-Status}' libpcl-dev 2>/dev/null) == installed ]]; then
-    cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release >/dev/null
-    cmake --build "$build/peers" --parallel "$(nproc)" --target pcl_boundary_points >&2
-    pcl=(--pcl "$build/peers/pcl_boundary_points")
-  else
-    echo "accuracy.sh: PCL is not installed (libpcl-dev): nothing stands beside Lacuna" >&2
+# Builds a peer of Lacuna where its library is installed, and adds the option of run.py that names it.
+peers=()
+add_peer() {
+  local name=$1 package=$2 program=$3
+  if [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) != installed ]]; then
+    echo "accuracy.sh: $package is not installed: the table has no $name" >&2
+    return
   fi
+  cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release >/dev/null
+  cmake --build "$build/peers" --parallel "$(nproc)" --target "$program" >&2
+  peers+=("--$name" "$build/peers/$program")
+}
+if ((!no_peers)); then
+  add_peer pcl libpcl-dev pcl_boundary_points
+  add_peer cgal libcgal-dev cgal_border_loops
 fi
 
-python3 bench/accuracy/run.py --lacuna "$lacuna" "${pcl[@]}" --work "$work" --data "$data" --csv "$csv" \
+python3 bench/accuracy/run.py --lacuna "$lacuna" "${peers[@]}" --work "$work" --data "$data" --csv "$csv" \
   --only "$only" ${floors:+--floors "$floors"} -- "${detect_options[@]}"
 echo
 echo "$csv"

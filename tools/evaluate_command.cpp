@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostRows = 20;
 
 struct EvaluateArguments {
-  fs::path result, truth;
+  fs::path result, truth, surface;
   std::vector<fs::path> scans;
   double tolerance = EvaluationRule{}.tolerance;
   std::int64_t min_vertices = EvaluationRule{}.min_vertices;
@@ -43,6 +44,12 @@ const char* name_of(EdgeDecision verdict) {
       return "repeated";
     case EdgeDecision::kShort:
       return "short";
+    case EdgeDecision::kJoined:
+      return "joined";
+    case EdgeDecision::kParted:
+      return "parted";
+    case EdgeDecision::kUnsampled:
+      return "unsampled";
     case EdgeDecision::kFalse:
       break;
   }
@@ -82,10 +89,13 @@ void print_scores(const EvaluateArguments& arguments, const Truth& truth, const 
             << " vertices or more; shorter ones: " << print_count(scores.short_loops) << "\n  found       "
             << print_count(scores.found) << "\n  missed      " << print_count(scores.missed)
             << "\n  loops       " << print_count(scores.loops) << "\n  false       "
-            << print_count(scores.false_loops) << "\n  repeated    " << print_count(scores.repeated)
-            << "\n  recall      " << print_share(scores.recall) << "\n  precision   "
-            << print_share(scores.precision) << "\n  spacing     " << print_number(truth.spacing, "%.6g")
-            << ", tolerance " << print_number(arguments.tolerance, "%g") << " spacings\n";
+            << print_count(scores.false_loops) << "\n  joined      " << print_count(scores.joined)
+            << "\n  parted      " << print_count(scores.parted) << "\n  unsampled   "
+            << (truth.surface ? print_count(scores.unsampled) : "-") << "\n  repeated    "
+            << print_count(scores.repeated) << "\n  recall      " << print_share(scores.recall)
+            << "\n  precision   " << print_share(scores.precision) << "\n  spacing     "
+            << print_number(truth.spacing, "%.6g") << ", tolerance "
+            << print_number(arguments.tolerance, "%g") << " spacings\n";
   if (evaluation.confidence) {
     std::cout << "  confidence  area under the ROC curve " << print_number(*evaluation.confidence) << "\n";
   }
@@ -106,13 +116,26 @@ void print_loops(const Result& result, const Truth& truth, const Evaluation& eva
                                    : "-"});
   }
   if (rows.size() > 1) print_rows(std::move(rows));
-  rows = {{"loop", "points", "verdict", "true loop", "on it", "covered"}};
+  rows = {{"loop", "points", "verdict", "true loop", "on it", "covered", "on any", "at unsampled"}};
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
     const LoopMatch& match = evaluation.loops.loops[i];
     rows.push_back({std::to_string(i), print_count(result.loops[i].size()), name_of(match.verdict),
-                    print_index(match.true_loop), print_number(match.on), print_number(match.covered)});
+                    print_index(match.true_loop), print_number(match.on), print_number(match.covered),
+                    print_number(match.on_any), print_share(match.at_unsampled)});
   }
   if (rows.size() > 1) print_rows(std::move(rows));
+}
+
+void print_summary(const LoopScores& scores) {
+  std::cout << "\nFound " << print_count(scores.found) << " of " << print_count(scores.true_loops)
+            << " true loops. Of " << print_count(scores.loops) << " loops, "
+            << print_count(scores.false_loops) << (scores.false_loops == 1 ? " is false" : " are false");
+  for (const auto& [count, name] :
+       {std::pair(scores.joined, "joined"), std::pair(scores.parted, "parted"),
+        std::pair(scores.unsampled, "unsampled"), std::pair(scores.repeated, "repeated")}) {
+    if (count > 0) std::cout << ", " << print_count(count) << " " << name;
+  }
+  std::cout << ".\n";
 }
 
 template <class T>
@@ -131,6 +154,7 @@ void print_json(const EvaluateArguments& arguments, const Result& result, const 
   const LoopScores& scores = evaluation.loops.scores;
   Json root = {{"result", arguments.result.string()},
                {"truth", arguments.truth.string()},
+               {"surface", truth.surface ? Json(arguments.surface.string()) : Json()},
                {"points", truth.positions.size()},
                {"spacing", truth.spacing},
                {"tolerance", arguments.tolerance},
@@ -142,6 +166,9 @@ void print_json(const EvaluateArguments& arguments, const Result& result, const 
                {"loops", scores.loops},
                {"false", scores.false_loops},
                {"repeated", scores.repeated},
+               {"joined", scores.joined},
+               {"parted", scores.parted},
+               {"unsampled", scores.unsampled},
                {"recall", or_null(scores.recall)},
                {"precision", or_null(scores.precision)},
                {"confidence_auc", or_null(evaluation.confidence)},
@@ -165,8 +192,10 @@ void print_json(const EvaluateArguments& arguments, const Result& result, const 
     root["loop_matches"].push_back({{"points", result.loops[i].size()},
                                     {"verdict", name_of(match.verdict)},
                                     {"true_loop", or_null(match.true_loop)},
+                                    {"on_any", match.on_any},
                                     {"on", match.on},
-                                    {"covered", match.covered}});
+                                    {"covered", match.covered},
+                                    {"at_unsampled", or_null(match.at_unsampled)}});
   }
   // Names of files need not be UTF-8.
   std::cout << root.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
@@ -180,7 +209,8 @@ void run_evaluate(const EvaluateArguments& arguments) {
     throw CLI::ValidationError("--min-vertices", "must be a whole number from 0 on");
   }
   const Result result = read_result(arguments.result);
-  const Truth truth = read_truth(arguments.truth, arguments.scans, result);
+  Truth truth = read_truth(arguments.truth, arguments.scans, result);
+  if (!arguments.surface.empty()) truth.surface = read_surface(arguments.surface);
   const Evaluation evaluation = evaluate(
       result, truth,
       {.tolerance = arguments.tolerance, .min_vertices = static_cast<std::size_t>(arguments.min_vertices)});
@@ -189,6 +219,7 @@ void run_evaluate(const EvaluateArguments& arguments) {
   } else {
     print_scores(arguments, truth, evaluation);
     print_loops(result, truth, evaluation);
+    print_summary(evaluation.loops.scores);
   }
 }
 
@@ -212,6 +243,10 @@ void add_evaluate_command(CLI::App& app) {
           "--scan", arguments->scans,
           "Scan files that the ids of loops as text count; default: X.ply beside X.loops.txt, else the "
           "input of the run")
+      ->type_name("FILE");
+  command
+      ->add_option("--surface", arguments->surface,
+                   "A PLY mesh of the true surface; loops around places of it without points are not false")
       ->type_name("FILE");
   command
       ->add_option("--tolerance", arguments->tolerance,

@@ -6,6 +6,7 @@
 #include "io/loops_reader.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/ply_reader.hpp"
+#include "tools/accuracy/mesh_boundary.hpp"
 #include "tools/accuracy/spacing.hpp"
 
 #include <algorithm>
@@ -111,7 +112,7 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
   for (const Triangle& triangle : triangles) {
     for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
   }
-  truth.loops = mesh_boundary(triangles, truth.stand_ins);
+  truth.loops = mesh_boundary(triangles, truth.stand_ins, truth.positions);
   truth.spacing = spacing_of(truth, takes_part);
 }
 
@@ -121,6 +122,43 @@ void take_loops(const std::vector<LoopIds>& loops, Truth& truth) {
   for (const std::uint64_t id : truth.stand_ins) takes_part[id] = true;
   truth.loops = loops_through(loops, truth.stand_ins);
   truth.spacing = spacing_of(truth, takes_part);
+}
+
+// Of the false loops those around unsampled places of the surface are unsampled, those along true loops as
+// well are joined.
+void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
+  std::vector<LoopMatch*> matches;
+  std::vector<LoopIds> loops;
+  for (std::size_t i = 0; i < result.loops.size(); ++i) {
+    if (accuracy.loops[i].verdict != EdgeDecision::kFalse) continue;
+    matches.push_back(&accuracy.loops[i]);
+    loops.push_back(result.loops[i]);
+  }
+  std::vector<TrueLoop> counting;
+  for (std::size_t i = 0; i < truth.loops.size(); ++i) {
+    if (accuracy.true_loops[i].counts) counting.push_back(truth.loops[i]);
+  }
+  const EdgeTree true_edges = tree_of_truth(counting, truth.positions);
+  const auto at_unsampled = points_at_unsampled(
+      loops, *truth.surface,
+      {.positions = truth.positions, .stand_ins = truth.stand_ins, .spacing = truth.spacing});
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    std::size_t unsampled = 0, either = 0;
+    for (std::size_t p = 0; p < loops[i].size(); ++p) {
+      true_edges.owners_within(truth.positions[loops[i][p]], rule.tolerance, near);
+      unsampled += at_unsampled[i][p];
+      either += at_unsampled[i][p] || !near.empty();
+    }
+    const auto points = static_cast<double>(loops[i].size());
+    matches[i]->at_unsampled = static_cast<double>(unsampled) / points;
+    if (matches[i]->at_unsampled >= rule.share) {
+      matches[i]->verdict = EdgeDecision::kUnsampled;
+    } else if (static_cast<double>(either) / points >= rule.share) {
+      matches[i]->verdict = EdgeDecision::kJoined;
+    }
+  }
+  accuracy.scores = score_loops(accuracy.loops, accuracy.true_loops);
 }
 
 }  // namespace
@@ -153,6 +191,12 @@ Truth read_truth(const fs::path& file, std::vector<fs::path> scans, const Result
   return truth;
 }
 
+Surface read_surface(const fs::path& file) {
+  Surface surface{.triangles = read_triangles(file)};
+  surface.positions = read_positions({file}, {});
+  return surface;
+}
+
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule) {
   if (result.points && *result.points != truth.positions.size()) {
     throw Error(result.file.string() + ": is of a scan of " + std::to_string(*result.points) + " points, " +
@@ -162,8 +206,9 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
   Evaluation evaluation;
   const double tolerance = rule.tolerance * truth.spacing;
-  evaluation.loops = match_loops(result.loops, truth.loops, truth.positions,
-                                 {.tolerance = tolerance, .min_vertices = rule.min_vertices});
+  const MatchRule match{.tolerance = tolerance, .min_vertices = rule.min_vertices};
+  evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
+  if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
   if (result.boundary) {
     check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
     evaluation.boundary =

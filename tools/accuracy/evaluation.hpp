@@ -4,6 +4,7 @@
 #include "tools/accuracy/boundary_points.hpp"
 #include "tools/accuracy/match_loops.hpp"
 #include "tools/accuracy/true_loops.hpp"
+#include "tools/accuracy/unsampled.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct Truth {
   std::vector<std::uint64_t> stand_ins;
   std::vector<TrueLoop> loops;
   double spacing = 0;  // median, over the places that take part
+  std::optional<Surface> surface;
 };
 
 struct EvaluationRule {
@@ -55,6 +57,9 @@ Result read_result(const std::filesystem::path& path);
 // that no face of a mesh uses take no part in the spacing. Throws `Error`.
 Truth read_truth(const std::filesystem::path& file, std::vector<std::filesystem::path> scans,
                  const Result& result);
+
+// The faces of a PLY mesh. Throws `Error`.
+Surface read_surface(const std::filesystem::path& file);
 
 // Throws `Error` where the result is of another scan: ids, or a number of points, that the truth does not
 // have.

@@ -17,8 +17,10 @@ struct Shares {
   double on = 0, covered = 0;
 };
 
-// Of every loop: the true loops that it comes near to.
-using Overlaps = std::vector<std::map<std::size_t, Shares>>;
+struct Overlap {
+  std::map<std::size_t, Shares> of;  // the true loops that the loop comes near to
+  double on_any = 0;                 // share of its points on those that count
+};
 
 EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {
   std::vector<Segment> edges;
@@ -31,17 +33,28 @@ EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {
   return EdgeTree(std::move(edges));
 }
 
-Overlaps overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth, Positions positions,
-                     double tolerance) {
-  Overlaps overlaps(loops.size());
+bool counts(const TrueLoop& loop, const MatchRule& rule) {
+  return loop.vertices.size() >= rule.min_vertices;
+}
+
+std::vector<Overlap> overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
+                                 Positions positions, const MatchRule& rule) {
+  const double tolerance = rule.tolerance;
+  std::vector<Overlap> overlaps(loops.size());
   std::vector<std::size_t> near;
   const EdgeTree true_edges = tree_of_truth(truth, positions);
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    const auto points = static_cast<double>(loops[loop].size());
+    std::size_t on_any = 0;
+    std::map<std::size_t, std::size_t> on;  // points, by true loop
     for (const std::uint64_t id : loops[loop]) {
       true_edges.owners_within(positions[id], tolerance, near);
-      for (const std::size_t hit : near) overlaps[loop][hit].on += 1;
+      for (const std::size_t hit : near) ++on[hit];
+      on_any +=
+          std::any_of(near.begin(), near.end(), [&](std::size_t hit) { return counts(truth[hit], rule); });
     }
-    for (auto& [hit, shares] : overlaps[loop]) shares.on /= static_cast<double>(loops[loop].size());
+    for (const auto& [hit, on_it] : on) overlaps[loop].of[hit].on = static_cast<double>(on_it) / points;
+    if (on_any > 0) overlaps[loop].on_any = static_cast<double>(on_any) / points;
   }
   const EdgeTree loop_edges = tree_of_loops(loops, positions);
   for (std::size_t hit = 0; hit < truth.size(); ++hit) {
@@ -52,7 +65,7 @@ Overlaps overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> t
       for (const std::size_t loop : near) ++covered[loop];
     }
     for (const auto& [loop, vertices] : covered) {
-      overlaps[loop][hit].covered = static_cast<double>(vertices) * share;
+      overlaps[loop].of[hit].covered = static_cast<double>(vertices) * share;
     }
   }
   return overlaps;
@@ -62,8 +75,23 @@ bool matches(const Shares& shares, const MatchRule& rule) {
   return shares.on >= rule.share && shares.covered >= rule.share;
 }
 
-LoopMatch best_match(const std::map<std::size_t, Shares>& overlaps, std::span<const TrueMatch> truth,
-                     const MatchRule& rule) {
+// Of a loop that matches no true one, but lies on those that count together.
+LoopMatch joined_or_parted(const Overlap& overlap, std::span<const TrueMatch> truth, const MatchRule& rule) {
+  LoopMatch most_on, most_covered;
+  for (const auto& [hit, shares] : overlap.of) {
+    if (!truth[hit].counts) continue;
+    const LoopMatch match = {
+        .true_loop = hit, .on_any = overlap.on_any, .on = shares.on, .covered = shares.covered};
+    if (!most_on.true_loop || shares.on > most_on.on) most_on = match;
+    if (!most_covered.true_loop || shares.covered > most_covered.covered) most_covered = match;
+  }
+  const bool joined = most_covered.covered >= rule.share || most_on.on < rule.share;
+  LoopMatch& best = joined ? most_covered : most_on;
+  best.verdict = joined ? EdgeDecision::kJoined : EdgeDecision::kParted;
+  return best;
+}
+
+LoopMatch best_match(const Overlap& overlap, std::span<const TrueMatch> truth, const MatchRule& rule) {
   const auto rank = [&](std::size_t hit, const Shares& shares) {
     const bool match = matches(shares, rule);
     return std::tuple(match, match && truth[hit].counts, std::min(shares.on, shares.covered),
@@ -71,35 +99,17 @@ LoopMatch best_match(const std::map<std::size_t, Shares>& overlaps, std::span<co
   };
   LoopMatch best;
   std::tuple<bool, bool, double, double> highest;
-  for (const auto& [hit, shares] : overlaps) {
+  for (const auto& [hit, shares] : overlap.of) {
     if (best.true_loop && rank(hit, shares) <= highest) continue;
     highest = rank(hit, shares);
-    best = {.verdict = EdgeDecision::kFalse, .true_loop = hit, .on = shares.on, .covered = shares.covered};
+    best = {.true_loop = hit, .on_any = overlap.on_any, .on = shares.on, .covered = shares.covered};
   }
   if (best.true_loop && matches({best.on, best.covered}, rule)) {
     best.verdict = truth[*best.true_loop].counts ? EdgeDecision::kFound : EdgeDecision::kShort;
+  } else if (overlap.on_any >= rule.share) {
+    return joined_or_parted(overlap, truth, rule);
   }
   return best;
-}
-
-LoopScores count(std::span<const LoopMatch> loops, std::span<const TrueMatch> truth) {
-  LoopScores scores;
-  for (const TrueMatch& loop : truth) {
-    ++(loop.counts ? scores.true_loops : scores.short_loops);
-    if (loop.counts) ++(loop.found_by ? scores.found : scores.missed);
-  }
-  scores.loops = loops.size();
-  for (const LoopMatch& loop : loops) {
-    scores.false_loops += loop.verdict == EdgeDecision::kFalse;
-    scores.repeated += loop.verdict == EdgeDecision::kRepeated;
-  }
-  const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
-    if (whole == 0) return std::nullopt;
-    return static_cast<double>(part) / static_cast<double>(whole);
-  };
-  scores.recall = share(scores.found, scores.true_loops);
-  scores.precision = share(scores.loops - scores.false_loops, scores.loops);
-  return scores;
 }
 
 }  // namespace
@@ -108,12 +118,12 @@ LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoo
                          std::span<const Eigen::Vector3d> positions, const MatchRule& rule) {
   LoopAccuracy result;
   for (const TrueLoop& loop : truth) {
-    result.true_loops.push_back({.counts = loop.vertices.size() >= rule.min_vertices});
+    result.true_loops.push_back({.counts = counts(loop, rule)});
   }
-  const Overlaps overlaps = overlaps_of(loops, truth, positions, rule.tolerance);
+  const std::vector<Overlap> overlaps = overlaps_of(loops, truth, positions, rule);
   std::vector<bool> taken(truth.size());
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    for (const auto& [hit, shares] : overlaps[loop]) {
+    for (const auto& [hit, shares] : overlaps[loop].of) {
       if (matches(shares, rule) && !result.true_loops[hit].found_by) result.true_loops[hit].found_by = loop;
     }
     LoopMatch match = best_match(overlaps[loop], result.true_loops, rule);
@@ -123,8 +133,31 @@ LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoo
     }
     result.loops.push_back(match);
   }
-  result.scores = count(result.loops, result.true_loops);
+  result.scores = score_loops(result.loops, result.true_loops);
   return result;
+}
+
+LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> truth) {
+  LoopScores scores;
+  for (const TrueMatch& loop : truth) {
+    ++(loop.counts ? scores.true_loops : scores.short_loops);
+    if (loop.counts) ++(loop.found_by ? scores.found : scores.missed);
+  }
+  scores.loops = loops.size();
+  for (const LoopMatch& loop : loops) {
+    scores.false_loops += loop.verdict == EdgeDecision::kFalse;
+    scores.repeated += loop.verdict == EdgeDecision::kRepeated;
+    scores.joined += loop.verdict == EdgeDecision::kJoined;
+    scores.parted += loop.verdict == EdgeDecision::kParted;
+    scores.unsampled += loop.verdict == EdgeDecision::kUnsampled;
+  }
+  const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
+    if (whole == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(whole);
+  };
+  scores.recall = share(scores.found, scores.true_loops);
+  scores.precision = share(scores.loops - scores.false_loops - scores.joined - scores.parted, scores.loops);
+  return scores;
 }
 
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence) {
@@ -135,8 +168,10 @@ std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span
   };
   std::vector<Judged> judged;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i].verdict == EdgeDecision::kShort || std::isnan(confidence[i])) continue;
-    judged.push_back({confidence[i], loops[i].verdict != EdgeDecision::kFalse});
+    const EdgeDecision verdict = loops[i].verdict;
+    const bool is_true = verdict == EdgeDecision::kFound || verdict == EdgeDecision::kRepeated;
+    if (std::isnan(confidence[i]) || (!is_true && verdict != EdgeDecision::kFalse)) continue;
+    judged.push_back({confidence[i], is_true});
   }
   std::sort(judged.begin(), judged.end(),
             [](const Judged& a, const Judged& b) { return a.confidence < b.confidence; });

@@ -12,6 +12,10 @@ namespace lacuna::accuracy {
 
 // A loop lies on a true loop if `share` of its points are within the tolerance of an edge of that, and covers
 // it if `share` of its vertices are within the tolerance of an edge of the loop. It matches if both hold.
+//
+// A loop that matches none may lie on all true loops that count together: `share` of its points are within
+// the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no single
+// one; then it runs along several. Else it is `parted`: it lies on one, and covers too little of it.
 struct MatchRule {
   double tolerance = 0;  // a length
   double share = 0.7;
@@ -19,19 +23,25 @@ struct MatchRule {
 };
 
 enum class EdgeDecision {
-  kFound,     // the first loop that matches its true loop
-  kRepeated,  // a later one
-  kShort,     // matches only a true loop that does not count: neither right nor wrong
-  kFalse,     // matches none
+  kFound,      // the first loop that matches its true loop
+  kRepeated,   // a later one
+  kShort,      // matches only a true loop that does not count: neither right nor wrong
+  kJoined,     // matches none, but runs along several that count
+  kParted,     // matches none, but is a part of one that counts
+  kUnsampled,  // around a place of the surface without points; match_loops does not know it
+  kFalse,      // none of these
 };
 
 struct LoopMatch {
   EdgeDecision verdict = EdgeDecision::kFalse;
   // Of the true loops that it matches the best one: counting before short, then by the smaller share, then by
-  // both, then the first; of a false loop the best of all that it comes near to. None: it is near none.
+  // both, then the first; of a joined one that of which it covers most, of a parted one that on which most of
+  // it lies, of a false one the best of all that it comes near to. None: it is near none.
   std::optional<std::size_t> true_loop;
-  double on = 0;       // share of its points on that true loop
-  double covered = 0;  // share of that true loop's vertices on it
+  double on_any = 0;                   // share of its points on the true loops that count
+  double on = 0;                       // share of its points on that true loop
+  double covered = 0;                  // share of that true loop's vertices on it
+  std::optional<double> at_unsampled;  // share of its points at an unsampled place inside it
 };
 
 struct TrueMatch {
@@ -42,9 +52,9 @@ struct TrueMatch {
 struct LoopScores {
   std::size_t true_loops = 0, found = 0, missed = 0;  // of those that count
   std::size_t short_loops = 0;                        // true ones that do not
-  std::size_t loops = 0, false_loops = 0, repeated = 0;
+  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, unsampled = 0;
   std::optional<double> recall;     // found of the true ones; none: there are none
-  std::optional<double> precision;  // 1 - false of the loops; none: there are none
+  std::optional<double> precision;  // neither false, joined nor parted of the loops; none: there are none
 };
 
 struct LoopAccuracy {
@@ -58,9 +68,11 @@ struct LoopAccuracy {
 LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
                          std::span<const Eigen::Vector3d> positions, const MatchRule& rule);
 
+LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
+
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
-// half: the area under the ROC curve. Loops without a confidence (NaN) or on short true loops take no part;
-// none where either kind is missing.
+// half: the area under the ROC curve. Loops without a confidence (NaN) and those that are neither right nor
+// wrong (short, joined, parted, unsampled) take no part; none where either kind is missing.
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
 
 }  // namespace lacuna::accuracy

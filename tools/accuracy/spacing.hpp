@@ -1,15 +1,20 @@
 // How far apart the points of a scan are.
 #pragma once
 
+#include "tools/accuracy/point_tree.hpp"
+
 #include <span>
 
 #include <Eigen/Core>
 
 namespace lacuna::accuracy {
 
-// The median over the points of the mean distance to their 4 nearest others, or to all where there are fewer;
-// 0 for fewer than two points. The points are finite and distinct. Of more than 130,000 points as many are
-// asked, evenly spread. Cost: n log n, for the tree.
+// The mean distance to the 4 nearest others, or to all where there are fewer; 0 for a single point. The point
+// is one of the tree, whose points are distinct.
+double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
+
+// The median over the points; 0 for fewer than two. The points are finite and distinct. Of more than 130,000
+// points as many are taken, evenly spread. Cost: n log n, for the tree.
 double median_spacing(std::span<const Eigen::Vector3d> points);
 
 }  // namespace lacuna::accuracy

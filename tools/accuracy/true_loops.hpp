@@ -2,7 +2,6 @@
 #pragma once
 
 #include "io/loops_reader.hpp"
-#include "io/mesh_reader.hpp"
 #include "tools/accuracy/edge_tree.hpp"
 
 #include <array>
@@ -26,11 +25,6 @@ std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions)
 
 // The closed polygons through `ids`, in their order.
 std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<const std::uint64_t> stand_ins);
-
-// The boundary of a mesh: edges on exactly one triangle, in connected pieces, by their lowest id. Triangles
-// with two corners at one place have no area and do not count.
-std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
-                                    std::span<const std::uint64_t> stand_ins);
 
 // All edges of the loops; their owners are places in `truth`.
 EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions);

@@ -1,0 +1,40 @@
+// Loops around places of the true surface where the scan has no points.
+#pragma once
+
+#include "io/loops_reader.hpp"
+#include "io/mesh_reader.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::accuracy {
+
+struct Surface {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Triangle> triangles;
+};
+
+// A scan and its spacing. Ids are places in `positions`.
+struct Sampling {
+  std::span<const Eigen::Vector3d> positions;
+  std::span<const std::uint64_t> stand_ins;
+  double spacing = 0;
+};
+
+// Of every loop, its points at an unsampled place: a place of the surface inside the loop that is at most
+// 2 r from the loop's point, while no point of the scan is within r of it. r is 1.5 times the spacing at the
+// loop's point (see spacing_at), and at least 1.5 spacings of the scan. Inside is as seen along the normal of
+// the loop's area.
+//
+// The surface is taken as finitely many places: every triangle is halved at the middle of its longest edge
+// until that is at most half a spacing, and the centroids are the places. A triangle with a corner that is
+// not finite has none.
+//
+// Cost: n log n for the scan, log n for every triangle, and for every place near a loop.
+std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loops, const Surface& surface,
+                                                   const Sampling& sampling);
+
+}  // namespace lacuna::accuracy
