@@ -64,19 +64,28 @@ struct TangentialConfig {
   // M and S are at most `most_radius` d each, a little more than the grid's M: where half of the circles lie
   // in holes, as on strips and islands, medians say nothing.
   double most_radius = 0.5;
-  // Excess radii are counted in units of S + `least_spread` M: on a grid S is 0.
-  double least_spread = 0.1;
-  // A point with an excess radius of x units counts as min(x / `clear_excess`, 1): by chance few exceed it.
-  double clear_excess = 3.5;
-  // Confidence of a boundary curve of n points: the sum of these over n + `doubt`. Few points say little.
-  double doubt = 5;
+  // Curves are found within this bound and again within `coarse_bound` times it, where sparse places next to
+  // dense ones are surface, too.
+  double coarse_bound = 2;
+  // A loop within the first bound stands where those within the second one, on it, are together this share
+  // of its length, and where none of them is surer.
+  double same_hole = 0.8;
+  // A point counts fully for a curve's confidence where the empty ball is this many times as large as the
+  // sampling radius: nine in ten of the circles around are no larger than that.
+  double clear_radius = 2.5;
+  // Sampling radii of length that confidence adds to each curve: short curves say little.
+  double added_length = 4;
+  // Confidence of a curve with the evidence e: the logistic function of `confidence_slope` (e - middle).
+  // Fitted by bench/accuracy/calibrate.py.
+  double confidence_middle = 0.6;
+  double confidence_slope = 25;
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps by itself
 };
 
 struct SelectionConfig {
-  double min_confidence = 0.5;  // from 0 to 1; the paper's loops have 1
-  double min_perimeter = 0.0;   // lengths in units of the scan
-  double max_perimeter = 0.0;   // 0: no limit
+  double min_confidence = 0.75;  // from 0 to 1; the paper's loops have 1
+  double min_perimeter = 0.0;    // lengths in units of the scan
+  double max_perimeter = 0.0;    // 0: no limit
   std::int64_t min_points = 0;
   bool holes_only = false;  // no outer boundaries
 };

@@ -56,7 +56,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, double eps, Sum
   counts.undefined_normals = totals.undefined_normals;
   counts.boundary_edges = found.edges;
   counts.components = found.components;
-  counts.raw_loops = found.loops.found();
+  counts.raw_loops = found.raw;
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
   summary.eps = eps;

@@ -15,6 +15,7 @@ namespace lacuna {
 
 struct FoundLoops {
   RawLoops loops;                 // sorted
+  std::uint64_t raw = 0;          // loops before those of little confidence were left out
   std::uint64_t edges = 0;        // of the boundary graph
   std::uint64_t components = 0;   // of the boundary graph, with an edge
   std::int64_t minimum_loop = 0;  // e, in effect; 0: the method has none

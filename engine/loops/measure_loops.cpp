@@ -83,7 +83,7 @@ MeasuredLoops measure_loops(const RawLoops& loops, const LoopPointLists& lists, 
       const std::uint64_t from = measured.offsets[begin + i] - first;
       const Loop loop = to_loop(points.subspan(from, loops.points(begin + i)));
       measured.measures[begin + i] = measure_loop(loop, edge);
-      measured.measures[begin + i].confidence = loops.confidence(begin + i);
+      measured.measures[begin + i].confidence = loops.rating(begin + i).confidence;
     });
     phase.advance(points.size());
   }

@@ -4,14 +4,18 @@
 
 namespace lacuna {
 
-// In blocks: a loop may be larger than memory.
-void RawLoops::add(std::uint64_t points, double confidence,
+namespace {
+
+constexpr std::uint64_t kBlock = 4096;  // points: a loop may be larger than memory
+
+}  // namespace
+
+void RawLoops::add(std::uint64_t points, const LoopRating& rating,
                    const std::function<Vertex(std::uint64_t)>& vertex) {
-  constexpr std::uint64_t kBlock = 4096;
   const std::lock_guard lock(*mutex_);
   ++found_;
-  if (confidence < min_confidence_) return;
-  index_.push_back({vertices_.size(), points, vertex(0).id, confidence});
+  if (rating.confidence < min_confidence_) return;
+  index_.push_back({vertices_.size(), points, vertex(0).id, rating});
   std::vector<Vertex> block;
   for (std::uint64_t i = 0; i < points; ++i) {
     block.push_back(vertex(i));
@@ -21,8 +25,25 @@ void RawLoops::add(std::uint64_t points, double confidence,
   }
 }
 
+void RawLoops::add(const RawLoops& others, std::size_t loop) {
+  const Entry& entry = others.index_[loop];
+  std::vector<Vertex> block;
+  add(entry.points, entry.rating, [&](std::uint64_t i) {
+    const std::uint64_t within = i % kBlock;
+    if (within == 0) block = others.vertices_.read(entry.offset + i, std::min(kBlock, entry.points - i));
+    return block[within];
+  });
+}
+
 std::vector<Vertex> RawLoops::read(std::size_t loop) const {
   return vertices_.read(index_[loop].offset, index_[loop].points);
+}
+
+void RawLoops::for_each_vertex(std::size_t loop, const std::function<void(const Vertex&)>& visit) const {
+  const auto& [offset, points, first, rating] = index_[loop];
+  for (std::uint64_t i = 0; i < points; i += kBlock) {
+    for (const Vertex& v : vertices_.read(offset + i, std::min(kBlock, points - i))) visit(v);
+  }
 }
 
 void RawLoops::sort() {

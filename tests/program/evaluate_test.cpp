@@ -2,8 +2,11 @@
 // neither.
 #include "tests/support/run_program.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -71,7 +74,8 @@ TEST_CASE("a made surface is evaluated against the truth beside it") {
   const ProgramResult text = run_program({"evaluate", made.out, made.truth});
   CHECK(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("\n  found       4\n") && Contains("recall      1.000") &&
-                           Contains("tolerance precision"));
+                           Contains("tolerance precision") &&
+                           Contains("\nFound 4 of 4 true loops. Of 4 loops, 0 are false.\n"));
 }
 
 TEST_CASE("the truth is itself found, from either kind of file, without boundary points") {
@@ -150,6 +154,81 @@ TEST_CASE("the truth of a mesh is its boundary, without vertices that no face us
   CHECK(report.at("spacing") == Approx((2 + std::sqrt(2)) / 3));
 }
 
+TEST_CASE("loops on true loops without a match, and loops around gaps in the points, are counted apart") {
+  // 40 x 40 points, a unit apart. Gaps with one corner at (x, y), each of 5 x 5 points.
+  const ScratchFolder folder;
+  std::string rows;
+  int count = 0;
+  std::map<std::array<int, 2>, int> ids;
+  const std::vector<std::array<int, 2>> gaps = {{5, 5}, {20, 5}, {5, 20}, {20, 20}};
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const auto holds = [&](const std::array<int, 2>& gap) {
+        return x >= gap[0] && x < gap[0] + 5 && y >= gap[1] && y < gap[1] + 5;
+      };
+      if (std::any_of(gaps.begin(), gaps.end(), holds)) continue;
+      rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+      ids[{x, y}] = count++;
+    }
+  }
+  // Around a gap, beginning at its lower left.
+  const auto around = [&](int gap, int begin = 0, int end = 24) {
+    std::string line;
+    for (int i = begin; i < end; ++i) {
+      const int side = i / 6, step = i % 6, x = gaps[gap][0] - 1, y = gaps[gap][1] - 1;
+      line += std::to_string(side == 0   ? ids[{x + step, y}]
+                             : side == 1 ? ids[{x + 6, y + step}]
+                             : side == 2 ? ids[{x + 6 - step, y + 6}]
+                                         : ids[{x, y + 6 - step}]) +
+              " ";
+    }
+    return line;
+  };
+  std::string away;
+  for (int x = 28; x < 36; ++x) away += std::to_string(ids[{x, 30}]) + " ";
+  const std::string scan = folder.write("scan.xyz", rows);
+  // Gaps 0 and 1 are holes; in gaps 2 and 3 there is surface.
+  const std::string truth = folder.write("true.txt", around(0) + "\n" + around(1) + "\n");
+  const std::string found =
+      folder.write("found.txt", around(0) + around(1) + "\n" + around(0, 0, 10) + "\n" + around(2) + "\n" +
+                                    around(1) + around(3) + "\n" + away + "\n");
+  const std::string surface = folder.write(
+      "surface.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "-9 15 0\n49 15 0\n49 49 0\n-9 49 0\n4 0 1 2 3\n");
+  const auto verdicts = [](const nlohmann::json& report) {
+    std::vector<std::string> names;
+    for (const auto& match : report.at("loop_matches")) names.push_back(match.at("verdict"));
+    return names;
+  };
+  using Names = std::vector<std::string>;
+
+  const auto without = evaluate({found, truth, "--scan", scan, "--tolerance", "1"});
+  CHECK(verdicts(without) == Names{"joined", "parted", "false", "false", "false"});
+  CHECK((without.at("joined") == 1 && without.at("parted") == 1 && without.at("unsampled") == 0));
+  CHECK((without.at("false") == 3 && without.at("found") == 0 && without.at("missed") == 2));
+  CHECK(without.at("surface").is_null());
+  CHECK(without.at("loop_matches")[0].at("on_any") == 1);
+  CHECK(without.at("loop_matches")[2].at("at_unsampled").is_null());
+
+  const auto with = evaluate({found, truth, "--scan", scan, "--tolerance", "1", "--surface", surface});
+  CHECK(verdicts(with) == Names{"joined", "parted", "unsampled", "joined", "false"});
+  CHECK((with.at("joined") == 2 && with.at("parted") == 1 && with.at("unsampled") == 1));
+  CHECK(with.at("false") == 1);
+  CHECK(with.at("precision") == Approx(0.2));
+  CHECK(with.at("surface") == surface);
+  CHECK(with.at("loop_matches")[2].at("at_unsampled") == 1);
+  CHECK(with.at("loop_matches")[3].at("at_unsampled") == 0.5);
+
+  const ProgramResult text =
+      run_program({"evaluate", found, truth, "--scan", scan, "--tolerance", "1", "--surface", surface});
+  CHECK_THAT(
+      text.out,
+      Contains("\nFound 0 of 2 true loops. Of 5 loops, 1 is false, 2 joined, 1 parted, 1 unsampled.\n") &&
+          Contains("\n  unsampled   1\n"));
+}
+
 TEST_CASE("confidences of the report are judged by the area under the ROC curve") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("square.ply", kSquare);
@@ -182,6 +261,8 @@ TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
   refused({made.folder.path().string(), made.truth}, "loops.ply: cannot be opened");
   refused({made.out, (made.folder / "missing.txt").string()}, "missing.txt: cannot be opened");
   refused({made.out, made.scan}, "no element 'face'");
+  refused({made.out, made.truth, "--surface", made.scan}, "no element 'face'");
+  refused({made.out, made.truth, "--surface", (made.folder / "no.ply").string()}, "no.ply: cannot be opened");
   refused({made.out, square}, "is of a scan of");
   refused({made.out + "/loops.ply", square}, "but the scan has 5 points");
   refused({made.truth, square, "--scan", made.scan}, "no --scan is allowed");

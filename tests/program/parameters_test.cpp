@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 namespace lacuna {
 namespace {
@@ -34,11 +35,14 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"max_radius", "2.5"},
     {"hole_radius", "0.4"},
     {"most_radius", "0.2"},
-    {"least_spread", "2"},
-    {"clear_excess", "100"},
-    {"doubt", "400"},
+    {"coarse_bound", "1.25"},
+    {"same_hole", "1"},
+    {"clear_radius", "5"},
+    {"added_length", "400"},
+    {"confidence_middle", "0.9"},
+    {"confidence_slope", "1"},
     {"min_curve", "40"},
-    {"min_confidence", "0.85"},
+    {"min_confidence", "0.999"},
     {"min_perimeter", "45"},
     {"max_perimeter", "45"},
     {"min_points", "40"},
@@ -65,7 +69,7 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results but the report, which has the parameters and times.
+  // All bytes of the results; of the report the loops only, since it has the parameters and times, too.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
@@ -76,6 +80,7 @@ class Runs {
     for (const char* name : {"loops.ply", "boundary.ply", "points.ply", "probability.vdb"}) {
       if (fs::exists(out / name)) bytes += name + test::read_file(out / name);
     }
+    bytes += nlohmann::json::parse(test::read_file(out / "holes.json"))["loops"].dump();
     fs::remove_all(out);
     return bytes;
   }

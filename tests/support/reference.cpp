@@ -609,14 +609,19 @@ struct Corner {
 
 struct Star {
   std::vector<Corner> corners;
-  double distance = 0;  // harmonic mean of r over the point and its neighbours
-  double radius = 0;    // that a ball may have to make a triangle
-  double unit = 0;      // of the room beyond
+  double distance = 0;               // harmonic mean of r over the point and its neighbours
+  std::array<double, 2> radius{};    // that a ball may have to make a triangle, by scale: fine, coarse
+  std::array<double, 2> sampling{};  // nine in ten of the balls around within these are no larger
+};
+
+// What confidence needs of a gap.
+struct Evidence {
+  double length, sampling, clearness;
 };
 
 struct Gap {
   PointId point, from, to;
-  double room;
+  Evidence evidence;
 };
 
 double weight(PointId id, double r) {
@@ -714,8 +719,28 @@ class Stars {
     const double most = config_.most_radius * star.distance;
     const double circle = circles.empty() ? most : std::min(median(circles), most);
     const double scatter = scatters.empty() ? most : std::min(median(scatters), most);
-    star.radius = config_.max_radius * circle + scatter;
-    star.unit = scatter + config_.least_spread * circle;
+    const double radius = config_.max_radius * circle + scatter;
+    star.radius = {radius, config_.coarse_bound * radius};
+    for (const std::size_t scale : {0, 1}) star.sampling[scale] = sampling(around, star.radius[scale]);
+  }
+
+  // Of the eight smallest balls of each star that do not lie in a hole; to a 64th.
+  double sampling(const std::vector<PointId>& around, double most) {
+    std::vector<double> balls;
+    for (const PointId q : around) {
+      const Star& other = found(q);
+      std::vector<double> own;
+      for (const Corner& corner : other.corners) {
+        if (corner.ball <= config_.hole_radius * other.distance) own.push_back(corner.ball);
+      }
+      std::sort(own.begin(), own.end());
+      if (own.size() > 8) own.resize(8);
+      balls.insert(balls.end(), own.begin(), own.end());
+    }
+    std::erase_if(balls, [&](double ball) { return ball * (64 / most) >= 64; });
+    std::sort(balls.begin(), balls.end());
+    if (balls.empty()) return most;
+    return (std::floor(balls[balls.size() * 9 / 10] * (64 / most)) + 1) / 64 * most;
   }
 
   const Positions& positions_;
@@ -724,22 +749,23 @@ class Stars {
   std::map<PointId, Star> found_, measured_;
 };
 
-bool has_triangle(const Star& star, PointId a, PointId b) {
+bool has_triangle(const Star& star, PointId a, PointId b, std::size_t scale = 0) {
   const std::size_t count = star.corners.size();
   for (std::size_t i = 0; i < count; ++i) {
     const PointId here = star.corners[i].point, next = star.corners[(i + 1) % count].point;
-    if (star.corners[i].ball <= star.radius && ((here == a && next == b) || (here == b && next == a)))
+    if (star.corners[i].ball <= star.radius[scale] && ((here == a && next == b) || (here == b && next == a)))
       return true;
   }
   return false;
 }
 
 // Whether the triangle that begins at corner i of p's star is in the stars of all of its rough corners.
-bool is_agreed(PointId p, std::size_t i, const std::set<PointId>& rough, Stars& stars) {
+bool is_agreed(PointId p, std::size_t i, const std::set<PointId>& rough, Stars& stars,
+               std::size_t scale = 0) {
   const Star& star = stars[p];
   const PointId a = star.corners[i].point, b = star.corners[(i + 1) % star.corners.size()].point;
-  return has_triangle(star, a, b) && (!rough.contains(a) || has_triangle(stars[a], p, b)) &&
-         (!rough.contains(b) || has_triangle(stars[b], p, a));
+  return has_triangle(star, a, b, scale) && (!rough.contains(a) || has_triangle(stars[a], p, b, scale)) &&
+         (!rough.contains(b) || has_triangle(stars[b], p, a, scale));
 }
 
 // Candidates (method.md, 4), and, again and again, the corners of triangles in their stars that are not
@@ -764,26 +790,30 @@ std::set<PointId> rough_points(const Detection& result, double threshold, Stars&
   return rough;
 }
 
-std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars) {
+std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars, std::size_t scale,
+                         const Positions& positions, const TangentialConfig& config) {
   const Star& star = stars[p];
   const std::size_t count = star.corners.size();
   const auto corner = [&](std::size_t i) -> const Corner& { return star.corners[i % count]; };
-  const auto agreed = [&](std::size_t i) { return is_agreed(p, i % count, rough, stars); };
+  const auto agreed = [&](std::size_t i) { return is_agreed(p, i % count, rough, stars, scale); };
+  const auto distance = [&](PointId q) { return length(positions[value(q)] - positions[value(p)]); };
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
     if (!agreed(i) || agreed(i + 1)) continue;
-    Gap gap{p, corner(i + 1).point, {}, 0};
+    double ball = 0;
     std::size_t end = i + 1;
-    for (; !agreed(end); ++end) gap.room = std::max(gap.room, (corner(end).ball - star.radius) / star.unit);
-    gap.to = corner(end).point;
-    gaps.push_back(gap);
+    for (; !agreed(end); ++end) ball = std::max(ball, corner(end).ball);
+    const PointId from = corner(i + 1).point, to = corner(end).point;
+    const double sampling = star.sampling[scale];
+    const double clearness = std::clamp((ball / sampling - 1) / (config.clear_radius - 1), 0., 1.);
+    gaps.push_back({p, from, to, {(distance(from) + distance(to)) / 2, sampling, clearness}});
   }
   return gaps;
 }
 
 struct CurvePoint {
   PointId point;
-  double room;
+  Evidence evidence;
 };
 
 // Of all ways to write a closed curve, the one whose points come first.
@@ -819,27 +849,74 @@ std::vector<std::vector<CurvePoint>> simple_curves(std::vector<CurvePoint> rim) 
   return curves;
 }
 
-double confidence(const std::vector<CurvePoint>& rim, const TangentialConfig& config) {
-  double sum = 0;
-  for (const CurvePoint& p : rim) sum += std::min(p.room / config.clear_excess, 1.0);
-  return sum / (static_cast<double>(rim.size()) + config.doubt);
+struct FoundLoop {
+  std::vector<PointId> points;
+  double confidence, length;
+};
+using Loops = std::vector<FoundLoop>;
+
+// By first id, then short ones first, then by all ids.
+void sort_loops(Loops& loops) {
+  const auto rank = [](const FoundLoop& loop) {
+    return std::tuple(loop.points.front(), loop.points.size(), loop.points);
+  };
+  std::sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
 }
 
-void find_rims(const Positions& positions, const Config& config, Detection& result) {
-  const double threshold = config.coherence.threshold, min_confidence = config.selection.min_confidence;
-  const auto least = static_cast<std::size_t>(config.tangential.min_curve);
-  Stars stars(positions, config.tangential, result);
-  const std::set<PointId> rough = rough_points(result, threshold, stars);
+FoundLoop rated(const std::vector<CurvePoint>& rim, const TangentialConfig& config) {
+  FoundLoop loop{{}, 0, 0};
+  double clear = 0, sampling = 0;
+  for (const auto& [point, evidence] : rim) {
+    loop.points.push_back(point);
+    clear += evidence.clearness * evidence.length;
+    loop.length += evidence.length;
+    sampling += evidence.sampling;
+  }
+  const double evidence =
+      clear / (loop.length + config.added_length * sampling / static_cast<double>(rim.size()));
+  loop.confidence = 1 / (1 + std::exp(-config.confidence_slope * (evidence - config.confidence_middle)));
+  return loop;
+}
+
+// A fine loop stands where the coarse loops that share most points with it are together nearly as long, or
+// none of them is surer.
+Loops chosen(const Loops& fine, const Loops& coarse, double same_hole) {
+  std::map<std::size_t, Loops> on;  // by fine loop
+  Loops chosen;
+  for (const FoundLoop& loop : coarse) {
+    std::size_t best = fine.size(), most = 0;
+    for (std::size_t f = 0; f < fine.size(); ++f) {
+      const std::set<PointId> points(fine[f].points.begin(), fine[f].points.end());
+      const auto count = static_cast<std::size_t>(std::count_if(
+          loop.points.begin(), loop.points.end(), [&](PointId p) { return points.contains(p); }));
+      if (count > most) best = f, most = count;
+    }
+    (best < fine.size() ? on[best] : chosen).push_back(loop);
+  }
+  for (std::size_t f = 0; f < fine.size(); ++f) {
+    double length = 0, surest = 0;
+    for (const FoundLoop& loop : on[f]) length += loop.length, surest = std::max(surest, loop.confidence);
+    if (length >= same_hole * fine[f].length || surest <= fine[f].confidence) on[f] = {fine[f]};
+    chosen.insert(chosen.end(), on[f].begin(), on[f].end());
+  }
+  sort_loops(chosen);
+  return chosen;
+}
+
+// The curves at one scale of at least `min_curve` points, in the order of their ids.
+Loops find_curves(const Positions& positions, const TangentialConfig& config, const std::set<PointId>& rough,
+                  std::size_t scale, Stars& stars, std::size_t& edges) {
+  const auto least = static_cast<std::size_t>(config.min_curve);
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
   for (const PointId p : rough) {
-    for (const Gap& gap : gaps_of(p, rough, stars)) {
+    for (const Gap& gap : gaps_of(p, rough, stars, scale, positions, config)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
       gaps.push_back(gap);
     }
   }
-  result.boundary_edges = gaps.size();  // each ends at two, and at each of them two end
-  std::vector<std::pair<std::vector<PointId>, double>> rims;
+  edges = gaps.size();  // each ends at two, and at each of them two end
+  Loops rims;
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
     if (is_done[start]) continue;
@@ -849,23 +926,33 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
       const PointId before = rim.empty() ? gaps[g].from : rim.back().point;
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
-      rim.push_back({gaps[g].point, gaps[g].room});
+      rim.push_back({gaps[g].point, gaps[g].evidence});
       g = at.at({next, rim.back().point});  // rims are closed
     } while (g != start);
     if (rim.size() < least) continue;
     for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {
       if (curve.size() < least) continue;
-      std::vector<PointId> loop;
-      for (const CurvePoint& p : first_way(curve)) loop.push_back(p.point);
-      rims.emplace_back(loop, confidence(first_way(curve), config.tangential));
+      rims.push_back(rated(first_way(curve), config));
     }
   }
-  std::sort(rims.begin(), rims.end());
+  sort_loops(rims);
+  return rims;
+}
+
+void find_rims(const Positions& positions, const Config& config, Detection& result) {
+  const double threshold = config.coherence.threshold, min_confidence = config.selection.min_confidence;
+  Stars stars(positions, config.tangential, result);
+  const std::set<PointId> rough = rough_points(result, threshold, stars);
+  std::size_t coarse_edges = 0;
+  std::array<Loops, 2> rims{find_curves(positions, config.tangential, rough, 0, stars, result.boundary_edges),
+                            find_curves(positions, config.tangential, rough, 1, stars, coarse_edges)};
+  for (Loops& of_scale : rims) {
+    std::erase_if(of_scale, [&](const FoundLoop& loop) { return loop.confidence < min_confidence; });
+  }
   std::set<PointId> on_loop;
-  for (const auto& [rim, confidence] : rims) {
+  for (const auto& [rim, confidence, length] : chosen(rims[0], rims[1], config.tangential.same_hole)) {
     result.loops.push_back(rim);
     result.confidences.push_back(confidence);
-    if (confidence < min_confidence) continue;
     result.sure.push_back(rim);
     on_loop.insert(rim.begin(), rim.end());
   }

@@ -5,6 +5,7 @@
 #include "engine/store/row_runs.hpp"
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,19 +41,26 @@ class Belt {
   std::vector<StarQuery> queries_;
 };
 
+double distance(const Site& a, const Site& b) {
+  const auto position = [](const Site& site) {
+    return Eigen::Vector3d(site.position[0], site.position[1], site.position[2]);
+  };
+  return std::sqrt(squared_distance(position(a), position(b)));
+}
+
 // Sends the triangles of a star to the tiles of its foreign link vertices.
 void send_triangles(Row point, const Star<LocalIndex>& star, std::span<const Row> rows, const Tiling& tiling,
                     TileIndex t, Outbox<RemoteTriangle>& outbox) {
-  const auto send = [&](Row to, Row other) {
+  const auto send = [&](Row to, Row other, Scale scale) {
     if (tiling.tiles[t].owns(to)) return;
     const TileIndex there = tiling.tile_of_row(to);
-    outbox.add(there, {tiling.tiles[there].local(to), 0, point, other});
+    outbox.add(there, {tiling.tiles[there].local(to), scale, point, other});
   };
   for (std::size_t i = 0; i < star.size(); ++i) {
-    if (!star.is_triangle(i)) continue;
+    if (star.scale_of(i) == Scale::kNone) continue;
     const Row a = rows[star.link[i].point], b = rows[star.link[star.next(i)].point];
-    send(a, b);
-    send(b, a);
+    send(a, b, star.scale_of(i));
+    send(b, a, star.scale_of(i));
   }
 }
 
@@ -68,25 +76,30 @@ void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config
     rows.push_back(belt.rows()[queries.back().point]);
   }
   const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
-  std::vector<Sampling> samplings;
-  samplings.reserve(rows.size());
+  std::vector<StarSample> samples;
+  samples.reserve(rows.size());
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t, std::span<const FoundStar> stars) {
-        const std::array<Sampling, kBatchSize> of_batch = samplings_of(stars, config);
-        samplings.insert(samplings.end(), of_batch.begin(), of_batch.begin() + stars.size());
+        const std::array<Sampling, kBatchSize> samplings = samplings_of(stars, config);
+        for (std::size_t i = 0; i < stars.size(); ++i)
+          samples.push_back({samplings[i], circles_of(stars[i], config)});
       });
-  replace_rows(lists.samplings, std::span<const Row>(rows), std::span<const Sampling>(samplings));
+  replace_rows(lists.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
 }
 
 void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const TangentialConfig& config) {
   const Belt belt(lists, t);
   const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
-  const std::vector<Sampling> samplings = read_rows(lists.samplings, belt.rows());
+  const std::vector<StarSample> samples = read_rows(lists.samples, belt.rows());
+  std::vector<Sampling> samplings;
+  samplings.reserve(samples.size());
+  for (const StarSample& sample : samples) samplings.push_back(sample.sampling);
   const std::span<const StarQuery> queries = belt.queries();
   OpenStars open;
   Outbox<RemoteTriangle> outbox(lists.remote_triangles);
   RadiusBounder bounder(samplings, config);
+  SamplingRadius circles;
   std::vector<LinkVertex<LocalIndex>> link;
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
@@ -101,10 +114,19 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const Tan
           for (std::size_t v = 0; v < stars[i].size(); ++v)
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
           const Star<LocalIndex> star{link, bound};
-          open.add(point.id, point.owned, bound);
+          circles.clear();
+          const auto add_circles = [&](LocalIndex q) {
+            circles.add(samples[q].circles, samplings[q].distance);
+          };
+          add_circles(query.point);
+          for (const LocalIndex q : query.neighbours) add_circles(q);
+          open.add(point.id, point.owned, bound, samplings[query.point].distance, circles);
           for (std::size_t v = 0; v < star.size(); ++v) {
-            open.add_vertex({belt.rows()[link[v].point], link[v].radius,
-                             star.is_triangle(v) ? Consistency::kUndecided : Consistency::kInconsistent});
+            const Scale scale = star.scale_of(v);
+            open.add_vertex({belt.rows()[link[v].point],
+                             distance(sites[query.point], sites[link[v].point]),
+                             link[v].radius,
+                             {scale, scale != Scale::kNone}});
           }
           send_triangles(belt.rows()[query.point], star, belt.rows(), tiling, t, outbox);
         });
@@ -117,7 +139,7 @@ std::uint64_t belt_bytes(const StarLists& lists, TileIndex t) {
   const std::uint64_t star =
       sizeof(StarQuery) + sizeof(BeltPoint) + sizeof(OpenStar) + 8 * sizeof(OpenLinkVertex);
   return lists.belt.count(t) * star + lists.belt_neighbours.count(t) * sizeof(LocalIndex) +
-         lists.belt_rows.count(t) * (sizeof(Row) + sizeof(Site) + sizeof(Sampling));
+         lists.belt_rows.count(t) * (sizeof(Row) + sizeof(Site) + sizeof(StarSample) + sizeof(Sampling));
 }
 
 }  // namespace lacuna

@@ -9,11 +9,11 @@
 
 namespace lacuna {
 
-// Replaces the samplings of a tile's border points. All sites are known.
+// Replaces the samples of a tile's border points. All sites are known.
 void sample_border(StarLists& lists, TileIndex tile, const TangentialConfig& config);
 
 // Adds the stars of a tile's belt to its open ones. Each sends its triangles to the tiles of its foreign link
-// vertices. The samplings of all points of the belt's rows are known.
+// vertices. The samples of all points of the belt's rows are known.
 void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex tile, const TangentialConfig& config);
 
 // Memory that either takes.

@@ -55,7 +55,8 @@ class BorderExchange {
       });
     }
     for_each_growing(all, [&](TileIndex t) {
-      lists_.wedges.append(t, GrowingTile(lists_, tiling_, t, is_measured_).growth.wedges());
+      lists_.wedges.append(
+          t, GrowingTile(lists_, tiling_, t, is_measured_).growth.wedges(job_.config.tangential));
       lists_.drop(t);
     });
   }

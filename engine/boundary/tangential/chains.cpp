@@ -11,23 +11,25 @@
 namespace lacuna {
 namespace {
 
-// An end by its boundary edge, which exactly one other end shares. Chain c has the ends 2c and 2c + 1.
+// An end by its boundary edge, which exactly one other end of that scale shares. Chain c has the ends 2c and
+// 2c + 1.
 struct NumberedEnd {
   Row low, high;
   LocalIndex end;
+  Scale scale;
 
-  NumberedEnd(const ChainEnd& e, LocalIndex end)
-      : low(std::min(e.own, e.foreign)), high(std::max(e.own, e.foreign)), end(end) {}
+  NumberedEnd(const ChainEnd& e, LocalIndex end, Scale scale)
+      : low(std::min(e.own, e.foreign)), high(std::max(e.own, e.foreign)), end(end), scale(scale) {}
   NumberedEnd() = default;
   friend bool operator<(const NumberedEnd& a, const NumberedEnd& b) {
-    return std::tie(a.low, a.high, a.end) < std::tie(b.low, b.high, b.end);
+    return std::tie(a.low, a.high, a.scale, a.end) < std::tie(b.low, b.high, b.scale, b.end);
   }
 };
 
 // Calls add(end) for both ends of a chain.
 template <class Add>
 void add_ends(const OpenChain& chain, LocalIndex number, Add&& add) {
-  for (const LocalIndex side : {0, 1}) add(NumberedEnd(chain.ends[side], 2 * number + side));
+  for (const LocalIndex side : {0, 1}) add(NumberedEnd(chain.ends[side], 2 * number + side, chain.scale));
 }
 
 // Fills in the end that shares the boundary edge of each end, from all ends in ascending order.
@@ -37,7 +39,7 @@ class Partners {
 
   void add(const NumberedEnd& end) {
     if (is_second_) {
-      assert(before_.low == end.low && before_.high == end.high);
+      assert(before_.low == end.low && before_.high == end.high && before_.scale == end.scale);
       partners_[before_.end] = end.end;
       partners_[end.end] = before_.end;
     }
@@ -79,7 +81,7 @@ class ChainFollower {
         left = left.subspan(chain.count);
         is_done_[static_cast<std::size_t>(&chain - chains_.data())] = 1;
       });
-      visit(curve, scratch);
+      visit(curve, chains_[start].scale, scratch);
     }
   }
 

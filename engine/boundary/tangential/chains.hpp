@@ -23,11 +23,12 @@ struct ChainEnd {
 // A chain's points lie one after the other in the column of all open chains.
 struct OpenChain {
   std::uint64_t first, count;
+  Scale scale;
   std::array<ChainEnd, 2> ends;  // of its first and of its last point
 };
 
 // For each closed curve of whole components, with arrays of its own.
-using VisitCurve = std::function<void(std::span<const CurvePoint>, Scratch&)>;
+using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratch&)>;
 
 // Starts and directions of curves depend on the order of `chains`. Memory: `budget` bytes for the arrays of a
 // curve, and files of the workspace beyond that. Cost: linear, and a sort of the chains' ends.

@@ -41,7 +41,8 @@ std::uint32_t find_in_large_link(const LinkVertex<LocalIndex>* link, std::uint32
   return kNone;
 }
 
-// The link vertex at which the point's triangle with a and b begins; kNone: its star does not have it.
+// The link vertex at which the point's triangle with a and b begins; kNone: its star does not have it within
+// the coarse bound.
 HWY_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
   const auto [begin, size, bound] = stars.places[point];
   const LinkVertex<LocalIndex>* const link = stars.vertices + begin;
@@ -55,7 +56,7 @@ HWY_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point,
   } else {
     place = find_in_large_link(link, size, a, b);
   }
-  return place != kNone && link[place].radius <= bound.largest ? begin + place : kNone;
+  return place != kNone && link[place].radius <= bound.coarse ? begin + place : kNone;
 }
 
 }  // namespace
@@ -71,7 +72,12 @@ void compare_triangles(const StarTable& stars, const TriangleQuery* queries, std
       return state != PointState::kActive && state != PointState::kInactive;
     };
     const bool is_open = is_unknown(of_a) || is_unknown(of_b);
-    const Consistency consistency = is_open ? Consistency::kUndecided : Consistency::kConsistent;
+    const auto scale = [&](LocalIndex point, std::uint32_t at)
+                           HWY_ATTR { return stars.places[point].bound.scale_of(stars.vertices[at].radius); };
+    Scale coarsest = scale(p, vertex);
+    if (in_a != vertex) coarsest = std::max(coarsest, scale(a, in_a));
+    if (in_b != vertex) coarsest = std::max(coarsest, scale(b, in_b));
+    const Consistency consistency{coarsest, is_open};
     stars.consistencies[vertex] = stars.consistencies[in_a] = stars.consistencies[in_b] = consistency;
   }
 }
@@ -103,7 +109,7 @@ std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const Point
       const LinkVertex<LocalIndex>* const b = &stars.vertices[i];
       const bool is_by_b = is_lower_active(p, b->point);
       queries[count] = {static_cast<std::uint32_t>(a - stars.vertices.data()), p, a->point, b->point};
-      count += !(is_by_a | is_by_b) & (a->radius <= bound.largest);
+      count += !(is_by_a | is_by_b) & (a->radius <= bound.coarse);
       a = b;
       is_by_a = is_by_b;
     }
@@ -114,7 +120,7 @@ std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const Point
 }  // namespace
 
 void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> states) {
-  stars.consistencies.resize(stars.vertices.size(), Consistency::kInconsistent);
+  stars.consistencies.resize(stars.vertices.size());
   const StarTable table{stars.places.data(), stars.vertices.data(), states.data(),
                         stars.consistencies.data()};
   constexpr LocalIndex kRun = 64;
@@ -131,9 +137,8 @@ void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> st
   for (LocalIndex p = 0; p < points; ++p) {
     if (states[p] != PointState::kMaybeActive) continue;
     const Star<LocalIndex> star = stars[p];
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (star.is_triangle(i)) stars.consistencies_of(p)[i] = Consistency::kUndecided;
-    }
+    for (std::size_t i = 0; i < star.size(); ++i)
+      stars.consistencies_of(p)[i] = {star.scale_of(i), star.scale_of(i) != Scale::kNone};
   }
 }
 

@@ -1,10 +1,12 @@
 #include "engine/boundary/tangential/curves.hpp"
 
+#include "engine/simd/maths.hpp"
 #include "engine/store/row_numbers.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -42,19 +44,20 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   for (const Wedge& wedge : wedges) ++begins[points.number(wedge.point.row) + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
-  // The wedge at `point` with an edge to `neighbour`: there is at most one.
-  const auto find = [&](Row point, Row neighbour) {
+  // The wedge at `point` with an edge to `neighbour`: at each scale there is at most one.
+  const auto find = [&](Row point, Row neighbour, Scale scale) {
     const std::optional<LocalIndex> number = points.find(point);
     if (!number) return kNoIndex;
     for (LocalIndex i = begins[*number]; i < begins[*number + 1]; ++i) {
-      if (wedges[i].from == neighbour || wedges[i].to == neighbour) return i;
+      if (wedges[i].scale == scale && (wedges[i].from == neighbour || wedges[i].to == neighbour)) return i;
     }
     return kNoIndex;
   };
   std::vector<WedgePartners> partners;
   partners.reserve(wedges.size());
   for (const Wedge& wedge : wedges)
-    partners.push_back({find(wedge.from, wedge.point.row), find(wedge.to, wedge.point.row)});
+    partners.push_back(
+        {find(wedge.from, wedge.point.row, wedge.scale), find(wedge.to, wedge.point.row, wedge.scale)});
   return partners;
 }
 
@@ -158,10 +161,17 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   split_off(0);
 }
 
-double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch) {
-  double sum = 0;
-  scratch.for_each(curve, [&](const CurvePoint& p) { sum += std::min(p.excess / config.clear_excess, 1.0); });
-  return sum / (static_cast<double>(curve.size()) + config.doubt);
+LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch) {
+  double clear = 0, length = 0, sampling_radii = 0;
+  scratch.for_each(curve, [&](const CurvePoint& p) {
+    clear += p.evidence.clearness * p.evidence.length;
+    length += p.evidence.length;
+    sampling_radii += p.evidence.sampling_radius;
+  });
+  const double added = config.added_length * sampling_radii / static_cast<double>(curve.size());
+  const double x = config.confidence_slope * (clear / (length + added) - config.confidence_middle);
+  const double tail = exponential(-std::abs(x));
+  return {.confidence = (x < 0 ? tail : 1) / (1 + tail), .length = length};
 }
 
 }  // namespace lacuna

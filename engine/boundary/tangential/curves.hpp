@@ -4,6 +4,7 @@
 
 #include "engine/boundary/tangential/wedge.hpp"
 #include "engine/config.hpp"
+#include "engine/loops/raw_loops.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>
@@ -17,11 +18,11 @@ namespace lacuna {
 // A point of a curve. A point with several wedges is on several curves, or several times on one.
 struct CurvePoint {
   Vertex vertex;
-  float excess;  // radius, of the wedge
+  WedgeEvidence evidence;
 };
 
-// The wedges at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not among these
-// wedges.
+// The wedges of the same scale at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not
+// among these wedges.
 using WedgePartners = std::array<LocalIndex, 2>;
 
 // Of each wedge. `wedges`: in ascending row. Cost: linear.
@@ -49,10 +50,11 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
 void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit);
 
-// How sure it is that the curve bounds a hole, in [0, 1]. Where a scan happens to be thin, a larger ball fits
-// at few points of the curve. A point counts in proportion to its excess radius, fully from `clear_excess`
-// on. Returns the mean of that over the points and `doubt` more that have none: a few points may have an
-// excess by chance. The sum is in the order of the curve.
-double confidence(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
+// The length of a curve, and how likely it is that it bounds a hole, in [0, 1] (method.md, C.6). Where a scan
+// happens to be thin, a larger ball fits at few points of the curve. The curve's evidence is the mean
+// clearness of its wedges along its length. Some sampling radii of length without clearness are added: a
+// short curve may be clear by chance. A logistic function turns it into a probability. Sums are in the order
+// of the curve.
+LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
 
 }  // namespace lacuna

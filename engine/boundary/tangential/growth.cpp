@@ -19,6 +19,7 @@ Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_
       active_(active),
       remote_triangles_(remote_triangles),
       points_(open.stars),
+      vertices_(open.vertices),
       star_of_(tile_.points, kNone) {
   stars_.places.reserve(open.stars.size());
   stars_.vertices.reserve(open.vertices.size());
@@ -63,43 +64,51 @@ bool Growth::follow(std::size_t s, const std::function<void(Row)>& visit) {
   return found;
 }
 
-std::vector<Wedge> Growth::wedges() {
+std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
   std::vector<Wedge> wedges;
   for (std::size_t s = 0; s < points_.size(); ++s) {
     if (!active_.contains(row(s))) continue;
     const Star<Row> star = stars_[s];
-    const std::span<Consistency> consistencies = stars_.consistencies_of(s);
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      if (!is_inconsistent(s, i)) consistencies[i] = Consistency::kConsistent;
-    }
-    for_each_wedge(star, std::span<const Consistency>(consistencies), [&](Row from, Row to, float excess) {
-      wedges.push_back({{points_[s].id, row(s)}, from, to, excess});
-    });
+    for (std::size_t i = 0; i < star.size(); ++i) scale_of(s, i);
+    const auto link = vertices_.subspan(stars_.places[s].begin, star.size());
+    add_wedges(
+        {points_[s].id, row(s)}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
+        points_[s].distance,
+        [&](Scale scale) { return points_[s].sampling_radius[static_cast<std::size_t>(scale)]; },
+        [&](std::size_t i) { return link[i].point; }, [&](std::size_t i) { return link[i].length; }, config,
+        wedges);
   }
   return wedges;
 }
 
 // The triangle that begins at link vertex i of star s. Once it is inconsistent, it stays so.
 bool Growth::is_inconsistent(std::size_t s, std::size_t i) {
+  return !stars_.consistencies_of(s)[i].at(Scale::kFine) || scale_of(s, i) != Scale::kFine;
+}
+
+// The same triangle, as far as the active points are known. More active points never lower the scale.
+Scale Growth::scale_of(std::size_t s, std::size_t i) {
   const Star<Row> star = stars_[s];
   const Row a = star.link[i].point, b = star.link[star.next(i)].point;
   Consistency& consistency = stars_.consistencies_of(s)[i];
-  if (consistency == Consistency::kUndecided && (lacks_triangle(a, s, b) || lacks_triangle(b, s, a)))
-    consistency = Consistency::kInconsistent;
-  return consistency == Consistency::kInconsistent;
+  if (consistency.is_undecided)
+    consistency.scale = std::max({consistency.scale, scale_in(a, s, b), scale_in(b, s, a)});
+  return consistency.scale;
 }
 
-// An active point whose star does not have the triangle with the point of star s and a third one. A star that
-// might have an undecided triangle is among the open ones, or its tile has sent the triangle.
-bool Growth::lacks_triangle(Row point, std::size_t s, Row third) const {
-  if (!active_.contains(point)) return false;
+// That of the triangle with the point of star s and a third one in the star of another point, if that is
+// active. A star that might have an undecided triangle is among the open ones, or its tile has sent the
+// triangle.
+Scale Growth::scale_in(Row point, std::size_t s, Row third) const {
+  if (!active_.contains(point)) return Scale::kFine;
   if (!tile_.owns(point)) {
-    return is_measured_[tiling_.tile_of_row(point)] != 0 &&
-           !std::binary_search(remote_triangles_.begin(), remote_triangles_.end(),
-                               RemoteTriangle{points_[s].owned, 0, point, third});
+    if (is_measured_[tiling_.tile_of_row(point)] == 0) return Scale::kFine;
+    const RemoteTriangle wanted{points_[s].owned, Scale::kNone, point, third};
+    const auto at = std::lower_bound(remote_triangles_.begin(), remote_triangles_.end(), wanted);
+    return at != remote_triangles_.end() && !(wanted < *at) ? at->scale : Scale::kNone;
   }
   const std::uint32_t star = star_of_[tile_.local(point)];
-  return star == kNone || !stars_[star].has_triangle(row(s), third);
+  return star == kNone ? Scale::kNone : stars_[star].scale_of(row(s), third);
 }
 
 }  // namespace lacuna

@@ -28,7 +28,7 @@ class Growth {
   void find_active_points(const std::function<void(Row)>& visit);
 
   // Each wedge of active points, in ascending row. All active points are known.
-  std::vector<Wedge> wedges();
+  std::vector<Wedge> wedges(const TangentialConfig& config);
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -36,7 +36,8 @@ class Growth {
   Row row(std::size_t s) const { return tile_.row(points_[s].owned); }
   bool follow(std::size_t s, const std::function<void(Row)>& visit);
   bool is_inconsistent(std::size_t s, std::size_t i);
-  bool lacks_triangle(Row point, std::size_t s, Row third) const;
+  Scale scale_of(std::size_t s, std::size_t i);
+  Scale scale_in(Row point, std::size_t s, Row third) const;
 
   const Tiling& tiling_;
   const Tile& tile_;
@@ -44,6 +45,7 @@ class Growth {
   RowSet& active_;
   std::span<const RemoteTriangle> remote_triangles_;
   std::span<const OpenStar> points_;
+  std::span<const OpenLinkVertex> vertices_;
   Stars<Row> stars_;
   std::vector<std::uint32_t> star_of_;  // by owned index
 };

@@ -79,8 +79,8 @@ void RadiusBounder::find() {
     const double most = config_.most_radius * distance;
     const double circle = std::min(circles_[counts[i] / 2].at[i], most);
     const double spread = std::min(spreads_[counts[i] / 2].at[i], most);
-    bounds_[i] = {static_cast<float>((config_.max_radius * circle + spread) / distance),
-                  static_cast<float>((config_.least_spread * circle + spread) / distance)};
+    const double fine = (config_.max_radius * circle + spread) / distance;
+    bounds_[i] = {static_cast<float>(fine), static_cast<float>(config_.coarse_bound * fine)};
   }
 }
 

@@ -28,9 +28,9 @@ struct Surroundings {
 };
 
 // With M the median of the circles of a point and its neighbours, S that of their spreads, each at most half
-// of the point's mean distance (`most_radius`), the largest radius is 1.5 M + S (`max_radius`) and the unit
-// S + 0.1 M (`least_spread`). Points without a star, or with large balls only, do not count; where none
-// counts, M and S are that half. The bound of a point without a star is 0.
+// of the point's mean distance (`most_radius`), the fine bound is 1.5 M + S (`max_radius`) and the coarse one
+// twice that (`coarse_bound`). Points without a star, or with large balls only, do not count; where none
+// counts, M and S are that half. The bounds of a point without a star are 0.
 // A batch of points at once: keeps its memory.
 class RadiusBounder {
  public:

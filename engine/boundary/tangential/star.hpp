@@ -4,6 +4,8 @@
 #include "engine/model/ids.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -33,13 +35,22 @@ struct Sampling {
   double spread = 0;    // and how far the smallest of these is below
 };
 
+// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.3 and C.6).
+enum class Scale : std::uint8_t {
+  kFine,
+  kCoarse,  // not to the fine one
+  kNone,    // to neither: it is no triangle of the surface
+};
+inline constexpr std::array kScales{Scale::kFine, Scale::kCoarse};
+
 // Which balls make a triangle, in units of `Sampling::distance`.
 struct RadiusBound {
-  float largest = 0;
-  float unit = 1;  // of the excess radius
+  float fine = 0, coarse = 0;
 
-  // How much larger the ball is than a triangle's may be: excess radius.
-  float excess(float radius) const { return (radius - largest) / unit; }
+  float at(Scale scale) const { return scale == Scale::kFine ? fine : coarse; }
+  Scale scale_of(float radius) const {
+    return radius <= fine ? Scale::kFine : radius <= coarse ? Scale::kCoarse : Scale::kNone;
+  }
 };
 
 // Where a star's link is among the vertices of all. A star is measured once its bound is known.
@@ -56,16 +67,22 @@ struct Star {
 
   std::size_t size() const { return link.size(); }
   std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
-  // Of a measured star: whether the ball beyond link vertex i makes a triangle.
-  bool is_triangle(std::size_t i) const { return link[i].radius <= bound.largest; }
-  bool has_triangle(Name a, Name b) const {
+  // Of a measured star: the bound that the triangle beyond link vertex i keeps to.
+  Scale scale_of(std::size_t i) const { return bound.scale_of(link[i].radius); }
+  // The same of the triangle with a and b; kNone if the star does not have it.
+  Scale scale_of(Name a, Name b) const {
     for (std::size_t i = 0; i < link.size(); ++i) {
       if (link[i].point != a) continue;
       const std::size_t before = i > 0 ? i - 1 : link.size() - 1;
-      return (link[next(i)].point == b && is_triangle(i)) || (link[before].point == b && is_triangle(before));
+      Scale scale = link[next(i)].point == b ? scale_of(i) : Scale::kNone;
+      if (link[before].point == b) scale = std::min(scale, scale_of(before));
+      return scale;
     }
-    return false;
+    return Scale::kNone;
   }
+  // Within the fine bound.
+  bool is_triangle(std::size_t i) const { return scale_of(i) == Scale::kFine; }
+  bool has_triangle(Name a, Name b) const { return scale_of(a, b) == Scale::kFine; }
 };
 
 // What a tile knows of a point. The stars of active points must have the triangles that they are part of.
@@ -85,20 +102,28 @@ inline bool is_in_belt(PointState state) {
   return state == PointState::kInner || state == PointState::kBorder;
 }
 
-// Of a triangle of a star: the stars of all its active vertices must have it.
-enum class Consistency : std::uint32_t { kInconsistent, kConsistent, kUndecided };
+// Of a triangle of a star: the bound within which the stars of all its active vertices have it. While it is
+// undecided, vertices in other tiles may still raise the scale.
+struct Consistency {
+  Scale scale = Scale::kNone;
+  bool is_undecided = false;
 
-// visit(from, to, excess): each boundary wedge of a star's point, as in `Wedge`, with the largest excess
-// radius in it. None where no triangle is consistent.
+  bool at(Scale bound) const { return scale <= bound; }
+};
+
+// visit(first, last, radius): each boundary wedge of a star's point at a scale, by its first and last link
+// vertex, with the largest radius between them. None where no triangle is consistent.
 template <class Name, class Visit>
-void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Visit&& visit) {
-  const auto is_consistent = [&](std::size_t i) { return consistencies[i] == Consistency::kConsistent; };
+void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Scale scale,
+                    Visit&& visit) {
   for (std::size_t i = 0; i < star.size(); ++i) {
-    if (!is_consistent(i) || is_consistent(star.next(i))) continue;
-    std::size_t end = star.next(i);
+    if (!consistencies[i].at(scale) || consistencies[star.next(i)].at(scale)) continue;
+    const std::size_t first = star.next(i);
+    std::size_t last = first;
     float largest = 0;
-    for (; !is_consistent(end); end = star.next(end)) largest = std::max(largest, star.link[end].radius);
-    visit(star.link[star.next(i)].point, star.link[end].point, std::max(0.0f, star.bound.excess(largest)));
+    for (; !consistencies[last].at(scale); last = star.next(last))
+      largest = std::max(largest, star.link[last].radius);
+    visit(first, last, largest);
   }
 }
 

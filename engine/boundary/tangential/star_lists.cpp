@@ -16,7 +16,7 @@ StarLists::StarLists(const TileStore& store, const Job& job)
       belt_neighbours(job.file("belt-neighbours"), store.tiling().tiles.size(), job.memory.spills / 16),
       around(store.tiling().tiles.size()),
       sites(job.file("sites")),
-      samplings(job.file("samplings")),
+      samples(job.file("samples")),
       active(store.tiling().row_count()),
       open_stars(job.file("open-stars"), store.tiling().tiles.size(), job.memory.spills / 16),
       open_vertices(job.file("open-vertices"), store.tiling().tiles.size(), job.memory.spills / 8),

@@ -1,6 +1,7 @@
 // What the tangential method keeps of the tiles until all of them are evaluated.
 #pragma once
 
+#include "engine/boundary/tangential/sampling_radius.hpp"
 #include "engine/boundary/tangential/stars.hpp"
 #include "engine/boundary/tangential/wedge.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -10,6 +11,7 @@
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,12 +31,15 @@ struct BeltPoint {
 struct OpenStar {
   PointId id;
   LocalIndex owned;
-  StarPlace place;  // among the tile's open link vertices
+  StarPlace place;                                     // among the tile's open link vertices
+  double distance;                                     // `Sampling::distance`
+  std::array<double, kScales.size()> sampling_radius;  // by scale
 };
 
 // Of an open star, with the consistency of the triangle that begins here.
 struct OpenLinkVertex {
   Row point;
+  double length;  // from the star's point
   float radius;
   Consistency consistency;
 };
@@ -44,8 +49,14 @@ struct OpenStars {
   std::vector<OpenStar> stars;
   std::vector<OpenLinkVertex> vertices;
 
-  void add(PointId id, LocalIndex owned, const RadiusBound& bound) {
-    stars.push_back({id, owned, {static_cast<std::uint32_t>(vertices.size()), 0, bound}});
+  void add(PointId id, LocalIndex owned, const RadiusBound& bound, double distance,
+           SamplingRadius& sampling_radius) {
+    stars.push_back(
+        {id,
+         owned,
+         {static_cast<std::uint32_t>(vertices.size()), 0, bound},
+         distance,
+         {sampling_radius.within(bound.fine * distance), sampling_radius.within(bound.coarse * distance)}});
   }
   void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
     vertices.push_back(vertex);
@@ -53,13 +64,20 @@ struct OpenStars {
   }
 };
 
-// The star of `from`, in another tile, has the triangle (from, to, other); `to` is an owned point.
+// The star of `from`, in another tile, has the triangle (from, to, other) at the scale; `to` is an owned
+// point.
 struct RemoteTriangle {
   LocalIndex to;
-  std::uint32_t padding = 0;
+  Scale scale;
   Row from, other;
 
   friend bool operator<(const RemoteTriangle& a, const RemoteTriangle& b);
+};
+
+// What the stars around one need of it.
+struct StarSample {
+  Sampling sampling;
+  StarCircles circles;
 };
 
 // Lists are by tile.
@@ -78,7 +96,7 @@ struct StarLists {
   std::vector<std::vector<TileIndex>> around;  // tiles that own any of the belt's rows, ascending
   // By row, of the belts' rows. Each tile writes its own points.
   Column<Site> sites;
-  Column<Sampling> samplings;
+  Column<StarSample> samples;
 
   RowSet active;
   AppendLists<OpenStar> open_stars;

@@ -3,14 +3,44 @@
 #include "engine/boundary/tangential/active_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace lacuna {
 namespace {
 
-bool has_any(std::span<const Consistency> consistencies, Consistency wanted) {
-  return std::find(consistencies.begin(), consistencies.end(), wanted) != consistencies.end();
+bool is_any_undecided(std::span<const Consistency> consistencies) {
+  return std::any_of(consistencies.begin(), consistencies.end(),
+                     [](const Consistency& c) { return c.is_undecided; });
 }
+bool is_any_inconsistent(std::span<const Consistency> consistencies) {
+  return std::any_of(consistencies.begin(), consistencies.end(),
+                     [](const Consistency& c) { return !c.at(Scale::kFine); });
+}
+
+// The circles around points of a tile.
+class TileCircles {
+ public:
+  TileCircles(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config)
+      : tile_(tile), found_(found), config_(config) {}
+
+  SamplingRadius& around(LocalIndex p) {
+    circles_.clear();
+    add(p);
+    for (const LocalIndex q : tile_.neighbourhoods[p]) add(q);
+    return circles_;
+  }
+
+ private:
+  void add(LocalIndex q) {
+    circles_.add(circles_of(found_.stars[q].link, config_), found_.samplings[q].distance);
+  }
+
+  const EvaluatedTile& tile_;
+  const TileStars& found_;
+  const TangentialConfig& config_;
+  SamplingRadius circles_;
+};
 
 // Marks points, by is_wanted(p) of the owned ones, and all of their neighbours.
 template <class Wanted>
@@ -25,8 +55,10 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
 }
 
 // Wedges where all triangles are decided; else the star stays open. Returns which points have any of these.
-std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& found, StarLists& lists) {
+std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& found,
+                                    const TangentialConfig& config, StarLists& lists) {
   const std::vector<Row>& rows = tile.points.rows;
+  TileCircles circles(tile, found, config);
   std::vector<std::uint8_t> is_vertex(tile.points.owned);
   std::vector<Wedge> wedges;
   OpenStars open;
@@ -36,16 +68,24 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
     if (!is_measured(state)) continue;
     const auto star = found.stars[p];
     const auto consistencies = found.stars.consistencies_of(p);
-    if (state == PointState::kMaybeActive || has_any(consistencies, Consistency::kUndecided)) {
+    const auto row = [&](std::size_t i) { return rows[star.link[i].point]; };
+    const auto length = [&](std::size_t i) {
+      return std::sqrt(squared_distance(tile.points.positions[star.link[i].point], tile.points.positions[p]));
+    };
+    if (state == PointState::kMaybeActive || is_any_undecided(consistencies)) {
       is_vertex[p] = 1;
-      open.add(tile.points.ids[p], p, star.bound);
+      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, circles.around(p));
       for (std::size_t i = 0; i < star.size(); ++i)
-        open.add_vertex({rows[star.link[i].point], star.link[i].radius, consistencies[i]});
-    } else if (has_any(consistencies, Consistency::kInconsistent)) {
+        open.add_vertex({row(i), length(i), star.link[i].radius, consistencies[i]});
+    } else if (is_any_inconsistent(consistencies)) {
       is_vertex[p] = 1;
-      for_each_wedge(star, consistencies, [&](LocalIndex from, LocalIndex to, float excess) {
-        wedges.push_back({tile.vertex(p), rows[from], rows[to], excess});
-      });
+      const double distance = found.samplings[p].distance;
+      SamplingRadius* around = nullptr;  // for the first wedge: some points have none
+      const auto sampling_radius = [&](Scale scale) {
+        if (around == nullptr) around = &circles.around(p);
+        return around->within(star.bound.at(scale) * distance);
+      };
+      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, row, length, config, wedges);
     }
   }
   lists.append_open(tile.index, std::move(open));
@@ -54,7 +94,8 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
 }
 
 // The belt, and the sites and samplings that its stars need, here and in other tiles.
-void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& tiling, StarLists& lists) {
+void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& tiling,
+              const TangentialConfig& config, StarLists& lists) {
   const auto is_around = with_neighbours(tile, [&](LocalIndex p) { return is_in_belt(found.states[p]); });
   std::vector<LocalIndex> around;
   for (LocalIndex p = 0; p < tile.points.size(); ++p) {
@@ -93,7 +134,9 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
   write_wanted(lists.sites, tile, owned, [&](LocalIndex p) {
     return site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]);
   });
-  write_wanted(lists.samplings, tile, owned, [&](LocalIndex p) { return found.samplings[p]; });
+  write_wanted(lists.samples, tile, owned, [&](LocalIndex p) {
+    return StarSample{found.samplings[p], circles_of(found.stars[p].link, config)};
+  });
 }
 
 }  // namespace
@@ -102,8 +145,8 @@ std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& ti
                                      const TangentialConfig& config, StarLists& lists) {
   const TileStars found =
       find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates, tile.is_border, config);
-  std::vector<std::uint8_t> is_vertex = add_stars(tile, found, lists);
-  add_belt(tile, found, tiling, lists);
+  std::vector<std::uint8_t> is_vertex = add_stars(tile, found, config, lists);
+  add_belt(tile, found, tiling, config, lists);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) is_vertex[p] |= is_in_belt(found.states[p]);
   return is_vertex;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/chains.hpp"
+#include "engine/boundary/tangential/choose_scale.hpp"
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
 #include "engine/store/merge_runs.hpp"
@@ -14,7 +15,7 @@ namespace lacuna {
 namespace {
 
 // Measured: a wedge of a tile, its partners and its curve.
-constexpr std::uint64_t kBytesPerWedge = 120;
+constexpr std::uint64_t kBytesPerWedge = 160;
 
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
@@ -35,6 +36,8 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
       tiling_(store.tiling()),
       stars_(store, job),
       chain_points_(job.file("chain-points")),
+      loops_{RawLoops(job.file("fine-loops"), job.config.selection.min_confidence),
+             RawLoops(job.file("coarse-loops"), job.config.selection.min_confidence)},
       workspace_(job.workspace),
       curve_budget_(job.memory.global / 8 / job.arena.threads()),
       config_(job.config.tangential) {}
@@ -52,23 +55,25 @@ std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
 }
 
 // The loops along a closed curve.
-void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scratch& scratch,
-                                   RawLoops& loops) const {
+void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch) {
   const auto least = static_cast<std::size_t>(config_.min_curve);
   if (curve.size() < least) return;
   split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
     if (simple.size() < least) return;
-    loops.add(simple.size(), confidence(simple, config_, scratch), [&](std::uint64_t i) {
-      scratch.trim(sizeof(CurvePoint));
-      return simple[i].vertex;
-    });
+    loops_[static_cast<std::size_t>(scale)].add(simple.size(), rate(simple, config_, scratch),
+                                                [&](std::uint64_t i) {
+                                                  scratch.trim(sizeof(CurvePoint));
+                                                  return simple[i].vertex;
+                                                });
   });
 }
 
 // Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
 void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, FoundLoops& found) {
   const std::vector<Wedge> wedges = wedges_of(t);
-  std::atomic_ref(found.edges) += wedges.size();  // each wedge ends at two edges, each edge at two wedges
+  // Each wedge ends at two edges, each edge at two wedges.
+  std::atomic_ref(found.edges) += static_cast<std::uint64_t>(std::count_if(
+      wedges.begin(), wedges.end(), [](const Wedge& wedge) { return wedge.scale == Scale::kFine; }));
   std::vector<LocalIndex> chain_of(wedges.size());
   std::vector<CurvePoint> points;
   GraphPart<OpenChain> part{.single_vertices_count = true};
@@ -77,11 +82,12 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
     points.clear();
     for (const LocalIndex w : chain.wedges) {
       chain_of[w] = number;
-      points.push_back({wedges[w].point, wedges[w].excess});
+      points.push_back({wedges[w].point, wedges[w].evidence});
     }
+    const Scale scale = wedges[chain.wedges.front()].scale;
     if (chain.is_closed) {
       Scratch scratch(workspace_, curve_budget_);
-      add_loops(points, scratch, found.loops);
+      add_loops(points, scale, scratch);
       return;
     }
     const auto end = [&](LocalIndex w, std::size_t side) {
@@ -91,7 +97,7 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
     };
     const ChainEnd first = end(chain.wedges.front(), chain.first_side),
                    last = end(chain.wedges.back(), chain.last_side);
-    part.records.push_back({chain_points_.append(points), points.size(), {first, last}});
+    part.records.push_back({chain_points_.append(points), points.size(), scale, {first, last}});
     part.vertex_of.push_back(number);
   });
   std::vector<LocalIndex> links(part.vertices);
@@ -101,7 +107,7 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
 }
 
 FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
-  FoundLoops found{.loops = RawLoops(job.file("raw-loops"), job.config.selection.min_confidence)};
+  FoundLoops found{.loops = RawLoops(job.file("raw-loops"))};
   Phase phase(job, "loops", 0);
   exchange_borders(stars_, tiling_, job);
   job.trim();
@@ -112,7 +118,7 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   Stitch<OpenChain> stitch(tiles, kBytesPerChain, job);
   job.arena.for_each_within_budget(
       needs, job.memory.global, [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t), stitch, found); });
-  const auto add = [&](auto curve, Scratch& scratch) { add_loops(curve, scratch, found.loops); };
+  const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
   stitch.for_each_component(
       [&](std::span<const OpenChain> chains) {
         close_chains(chains, chain_points_, workspace_, curve_budget_, add);
@@ -121,6 +127,10 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
         close_many_chains(for_each_chain, count, chain_points_, workspace_, job.memory.global / 4, add);
       });
   found.components = stitch.components();
+  for (RawLoops& loops : loops_) loops.sort();
+  const auto& [fine, coarse] = loops_;
+  choose_scale(fine, coarse, job, found.loops);
+  found.raw = fine.found();
   found.loops.sort();
   return found;
 }

@@ -1,6 +1,7 @@
 // Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
 // consistent triangle. A boundary wedge is a point with the two such edges between which, around the point,
-// there is no consistent triangle; wedges chain to closed curves.
+// there is no consistent triangle; wedges chain to closed curves. That is done within a fine and a coarse
+// bound on the triangles at once, and the better of both curves stands.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
@@ -27,12 +28,13 @@ class TangentialBoundary final : public BoundaryMethod {
 
  private:
   std::vector<Wedge> wedges_of(TileIndex tile);
-  void add_loops(std::span<const CurvePoint> curve, Scratch& scratch, RawLoops& loops) const;
+  void add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch);
   void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, FoundLoops& found);
 
   const Tiling& tiling_;
   StarLists stars_;
-  Column<CurvePoint> chain_points_;  // of open chains
+  Column<CurvePoint> chain_points_;             // of open chains
+  std::array<RawLoops, kScales.size()> loops_;  // by scale
   std::filesystem::path workspace_;
   std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
   const TangentialConfig& config_;

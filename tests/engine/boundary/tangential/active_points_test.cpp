@@ -65,14 +65,15 @@ std::vector<PlainStar> measured_stars(const EvaluatedCloud& evaluated) {
   return stars;
 }
 
-bool is_consistent(const std::vector<PlainStar>& stars, const std::vector<bool>& active, LocalIndex p,
-                   std::size_t i) {
+// The coarsest scale at which the stars of the active vertices have the triangle.
+Scale scale_of(const std::vector<PlainStar>& stars, const std::vector<bool>& active, LocalIndex p,
+               std::size_t i) {
   const Star<LocalIndex> star = stars[p];
-  const auto has = [&](LocalIndex vertex, LocalIndex a, LocalIndex b) {
-    return Star<LocalIndex>(stars[vertex]).has_triangle(a, b);
+  const auto scale = [&](LocalIndex vertex, LocalIndex a, LocalIndex b) {
+    return active[vertex] ? Star<LocalIndex>(stars[vertex]).scale_of(a, b) : Scale::kFine;
   };
   const LocalIndex a = star.link[i].point, b = star.link[star.next(i)].point;
-  return star.is_triangle(i) && (!active[a] || has(a, p, b)) && (!active[b] || has(b, p, a));
+  return std::max({star.scale_of(i), scale(a, p, b), scale(b, p, a)});
 }
 
 // Seeds, these `others`, and vertices of inconsistent triangles, until there are no more.
@@ -85,7 +86,7 @@ std::vector<bool> active_points(const EvaluatedCloud& evaluated, const std::vect
     std::vector<bool> more = active;
     for (LocalIndex p = 0; p < stars.size(); ++p) {
       for (std::size_t i = 0; active[p] && i < stars[p].size(); ++i) {
-        if (!is_consistent(stars, active, p, i))
+        if (scale_of(stars, active, p, i) != Scale::kFine)
           more[stars[p].link[i].point] = more[stars[p].link[(i + 1) % stars[p].size()].point] = true;
       }
     }
@@ -101,7 +102,7 @@ bool same_link(const Star<LocalIndex>& a, const PlainStar& b) {
 }
 
 bool same_star(const Star<LocalIndex>& a, const PlainStar& b) {
-  return same_link(a, b) && a.bound.largest == b.bound.largest && a.bound.unit == b.bound.unit;
+  return same_link(a, b) && a.bound.fine == b.bound.fine && a.bound.coarse == b.bound.coarse;
 }
 
 TileStars stars_in(const EvaluatedCloud& evaluated, std::span<const std::uint8_t> is_border) {
@@ -119,7 +120,7 @@ Cloud drawn_cloud(std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("in one tile the active points are those found by definition, and so are their consistencies") {
-  std::array<std::size_t, 3> consistencies{};
+  std::array<std::size_t, 3> scales{};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const EvaluatedCloud evaluated(drawn_cloud(seed));
     const std::vector<PlainStar> stars = measured_stars(evaluated);
@@ -133,10 +134,10 @@ TEST_CASE("in one tile the active points are those found by definition, and so a
       if (!active[p]) continue;
       wrong_stars += !same_star(found.stars[p], stars[p]);
       for (std::size_t i = 0; i < stars[p].size(); ++i) {
-        const Consistency expected =
-            is_consistent(stars, active, p, i) ? Consistency::kConsistent : Consistency::kInconsistent;
-        wrong_consistencies += found.stars.consistencies_of(p)[i] != expected;
-        ++consistencies[static_cast<std::size_t>(expected)];
+        const Scale expected = scale_of(stars, active, p, i);
+        const Consistency consistency = found.stars.consistencies_of(p)[i];
+        wrong_consistencies += consistency.scale != expected || consistency.is_undecided;
+        ++scales[static_cast<std::size_t>(expected)];
       }
     }
     INFO("seed " << seed);
@@ -144,8 +145,7 @@ TEST_CASE("in one tile the active points are those found by definition, and so a
     CHECK(wrong_stars == 0);
     CHECK(wrong_consistencies == 0);
   }
-  CHECK(consistencies[static_cast<std::size_t>(Consistency::kConsistent)] > 1000);
-  CHECK(consistencies[static_cast<std::size_t>(Consistency::kInconsistent)] > 1000);
+  for (const std::size_t count : scales) CHECK(count > 1000);
 }
 
 TEST_CASE("whatever is found at the border, points and triangles that a tile decided stay as they are") {
@@ -167,7 +167,7 @@ TEST_CASE("whatever is found at the border, points and triangles that a tile dec
         if (is_border[p] && random.chance(0.3)) turned_out[p].link.clear();
         for (auto& vertex : turned_out[p].link) {
           if (random.chance(0.2))
-            vertex.radius = turned_out[p].bound.largest * static_cast<float>(random.uniform(0, 2));
+            vertex.radius = turned_out[p].bound.fine * static_cast<float>(random.uniform(0, 4));
         }
       }
       const std::vector<bool> active = active_points(evaluated, turned_out, others);
@@ -184,8 +184,8 @@ TEST_CASE("whatever is found at the border, points and triangles that a tile dec
         if (state == PointState::kInner) wrong += !same_link(found.stars[p], stars[p]);
         for (std::size_t i = 0; state == PointState::kActive && i < stars[p].size(); ++i) {
           const Consistency consistency = found.stars.consistencies_of(p)[i];
-          if (consistency == Consistency::kUndecided) continue;
-          wrong += (consistency == Consistency::kConsistent) != is_consistent(turned_out, active, p, i);
+          const Scale expected = scale_of(turned_out, active, p, i);
+          wrong += consistency.is_undecided ? consistency.scale > expected : consistency.scale != expected;
         }
         ++counts[static_cast<std::size_t>(state)];
       }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,9 @@ namespace {
 // A wedge with the ids of its points, its ends in either order.
 struct NamedWedge {
   PointId point, low, high;
-  float excess;
+  Scale scale;
+  double length, sampling_radius;
+  float clearness;
 
   auto operator<=>(const NamedWedge&) const = default;
 };
@@ -60,7 +63,8 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
   Found found{.tiles = tiling.tiles.size()};
   for (const Wedge& wedge : wedges()) {
     const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
-    found.wedges.push_back({wedge.point.id, low, high, wedge.excess});
+    const auto& [length, sampling_radius, clearness] = wedge.evidence;
+    found.wedges.push_back({wedge.point.id, low, high, wedge.scale, length, sampling_radius, clearness});
   }
   found.across_tiles = found.wedges.size() > certain;
   std::sort(found.wedges.begin(), found.wedges.end());
@@ -69,11 +73,12 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
 
 // Edges of the curves that wedges form: each is an edge of the wedges at both of its ends.
 bool are_closed(const std::vector<NamedWedge>& wedges) {
-  std::map<std::pair<PointId, PointId>, int> edges;  // as many from the lower id as from the higher one
+  // As many from the lower id as from the higher one.
+  std::map<std::tuple<Scale, PointId, PointId>, int> edges;
   for (const NamedWedge& wedge : wedges) {
     for (const PointId other : {wedge.low, wedge.high}) {
-      if (wedge.point < other) ++edges[{wedge.point, other}];
-      if (other < wedge.point) --edges[{other, wedge.point}];
+      if (wedge.point < other) ++edges[{wedge.scale, wedge.point, other}];
+      if (other < wedge.point) --edges[{wedge.scale, other, wedge.point}];
     }
   }
   return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });

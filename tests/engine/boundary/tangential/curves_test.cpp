@@ -4,6 +4,7 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -22,7 +23,7 @@ std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
     if (i % 2 == 1) std::swap(from, to);
-    wedges.push_back({vertex(rows[i]), from, to, static_cast<float>(rows[i])});
+    wedges.push_back({vertex(rows[i]), from, to, {.length = double(rows[i])}, Scale::kFine});
   }
   return wedges;
 }
@@ -34,16 +35,17 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
     CHECK(chain.is_closed);
     curves.emplace_back();
-    for (const LocalIndex w : chain.wedges) curves.back().push_back({wedges[w].point, wedges[w].excess});
+    for (const LocalIndex w : chain.wedges) curves.back().push_back({wedges[w].point, wedges[w].evidence});
   });
   return curves;
 }
 
+// Points of length 1 among circles of 1.
 std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
-                                 const std::vector<float>& excess = {}) {
+                                 const std::vector<float>& clearness = {}) {
   std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, excess.empty() ? 0 : excess[i]});
+    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, {1, 1, clearness.empty() ? 0 : clearness[i]}});
   return curve;
 }
 
@@ -70,7 +72,7 @@ std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
 double confidence_of(const std::vector<CurvePoint>& curve, const TangentialConfig& config) {
   const test::ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
-  return confidence(curve, config, scratch);
+  return rate(curve, config, scratch).confidence;
 }
 
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
@@ -87,7 +89,7 @@ TEST_CASE("wedges chain to one closed curve, through a point that it passes twic
   std::vector<std::uint64_t> found;
   for (const CurvePoint& p : one[0]) {
     found.push_back(value(p.vertex.row));
-    CHECK(p.excess == static_cast<float>(value(p.vertex.row)));
+    CHECK(p.evidence.length == double(value(p.vertex.row)));
   }
   std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
   if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
@@ -112,7 +114,7 @@ TEST_CASE(
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
   wedges.insert(wedges.end(), other.begin(), other.end());
-  wedges.push_back({vertex(40), Row{41}, Row{42}, 0});  // alone in its tile
+  wedges.push_back({vertex(40), Row{41}, Row{42}, {}, Scale::kFine});  // alone in its tile
   const std::vector<WedgePartners> partners = partners_of(wedges);
   CHECK(std::count(partners[0].begin(), partners[0].end(), kNoIndex) == 0);
   CHECK(std::count(partners[1].begin(), partners[1].end(), kNoIndex) == 1);
@@ -166,9 +168,9 @@ TEST_CASE("a curve is split where it passes a point again, into curves that pass
   CHECK(parts({1, 5, 4, 1, 2, 3}) == Curves{{1, 2, 3}, {1, 4, 5}});
   CHECK(parts({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
   CHECK(parts({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
-  const auto excesses = split(curve_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
-  REQUIRE(excesses.size() == 2);
-  CHECK(excesses[1][1].excess == 4);  // of the pass that stays on the curve
+  const auto both = split(curve_of({1, 2, 3, 2, 4}, {1, 2, 3, 4, 5}));
+  REQUIRE(both.size() == 2);
+  CHECK(both[1][1].evidence.clearness == 4);  // of the pass that stays on the curve
 }
 
 // Whatever the curve, its parts pass each point once and have all its points, the same in mapped arrays.
@@ -199,26 +201,51 @@ TEST_CASE("random curves are split into simple ones, in memory and in mapped fil
   }
 }
 
-TEST_CASE(
-    "confidence is the mean of the points' excess radius, up to what is clear, with some points more that "
-    "have none") {
-  const TangentialConfig config{.clear_excess = 2, .doubt = 4};
+TEST_CASE("confidence is a logistic function of the mean clearness along the curve and some length more") {
+  const TangentialConfig config{.added_length = 5, .confidence_middle = 0.5, .confidence_slope = 8};
+  const auto logistic = [](double evidence) { return 1 / (1 + std::exp(-8 * (evidence - 0.5))); };
   const std::vector<std::uint64_t> twenty(20, 1);
-  const double points = 20 + 4;
-  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 2)), config) == 20 / points);
-  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 8)), config) == 20 / points);
-  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 0.5)), config) == 5 / points);
-  CHECK(confidence_of(curve_of(twenty), config) == 0);
-  std::vector<float> half(20, 0);
-  std::fill(half.begin(), half.begin() + 10, 3.0f);
-  CHECK(confidence_of(curve_of(twenty, half), config) == 10 / points);
+  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 1)), config) == Approx(logistic(20. / 25)));
+  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 0.625)), config) == Approx(0.5));
+  CHECK(confidence_of(curve_of(twenty), config) == Approx(logistic(0)));
+  // Half of the points are clear, and three times as long as the others; circles are twice as large.
+  std::vector<CurvePoint> curve = curve_of(twenty);
+  for (std::size_t i = 0; i < 20; ++i) curve[i].evidence = {i % 2 == 0 ? 3. : 1., 2, i % 2 == 0 ? 1.f : 0.f};
+  CHECK(confidence_of(curve, config) == Approx(logistic(30. / (40 + 5 * 2))));
 }
 
-TEST_CASE("the more points a curve has, the surer it is") {
+TEST_CASE("a ball is clear in proportion to what it has beyond the sampling radius") {
+  const TangentialConfig config{.clear_radius = 2.5};
+  CHECK(clearness(3, 4, config) == 0);
+  CHECK(clearness(4, 4, config) == 0);
+  CHECK(clearness(7, 4, config) == 0.5);
+  CHECK(clearness(10, 4, config) == 1);
+  CHECK(clearness(1e300, 4, config) == 1);
+}
+
+TEST_CASE("wedges of both scales at the same points chain apart") {
+  std::vector<Wedge> wedges = ring({1, 2, 3, 4, 5}), coarse = ring({1, 2, 4, 3, 5});
+  for (Wedge& wedge : coarse) wedge.scale = Scale::kCoarse;
+  wedges.insert(wedges.end(), coarse.begin(), coarse.end());
+  const std::vector<std::vector<CurvePoint>> curves = follow(wedges);
+  REQUIRE(curves.size() == 2);
+  const auto next_of_2 = [&](const std::vector<CurvePoint>& curve) {
+    std::set<std::uint64_t> next;
+    for (std::size_t i = 0; i < 5; ++i) {
+      if (value(curve[i].vertex.row) != 2) continue;
+      next = {value(curve[(i + 1) % 5].vertex.row), value(curve[(i + 4) % 5].vertex.row)};
+    }
+    return next;
+  };
+  CHECK(std::set{next_of_2(curves[0]), next_of_2(curves[1])} ==
+        std::set<std::set<std::uint64_t>>{{1, 3}, {1, 4}});
+}
+
+TEST_CASE("the longer a clear curve is, the surer it is") {
   double before = 0;
   for (std::size_t count = 3; count < 40; ++count) {
     const double now =
-        confidence_of(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 3)), {});
+        confidence_of(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 1)), {});
     CHECK(now > before);
     before = now;
   }

@@ -12,7 +12,7 @@ namespace lacuna {
 namespace {
 
 constexpr TangentialConfig kConfig{
-    .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .least_spread = 0.25};
+    .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .coarse_bound = 3};
 
 Sampling sampling_among(std::vector<float> balls, double distance) {
   std::vector<LinkVertex<LocalIndex>> link;
@@ -39,8 +39,8 @@ RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const Surround
   const double circle = circles.empty() ? most : std::min(median(circles), most);
   const double spread = circles.empty() ? most : std::min(median(spreads), most);
   const double distance = samplings[around.point].distance;
-  return {static_cast<float>((kConfig.max_radius * circle + spread) / distance),
-          static_cast<float>((kConfig.least_spread * circle + spread) / distance)};
+  const double fine = (kConfig.max_radius * circle + spread) / distance;
+  return {static_cast<float>(fine), static_cast<float>(3 * fine)};
 }
 
 }  // namespace
@@ -84,11 +84,12 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("the excess radius of a ball is what it has beyond the largest of a triangle, in its unit") {
-  const RadiusBound bound{.largest = 1.5f, .unit = 0.25f};
-  CHECK(bound.excess(2) == 2);
-  CHECK(bound.excess(1.5f) == 0);
-  CHECK(bound.excess(1) == -2);
+TEST_CASE("a triangle is of the finest scale whose bound it keeps to") {
+  const RadiusBound bound{.fine = 1.5f, .coarse = 3};
+  CHECK(bound.scale_of(1.5f) == Scale::kFine);
+  CHECK(bound.scale_of(2) == Scale::kCoarse);
+  CHECK(bound.scale_of(3) == Scale::kCoarse);
+  CHECK(bound.scale_of(3.5f) == Scale::kNone);
 }
 
 TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batch") {
@@ -120,7 +121,7 @@ TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batc
             points, [&](std::size_t i) { return all[i]; },
             [&](std::size_t i, const RadiusBound& bound) {
               const RadiusBound expected = bound_by_hand(samplings, all[i]);
-              wrong += i != bounded++ || bound.largest != expected.largest || bound.unit != expected.unit;
+              wrong += i != bounded++ || bound.fine != expected.fine || bound.coarse != expected.coarse;
             });
     CHECK(bounded == points);
   }

@@ -1,0 +1,27 @@
+#include "engine/boundary/tangential/sampling_radius.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace lacuna {
+
+void SamplingRadius::add(const StarCircles& circles, double distance) {
+  for (const float radius : circles.radii) {
+    if (radius <= std::numeric_limits<float>::max()) circles_.push_back(radius * distance);
+  }
+}
+
+double SamplingRadius::within(double bound) {
+  std::array<std::uint32_t, kSteps + 1> counts{};  // by how many steps they exceed; the last: not within
+  const double per_step = kSteps / bound;
+  for (const double circle : circles_)
+    ++counts[static_cast<std::size_t>(std::min(circle * per_step, double{kSteps}))];
+  const std::size_t count = circles_.size() - counts[kSteps], rank = count * 9 / 10;
+  if (count == 0) return bound;
+  std::size_t step = 0;
+  for (std::size_t below = counts[0]; below <= rank; below += counts[step]) ++step;
+  return static_cast<double>(step + 1) / kSteps * bound;
+}
+
+}  // namespace lacuna
