@@ -11,15 +11,16 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-import run as accuracy  # noqa: E402
+from measure import detect  # noqa: E402
+from sets import GROUPS, fail, run  # noqa: E402
 
-DEFAULT_SETS = "noise50|closed-uneven|meshes|range/|range-made"
+DEFAULT_SETS = "noise50|closed-uneven|^meshes|range/|range-made"
 
 
 def constants(lacuna):
     """Of each constant its name and its value as text."""
     section = ""
-    for line in accuracy.run([lacuna, "detect", "--print-config"]).splitlines():
+    for line in run([lacuna, "detect", "--print-config"]).splitlines():
         if line.startswith("["):
             section = line.strip("[]")
         elif section == "tangential" and (match := re.fullmatch(r"(\w+) = ([0-9.e+-]+)", line)):
@@ -34,7 +35,7 @@ def changed(value, factor):
 def measure(arguments, cases, options):
     """By group the loops found, those not true, and how many are true."""
     def one(case):
-        row = accuracy.detect(arguments, case, "constants", options)
+        row = detect(arguments, case, "constants", options)
         return case.group, row["found"], row["false"], row["true"]
 
     groups = {}
@@ -62,10 +63,10 @@ def main():
     arguments.detect_options = ["--threads", "1"]
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
 
-    cases = [case for sets in accuracy.GROUPS for case in sets(arguments)
+    cases = [case for sets in GROUPS for case in sets(arguments)
              if re.search(arguments.only, f"{case.group}/{case.name}")]
     if not cases:
-        accuracy.fail("no set was run")
+        fail("no set was run")
     for case in cases:
         case.ensure()
     groups = measure(arguments, cases, [])

@@ -28,6 +28,26 @@ class Mesh:
                 faces_at[edge] = faces_at.get(edge, 0) + 1
         return {vertex for edge, count in faces_at.items() if count == 1 for vertex in edge}
 
+    def boundary_loops(self):
+        """Simple loops: half-edges without an opposite one, chained, and cut where they pass a vertex twice."""
+        edges = {edge for face in self.faces for edge in zip(face, face[1:] + face[:1])}
+        ends = {}
+        for a, b in sorted(edges):
+            if (b, a) not in edges:
+                ends.setdefault(a, []).append(b)
+        loops = []
+        for start in sorted(ends):
+            chain = [start]
+            while ends.get(chain[-1]):
+                vertex = ends[chain[-1]].pop()
+                if vertex in chain:
+                    begin = chain.index(vertex)
+                    loops.append(chain[begin:])
+                    del chain[begin + 1:]
+                else:
+                    chain.append(vertex)
+        return loops
+
     def without(self, removed):
         """Without these vertices, the faces at them, and then the vertices that no face uses."""
         faces = [face for face in self.faces if not any(vertex in removed for vertex in face)]

@@ -259,8 +259,7 @@ def touched_twice(triangles):
 
 def range_map(scene, perspective, noise, strays, seed):
     """What a scanner sees of one of the SCENES, with noise along its rays, in steps of the grid; with `strays` the
-    points that no triangle uses are there too. Loops do not touch: `lacuna evaluate` takes two that share a vertex
-    for one, so that points where they would are lost as well."""
+    points that no triangle uses are there too. Loops do not touch: points where they would are lost as well."""
     rays, shape = SCENES[scene]
     seen = scan(shape, perspective, rays, noise, random.Random(seed))
     triangles = grid_triangles(seen, rays)

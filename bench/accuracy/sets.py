@@ -1,5 +1,6 @@
 """The scans whose holes are known, group by group: how each is made, or where it lies. See README.md."""
 
+import functools
 import itertools
 import json
 import random
@@ -11,12 +12,20 @@ from pathlib import Path
 
 from mesh import cut_balls, read_mesh, write_mesh
 from range_map import SCENES, range_map
-from thin import overlap, thin
+from degrade import doubled, falling_by_ten, halved, read_scan, with_outliers
+from thin import overlap, thin, write_points
 
 SYNTH_KINDS = ["plane", "waves", "cylinder", "torus", "sphere-cap"]
 CLOSED_KINDS = ["torus", "sphere", "cube"]
 NOISES = [0, 0.25, 0.5]  # spacings
 RANGE_NOISES = [0, 0.1, 0.3]  # steps of the grid of rays
+UNEVEN_MESHES = ["arm", "beast", "beetle", "max", "rocker"]
+# By group: the end of a set's name, how it is degraded, and the vertices of the shortest true loop that counts. None is
+# as in the set that it is made of.
+DEGRADED = {"half": ("half", halved, 8),
+            "density": ("tenth", falling_by_ten, 8),
+            "doubled": ("doubled", doubled, None),
+            "outliers": ("outliers", with_outliers, None)}
 
 
 @dataclass
@@ -46,10 +55,15 @@ def run(command):
     return done.stdout
 
 
-def surface(arguments, group, name, options):
+def synth(arguments, group, name, kind, options):
+    """Made by `lacuna synth KIND`."""
     scan = arguments.work / "sets" / f"{name}.ply"
     return Set(group, name, scan, scan.with_suffix(".loops.txt"), 16,
-               lambda: run([arguments.lacuna, "synth", "surface", scan, *options]))
+               lambda: run([arguments.lacuna, "synth", kind, scan, *options]))
+
+
+def surface(arguments, group, name, options):
+    return synth(arguments, group, name, "surface", options)
 
 
 def from_dense(arguments, group, name, options, points, write):
@@ -108,13 +122,17 @@ def closed_sets(arguments):
                                  [*options, "--noise", 2 * noise], seed)
 
 
-def real(arguments, name):
-    """A real scan; none where it is not there."""
-    file = arguments.data / name
+@functools.cache  # so that a missing file is named once
+def existing(file):
     if file.exists():
         return file
     print(f"accuracy: {file} is not there: its sets are skipped", file=sys.stderr)
     return None
+
+
+def real(arguments, name):
+    """A real scan; none where it is not there."""
+    return existing(arguments.data / name)
 
 
 def made_mesh(arguments, group, name, make):
@@ -123,10 +141,11 @@ def made_mesh(arguments, group, name, make):
     return Set(group, name, file, file, make=lambda: write_mesh(make(), file))
 
 
-def spacing_of(arguments, mesh):
+def spacing_of(arguments, truth):
+    """Of the scan whose truth this is."""
     none = arguments.work / "none.loops.txt"
     none.write_text("# no loops\n", encoding="utf-8")
-    return json.loads(run([arguments.lacuna, "evaluate", none, mesh, "--json"]))["spacing"]
+    return json.loads(run([arguments.lacuna, "evaluate", none, truth, "--json"]))["spacing"]
 
 
 def cut_mesh(arguments, file, seed):
@@ -141,6 +160,35 @@ def mesh_sets(arguments):
         for seed in (1, 2, 3):
             yield made_mesh(arguments, "meshes", f"bunny-cut{seed}",
                             lambda seed=seed: cut_mesh(arguments, bunny, seed))
+
+
+def uneven_mesh_sets(arguments):
+    for name in UNEVEN_MESHES:
+        scan, truth = (real(arguments, f"uneven/{name}{ending}") for ending in (".ply", ".loops.txt"))
+        if scan and truth:
+            yield Set("uneven-meshes", name, scan, truth, 16)
+
+
+def degraded(arguments, source, group, name, treatment, min_vertices, seed):
+    scan = arguments.work / "sets" / f"{name}.ply"
+
+    def make():
+        source.ensure()
+        whole = read_scan(source.scan, source.truth, spacing_of(arguments, source.truth))
+        made = treatment(whole, random.Random(seed))
+        write_points(made.points, made.loops, scan)
+
+    return Set(group, name, scan, scan.with_suffix(".loops.txt"), min_vertices, make)
+
+
+def degraded_sets(arguments):
+    noisy = "-noise25-random"
+    surfaces = [case for case in synth_sets(arguments) if case.name.endswith(noisy)]
+    for group, (ending, treatment, min_vertices) in DEGRADED.items():
+        for seed, source in enumerate([*surfaces, *mesh_sets(arguments)], start=201):
+            yield degraded(arguments, source, f"{group}-meshes" if source.group == "meshes" else group,
+                           f"{source.name.removesuffix(noisy)}-{ending}", treatment,
+                           min_vertices or source.min_vertices, seed)
 
 
 def range_sets(arguments):
@@ -158,6 +206,18 @@ def range_made_sets(arguments):
         name = f"{scene}-{view}-noise{round(100 * noise)}{'-strays' if strays else ''}"
         yield made_mesh(arguments, "range-made", name,
                         lambda made=(scene, view == "perspective", noise, strays, number): range_map(*made))
+
+
+def lidar_sets(arguments):
+    scans = {"room": ["--stations", 2],
+             "room-registration": ["--stations", 3, "--noise", 0.005, "--registration", 0.005],
+             "court": ["--stations", 2],
+             "court-registration": ["--stations", 3, "--registration", 0.02],
+             "hall": ["--stations", 2, "--noise", 0.005],
+             "hall-rings": ["--stations", 3, "--ring-ratio", 5]}
+    for seed, (name, options) in enumerate(scans.items(), start=41):
+        yield synth(arguments, "lidar", f"lidar-{name}", "scan",
+                    ["--scene", name.split("-")[0], "--points", 200_000, "--seed", seed, *options])
 
 
 def quick_sets(arguments):
@@ -186,10 +246,15 @@ def quick_sets(arguments):
         yield uneven_surface(arguments, "quick", f"quick-uneven-closed-{seed}",
                              ["--kind", "sphere", "--holes", 0, "--noise", 0.5], seed, 64_000)
     yield overlapping_surface(arguments, "quick", "quick-overlapping", dense_holes("plane"), 1, 64_000)
+    for seed, (name, kind, treatment) in enumerate([("half", "cylinder", halved), ("tenth", "waves", falling_by_ten),
+                                                    ("doubled", "sphere-cap", doubled)], start=221):
+        source = surface(arguments, "quick", f"quick-whole-{kind}", holes(kind, "--points", 16_000, "--noise", 0.25))
+        yield degraded(arguments, source, "quick", f"quick-{name}", treatment, 8, seed)
     for scene, perspective, noise, strays in (("table", False, 0, True), ("wall", True, 0.1, False)):
         yield made_mesh(arguments, "quick", f"quick-range-{scene}",
                         lambda made=(scene, perspective, noise, strays, 31): range_map(*made))
 
 
 # By group; a group of the table may be one of several that a function yields.
-GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, range_sets, range_made_sets, quick_sets]
+GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, uneven_mesh_sets, degraded_sets, range_sets, range_made_sets,
+          lidar_sets, quick_sets]

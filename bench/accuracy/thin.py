@@ -37,17 +37,29 @@ def read_rows(scan):
     return list(ROW.iter_unpack(content[content.index(b"end_header\n") + len(b"end_header\n"):]))
 
 
-def write_part(rows, kept, truth, out):
-    """True loops: the points that are left of each loop, in its order."""
-    place = {vertex: i for i, vertex in enumerate(kept)}
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kept)}\n"
-              "property float x\nproperty float y\nproperty float z\nend_header\n")
+def read_loops(truth):
     with open(truth, encoding="utf-8") as lines:
-        loops = [[place[vertex] for vertex in map(int, line.split()) if vertex in place]
-                 for line in lines if not line.startswith("#")]
+        return [list(map(int, line.split())) for line in lines if not line.startswith("#")]
+
+
+def part_of(rows, loops, kept):
+    """The kept rows and true loops: the points that are left of each loop, in its order."""
+    place = {vertex: i for i, vertex in enumerate(kept)}
+    left = [[place[vertex] for vertex in loop if vertex in place] for loop in loops]
+    return [rows[vertex] for vertex in kept], [loop for loop in left if loop]
+
+
+def write_part(rows, kept, truth, out):
+    write_points(*part_of(rows, read_loops(truth), kept), out)
+
+
+def write_points(rows, loops, out):
+    """A PLY file of points, and their true loops beside it."""
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n"
+              "property float x\nproperty float y\nproperty float z\nend_header\n")
     partial = Path(f"{out}.partial")
-    partial.write_bytes(header.encode() + b"".join(ROW.pack(*rows[vertex]) for vertex in kept))
+    partial.write_bytes(header.encode() + b"".join(ROW.pack(*row) for row in rows))
     out.with_suffix(".loops.txt").write_text(
         f"# one boundary loop per line, 0-based point ids of {out.name}\n"
-        + "".join(" ".join(map(str, loop)) + "\n" for loop in loops if loop), encoding="utf-8")
+        + "".join(" ".join(map(str, loop)) + "\n" for loop in loops), encoding="utf-8")
     os.replace(partial, out)

@@ -32,5 +32,31 @@ def density_step(seed=3):
     return points
 
 
+def uneven(hole, size=24, seed=15):
+    """Clusters of up to five points, the farther apart the lower, without those in the hole (x, y, radius)."""
+    rng = random.Random(seed)
+    points = []
+    y = 0.0
+    while y < size:
+        step = 1.6 - 0.7 * y / size
+        x = 0.0
+        while x < size:
+            cluster = (x + rng.uniform(-0.4, 0.4) * step, y + rng.uniform(-0.4, 0.4) * step)
+            for _ in range(rng.randint(1, 5)):
+                p = tuple(c + rng.uniform(-0.3, 0.3) * step for c in cluster)
+                if math.dist(p, hole[:2]) > hole[2]:
+                    points.append((*p, 0.0))
+            x += step
+        y += step
+    return points
+
+
+def island(seed=193):
+    """A ring-shaped hole that a bridge of points crosses. Its curve passes a point twice."""
+    def is_kept(x, y):
+        return not 2.5 < math.dist((x, y), (7.5, 7.5)) < 4.5 or (abs(y - 7.5) < 0.7 and x > 7.5)
+    return [p for p in patch(16, seed=seed) if is_kept(*p[:2])]
+
+
 def nearest_to(points, place):
     return min(range(len(points)), key=lambda p: math.dist(points[p][:2], place))

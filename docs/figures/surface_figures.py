@@ -3,9 +3,10 @@
 import math
 
 from paper import eligible_edges, paper_loops, spanning_graph
-from scans import nearest_to, patch
+from scans import nearest_to, patch, uneven
 from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
-from tangential import Surface
+from tangential import (COARSE, COARSE_BOUND, FINE, MAX_RADIUS, MIN_CURVE, SAME_HOLE, SCALES, Surface, confidence,
+                        length, points_of)
 
 HOLE = (9.0, 8.0, 2.9)
 LIGHT_ORANGE, LIGHT_GREEN = "#f5d7b0", "#cfe6d8"
@@ -17,17 +18,16 @@ def surface(noise=0.12, seed=4, jitter=0.45, threshold=0.5):
 
 def hole_curve(scan):
     """The boundary curve around the hole."""
-    return min((c for c in scan.curves if len(c) >= 8),
-               key=lambda c: max(math.dist(scan.points[p][:2], HOLE[:2]) for p, _ in c))
+    return min(scan.curves[FINE], key=lambda c: max(math.dist(scan.points[p][:2], HOLE[:2]) for p in points_of(c)))
 
 
 def corners(scan, *ids):
     return [scan.points[p] for p in ids]
 
 
-def consistent_triangles(scan):
-    return {tuple(sorted((p, a, b))) for p in scan.active for _, a, b in scan.stars[p].triangles()
-            if scan.is_consistent(p, a, b, scan.active)}
+def consistent_triangles(scan, scale=FINE):
+    return {tuple(sorted((p, a, b))) for p in scan.active for _, a, b in scan.stars[p].triangles(scale)
+            if scan.is_consistent(p, a, b, scan.active, scale)}
 
 
 def active(path):
@@ -94,32 +94,32 @@ def star(path):
 
 def bound(path):
     scan = surface()
-    curve = [p for p, _ in hole_curve(scan)]
-    p = min(curve, key=lambda q: (math.dist(scan.points[q][:2], (HOLE[0] - HOLE[2], HOLE[1])), q))
+
+    def kinds(s):
+        return [sum(x > b for b in s.bounds) for x in s.radius]
+    curve = [p for p in points_of(hole_curve(scan)) if {0, 1, 2} <= set(kinds(scan.stars[p]))]
+    p = min(curve, key=lambda q: (math.dist(scan.points[q][:2], (HOLE[0], HOLE[1] + HOLE[2])), q))
     s, at = scan.stars[p], scan.points[p]
-    page = Page(700, 400, "Circumradii of a star and their bound")
-    panel = page.panel(20, 20, 410, 360, (at[0] + 0.9, at[1]), 7.6)
+    page = Page(700, 400, "Circumradii of a star and their bounds")
+    panel = page.panel(20, 20, 410, 360, (at[0] + 0.1, at[1] - 0.7), 7.7)
     panel.dots(scan.points, LINE, 3.4)
     n = len(s.link)
-    for i in range(n):
-        inside = s.radius[i] <= s.bound
-        color = BLUE if inside else RED
-        triangle = [at, scan.points[s.link[i]], scan.points[s.link[(i + 1) % n]]]
-        panel.path(triangle, color, 1.3, FILL if inside else "none", closed=True, dash=not inside)
-        panel.circle((at[0] + s.centre[i][0], at[1] + s.centre[i][1]), s.radius[i], color, 0.9, dash=not inside)
+    for i, kind in sorted(enumerate(kinds(s)), key=lambda entry: -entry[1]):
+        color, fill = ((BLUE, FILL), (ORANGE, LIGHT_ORANGE), (RED, "none"))[kind]
+        panel.path(corners(scan, p, s.link[i], s.link[(i + 1) % n]), color, 1.3, fill, closed=True, dash=kind == 2)
+        panel.circle((at[0] + s.centre[i][0], at[1] + s.centre[i][1]), s.radius[i], color, 0.9, dash=kind == 2)
     panel.dots([scan.points[q] for q in s.link], BLUE, 4.5)
     panel.dots([at], INK, 6)
     page.legend(448, 50, [("dot", INK, "a point at a hole"), ("dot", BLUE, "its link vertices"),
-                          ("fill", FILL, "triangles within the bound"), ("dash", RED, "beyond it, with circle")])
-    page.text(448, 155, f"Median radius M = {s.median:.2f},", INK)
-    page.text(448, 175, f"radius spread S = {s.spread:.2f}:", INK)
-    page.text(448, 195, f"bound R = 1.5 M + S = {s.bound:.2f}.", INK, weight="bold")
-    y = 230
-    page.text(448, y, "Circumradii of the star:", MUTED)
-    for i in range(n):
-        y += 20
-        words = f"{s.radius[i]:.2f}" + (f"   excess radius {s.excess(i):.1f}" if s.radius[i] > s.bound else "")
-        page.text(460, y, words, RED if s.radius[i] > s.bound else BLUE)
+                          ("fill", FILL, "within the fine bound"), ("fill", LIGHT_ORANGE, "within the coarse bound"),
+                          ("dash", RED, "beyond both, with circle")])
+    page.text(448, 172, f"Median radius M = {s.median:.2f},", INK)
+    page.text(448, 192, f"radius spread S = {s.spread:.2f}:", INK)
+    page.text(448, 212, f"fine bound {MAX_RADIUS} M + S = {s.bounds[FINE]:.2f},", INK)
+    page.text(448, 232, f"coarse bound {COARSE_BOUND} times that: {s.bounds[COARSE]:.2f}.", INK)
+    page.text(448, 262, "Circumradii of the star:", MUTED)
+    for i, (radius, kind) in enumerate(sorted(zip(s.radius, kinds(s)))):
+        page.text(448 + 50 * (i % 4), 284 + 20 * (i // 4), f"{radius:.2f}", (BLUE, ORANGE, RED)[kind])
     page.write(path)
 
 
@@ -128,11 +128,11 @@ def consistency(path):
     # An active pair near the hole, of which one star has a triangle within the bound that the other lacks.
     found = [(math.dist(scan.points[p][:2], HOLE[:2]), p, a, b) for p in sorted(scan.active)
              for _, a, b in scan.stars[p].triangles() if a in scan.active
-             and frozenset((p, b)) not in scan.kept[a] and frozenset((a, b)) in scan.kept[p]]
+             and not scan.has(a, p, b) and scan.has(p, a, b)]
     _, p, a, b = min(found)
     page = Page(700, 420, "A consistent and an inconsistent triangle")
     shared = sorted(c for _, x, y in scan.stars[p].triangles() for c in (x, y)
-                    if a in (x, y) and c != a and frozenset((p, c)) in scan.kept[a])
+                    if a in (x, y) and c != a and scan.has(a, p, c))
     centre = [(scan.points[p][i] + scan.points[a][i]) / 2 for i in range(2)]
     for i, (q, name) in enumerate(((p, "p"), (a, "q"))):
         panel = page.panel(20 + 340 * i, 20, 320, 320, centre, 5.0)
@@ -161,18 +161,15 @@ def wedges(path):
     panel = page.panel(20, 20, 410, 400, HOLE[:2], 10)
     for t in sorted(consistent_triangles(scan)):
         panel.path(corners(scan, *t), "#a9c3da", 0.8, FILL, closed=True)
-    on_curve = {p for p, _ in curve}
-    for p, first, last, _ in scan.wedges:
-        if p not in on_curve:
-            continue
-        at = scan.points[p]
-        start = math.atan2(scan.points[first][1] - at[1], scan.points[first][0] - at[0])
-        angle = (math.atan2(scan.points[last][1] - at[1], scan.points[last][0] - at[0]) - start) % (2 * math.pi)
+    for w in curve:
+        at, first, last = corners(scan, w.point, w.first, w.last)
+        start = math.atan2(first[1] - at[1], first[0] - at[0])
+        angle = (math.atan2(last[1] - at[1], last[0] - at[0]) - start) % (2 * math.pi)
         arc = [(at[0] + 0.42 * math.cos(start + angle * j / 16), at[1] + 0.42 * math.sin(start + angle * j / 16)) for j in range(17)]
         panel.path([at, *arc], ORANGE, 1, LIGHT_ORANGE, closed=True)
-    panel.path([scan.points[p] for p, _ in curve], RED, 2.8, closed=True)
+    panel.path(corners(scan, *points_of(curve)), RED, 2.8, closed=True)
     panel.dots(scan.points, MUTED, 3)
-    panel.dots([scan.points[p] for p, _ in curve], INK, 4.5)
+    panel.dots(corners(scan, *points_of(curve)), INK, 4.5)
     page.legend(448, 50, [("fill", FILL, "consistent triangle"), ("fill", LIGHT_ORANGE, "boundary wedge"),
                           ("line", RED, "boundary curve"), ("dot", INK, "its points")])
     page.text(448, 160, "A wedge ends at two boundary", MUTED)
@@ -180,6 +177,36 @@ def wedges(path):
     page.text(448, 200, "at either of its points, so the", MUTED)
     page.text(448, 220, "wedges chain to a closed curve:", MUTED)
     page.text(448, 240, f"here {len(curve)} points.", MUTED)
+    page.write(path)
+
+
+def scales(path):
+    hole = (12, 12, 4.6)
+    scan = Surface(uneven(hole))
+    stands = next(c for c in scan.loops() if any(c is other for other in scan.curves[COARSE]))
+    gives_way = max(scan.curves[FINE], key=lambda c: len(set(points_of(c)) & set(points_of(stands))))
+    fine, coarse = ({min((p, a, b), (a, b, p), (b, p, a)) for p, s in enumerate(scan.stars)
+                     for _, a, b in s.triangles(scale) if scan.is_consistent(p, a, b, scan.active, scale)}
+                    for scale in SCALES)
+    page = Page(700, 440, "A hole of an uneven scan, within both bounds")
+    panel = page.panel(20, 20, 410, 400, (12.6, 12), 17.6)
+    for triangles, fill in ((fine, FILL), (coarse - fine, LIGHT_ORANGE)):
+        panel.triangles([corners(scan, *t) for t in sorted(triangles)], "#a9c3da", 0.5, fill)
+    panel.dots(scan.points, MUTED, 2)
+    panel.path(corners(scan, *points_of(gives_way)), BLUE, 5, closed=True)
+    panel.path(corners(scan, *points_of(stands)), RED, 2.2, closed=True)
+    panel.circle(hole[:2], hole[2], INK, 1.2, dash=True)
+    page.legend(448, 50, [("fill", FILL, "within the fine bound"),
+                          ("fill", LIGHT_ORANGE, "within the coarse bound only"),
+                          ("line", BLUE, f"fine loop, {length(gives_way):.1f} long"),
+                          ("line", RED, f"coarse loop, {length(stands):.1f} long"), ("dash", INK, "the hole, as made")])
+    page.text(448, 172, f"Confidence {confidence(gives_way):.2f} and {confidence(stands):.2f}.", MUTED)
+    page.text(448, 207, "The coarse loop is shorter than", MUTED)
+    page.text(448, 227, f"{100 * SAME_HOLE:.0f} % of the fine one: it stands.", MUTED)
+    page.text(448, 262, "White places around are gaps of", MUTED)
+    page.text(448, 282, "the sampling. Their curves have", MUTED)
+    page.text(448, 302, f"fewer than {MIN_CURVE} points, or little", MUTED)
+    page.text(448, 322, "confidence.", MUTED)
     page.write(path)
 
 
@@ -206,4 +233,5 @@ def msg(path):
     page.write(path)
 
 
-FIGURES = {"msg": msg, "active": active, "star": star, "bound": bound, "consistency": consistency, "wedges": wedges}
+FIGURES = {"msg": msg, "active": active, "star": star, "bound": bound, "consistency": consistency, "wedges": wedges,
+           "scales": scales}

@@ -92,6 +92,12 @@ class Panel:
         d = "".join("M" + "L".join(f"{number(x)} {number(y)}" for x, y in map(self.at, pair)) for pair in pairs)
         self.add(f'<path d="{d}" fill="none" stroke="{color}" stroke-width="{width}"/>')
 
+    def triangles(self, corners, color, width, fill):
+        """Those with a corner in the panel, as one shape: overlaps count as inside if all have the same direction."""
+        d = "".join("M" + "L".join(f"{number(x)} {number(y)}" for x, y in map(self.at, triangle)) + "Z"
+                    for triangle in corners if any(map(self.holds, triangle)))
+        self.add(f'<path d="{d}" fill="{fill}" stroke="{color}" stroke-width="{width}" stroke-linejoin="round"/>')
+
     def circle(self, centre, radius, color=INK, width=1.5, fill="none", dash=False, opacity=1):
         x, y = self.at(centre)
         more = ' stroke-dasharray="5 4"' if dash else ""

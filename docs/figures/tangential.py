@@ -5,6 +5,15 @@ from dataclasses import dataclass, field
 
 from common import add, dot, evaluate, frame, neighbourhoods, sub
 
+FINE, COARSE = SCALES = 0, 1
+
+# C.7
+MAX_RADIUS, HOLE_RADIUS, MOST_RADIUS = 1.5, 0.85, 0.5
+COARSE_BOUND, SAME_HOLE = 2, 0.8
+CLEAR_RADIUS, ADDED_LENGTH = 2.5, 4
+CONFIDENCE_MIDDLE, CONFIDENCE_SLOPE = 0.6, 25
+MIN_CURVE = 8
+
 
 def hash_share(identity):
     """A number in [0, 1) that looks random: the weights' share."""
@@ -24,15 +33,27 @@ class Star:
     distance: float = 0.0  # d_p
     median: float = 0.0  # M_p
     spread: float = 0.0  # S_p
-    bound: float = 0.0  # R_p
+    bounds: tuple = (0.0, 0.0)  # R_p, by scale
+    sampling: tuple = (0.0, 0.0)  # sampling radius, by scale
 
-    def excess(self, i):
-        return (self.radius[i] - self.bound) / (self.spread + 0.1 * self.median)
+    def circles(self):
+        """The circumradii that do not lie in a hole, ascending."""
+        return sorted(x for x in self.radius if x <= HOLE_RADIUS * self.distance)
 
-    def triangles(self):
+    def triangles(self, scale=FINE):
         """Those within the bound: (index of the link edge, a, b)."""
         n = len(self.link)
-        return [(i, self.link[i], self.link[(i + 1) % n]) for i in range(n) if self.radius[i] <= self.bound]
+        return [(i, self.link[i], self.link[(i + 1) % n]) for i in range(n) if self.radius[i] <= self.bounds[scale]]
+
+
+@dataclass
+class Wedge:
+    point: int
+    first: int  # the ends of its boundary edges
+    last: int
+    length: float  # of the curve at the point
+    sampling: float  # the point's sampling radius
+    clearness: float
 
 
 def hull(points):
@@ -90,23 +111,76 @@ def median(numbers):
 
 
 def set_bounds(stars, around):
-    """M_p, S_p and R_p from the circumradii around."""
-    medians, spreads = {}, {}
+    """M_p, S_p, R_p and the sampling radii from the circumradii around."""
+    circles = [star.circles() for star in stars]
     for p, star in enumerate(stars):
-        radii = [x for x in star.radius if x <= 0.85 * star.distance]
-        if radii:
-            medians[p] = median(radii)
-            spreads[p] = medians[p] - min(radii)
-    for p, star in enumerate(stars):
-        most = star.distance / 2
-        known = [q for q in [p, *around[p]] if q in medians]
-        star.median = min(median([medians[q] for q in known]), most) if known else most
-        star.spread = min(median([spreads[q] for q in known]), most) if known else most
-        star.bound = 1.5 * star.median + star.spread
+        most = MOST_RADIUS * star.distance
+        known = [circles[q] for q in [p, *around[p]] if circles[q]]
+        star.median = min(median([median(c) for c in known]), most) if known else most
+        star.spread = min(median([median(c) - c[0] for c in known]), most) if known else most
+        bound = MAX_RADIUS * star.median + star.spread
+        star.bounds = (bound, COARSE_BOUND * bound)
+        star.sampling = tuple(sampling_radius([x for c in known for x in c[:8]], bound) for bound in star.bounds)
+
+
+def sampling_radius(circles, bound):
+    """What nine in ten of the circles within the bound do not exceed, rounded up to a 64th of the bound."""
+    steps = sorted(int(circle * 64 / bound) for circle in circles if circle * 64 / bound < 64)
+    return (steps[len(steps) * 9 // 10] + 1) / 64 * bound if steps else bound
+
+
+def normalised(curve):
+    """Of all ways to write a closed curve, the one whose ids come first."""
+    least = min(w.point for w in curve)
+    ways = [way[i:] + way[:i] for way in (curve, curve[::-1]) for i, w in enumerate(way) if w.point == least]
+    return min(ways, key=points_of)
+
+
+def points_of(curve):
+    return [w.point for w in curve]
+
+
+def simple_curves(curve):
+    """Splits a curve where it passes a point twice."""
+    path, parts = [], []
+    for w in normalised(curve):
+        passed = points_of(path)
+        if w.point in passed:
+            begin = passed.index(w.point)
+            parts.append(normalised(path[begin:]))
+            del path[begin:]
+        path.append(w)
+    return [*parts, normalised(path)]
+
+
+def length(curve):
+    return sum(w.length for w in curve)
+
+
+def confidence(curve):
+    """C.6"""
+    clear = sum(w.clearness * w.length for w in curve)
+    added = ADDED_LENGTH * sum(w.sampling for w in curve) / len(curve)
+    evidence = clear / (length(curve) + added)
+    return 1 / (1 + math.exp(-CONFIDENCE_SLOPE * (evidence - CONFIDENCE_MIDDLE)))
+
+
+def choose_scale(fine, coarse):
+    """The curves that stand (C.6)."""
+    on, stand = [[] for _ in fine], []  # coarse curves, by the fine one that they lie on
+    for curve in coarse:
+        shared = [len(set(points_of(curve)) & set(points_of(other))) for other in fine]
+        most = max(shared, default=0)
+        (on[shared.index(most)] if most else stand).append(curve)
+    for curve, coarser in zip(fine, on):
+        is_same = sum(map(length, coarser)) >= SAME_HOLE * length(curve)
+        is_surest = confidence(curve) >= max(map(confidence, coarser), default=0)
+        stand += [curve] if is_same or is_surest else coarser
+    return stand
 
 
 class Surface:
-    """Everything of a point set: evaluations, stars, active points, boundary wedges and curves."""
+    """Everything of a point set: evaluations, stars, active points; boundary wedges and curves, by scale."""
 
     def __init__(self, points, k=15, is_seed=lambda e: e.probability > 0.5, weights=(1, 1, 1)):
         self.points = points
@@ -114,20 +188,27 @@ class Surface:
         self.evaluations = [evaluate(points, p, self.around[p], weights) for p in range(len(points))]
         self.stars = [star_of(points, self.evaluations, p, self.around[p]) for p in range(len(points))]
         set_bounds(self.stars, self.around)
-        self.kept = [{frozenset((a, b)) for _, a, b in star.triangles()} for star in self.stars]
+        self.kept = [[{frozenset((a, b)) for _, a, b in s.triangles(scale)} for s in self.stars] for scale in SCALES]
         self.seeds = {p for p, e in enumerate(self.evaluations) if is_seed(e)}
         self.active = self.grow()
-        self.wedges = [w for p in sorted(self.active) for w in self.wedges_of(p)]
-        self.curves = self.chain()
+        self.wedges = [[w for p in sorted(self.active) for w in self.wedges_of(p, scale)] for scale in SCALES]
+        self.curves = [self.chain(scale) for scale in SCALES]
+
+    def loops(self, min_confidence=0.5):
+        return choose_scale(*([c for c in curves if confidence(c) >= min_confidence] for curves in self.curves))
 
     def edges_of(self, p):
         link = self.stars[p].link
         return [(link[i], link[(i + 1) % len(link)]) for i in range(len(link))]
 
-    def is_consistent(self, p, a, b, active):
+    def has(self, p, a, b, scale=FINE):
+        """The triangle is in the star of p."""
+        return frozenset((a, b)) in self.kept[scale][p]
+
+    def is_consistent(self, p, a, b, active, scale=FINE):
         """The triangle is in the star of p and in those of its active vertices."""
-        return (frozenset((a, b)) in self.kept[p] and (a not in active or frozenset((p, b)) in self.kept[a]) and
-                (b not in active or frozenset((p, a)) in self.kept[b]))
+        return (self.has(p, a, b, scale) and (a not in active or self.has(a, p, b, scale)) and
+                (b not in active or self.has(b, p, a, scale)))
 
     def grow(self):
         """The least fixed point."""
@@ -139,36 +220,34 @@ class Surface:
                 return active
             active |= more
 
-    def wedges_of(self, p):
-        """(p, from, to, largest excess radius)"""
-        edges = self.edges_of(p)
+    def wedges_of(self, p, scale):
+        edges, star = self.edges_of(p), self.stars[p]
         n = len(edges)
-        good = [self.is_consistent(p, a, b, self.active) for a, b in edges]
+        good = [self.is_consistent(p, a, b, self.active, scale) for a, b in edges]
         result = []
         for i in range(n):
             if good[i] and not good[(i + 1) % n]:
-                end, excess = (i + 1) % n, 0.0
+                end, largest = (i + 1) % n, 0.0
                 while not good[end]:
-                    excess = max(excess, self.stars[p].excess(end))
+                    largest = max(largest, star.radius[end])
                     end = (end + 1) % n
-                result.append((p, edges[i][1], edges[end][0], excess))
+                first, last, sampling = edges[i][1], edges[end][0], star.sampling[scale]
+                way = math.dist(self.points[first], self.points[p]) + math.dist(self.points[p], self.points[last])
+                clearness = min(max((largest / sampling - 1) / (CLEAR_RADIUS - 1), 0), 1)
+                result.append(Wedge(p, first, last, way / 2, sampling, clearness))
         return result
 
-    def chain(self):
-        """Closed curves of wedges: lists of (point, excess radius)."""
-        at = {}
-        for w, (p, a, b, _) in enumerate(self.wedges):
-            at[p, a] = at[p, b] = w
+    def chain(self, scale):
+        """Closed curves of wedges that pass each point once, sorted."""
+        at = {(w.point, end): w for w in self.wedges[scale] for end in (w.first, w.last)}
         done, curves = set(), []
-        for start in range(len(self.wedges)):
-            if start in done:
-                continue
-            curve, w, came = [], start, self.wedges[start][1]
-            while w not in done:
-                p, a, b, excess = self.wedges[w]
-                done.add(w)
-                curve.append((p, excess))
-                came, leave = p, b if a == came else a
+        for start in self.wedges[scale]:
+            curve, w, came = [], start, start.first
+            while id(w) not in done:
+                done.add(id(w))
+                curve.append(w)
+                came, leave = w.point, w.last if came == w.first else w.first
                 w = at[leave, came]
-            curves.append(curve)
-        return curves
+            if len(curve) >= MIN_CURVE:
+                curves += [c for c in simple_curves(curve) if len(c) >= MIN_CURVE]
+        return sorted(curves, key=lambda c: (c[0].point, len(c), points_of(c)))
