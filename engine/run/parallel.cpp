@@ -3,6 +3,7 @@
 #include "engine/run/error.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <latch>
@@ -40,10 +41,36 @@ void require_threads(std::size_t count) {
   tried.count_down();
 }
 
+// The first exception of many bodies; the others are not run after it. It never reaches oneTBB, which would
+// cancel its loop and skip the loops inside of bodies that still run. OpenVDB frees its trees in such loops.
+class FirstError {
+ public:
+  void run(const std::function<void()>& body) {
+    if (is_set_) return;
+    try {
+      body();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      is_set_ = true;
+    }
+  }
+  bool is_set() const { return is_set_; }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::atomic<bool> is_set_ = false;
+};
+
 // Hands out indices in ascending order while the sum of what the running ones need stays within the budget.
 class Admission {
  public:
-  Admission(std::span<const std::uint64_t> needs, std::uint64_t budget) : needs_(needs), budget_(budget) {}
+  Admission(std::span<const std::uint64_t> needs, std::uint64_t budget, const FirstError& error)
+      : needs_(needs), budget_(budget), error_(error) {}
 
   std::optional<std::size_t> enter() {
     std::unique_lock lock(mutex_);
@@ -61,17 +88,8 @@ class Admission {
     freed_.notify_all();
   }
 
-  void fail(std::exception_ptr error) {
-    const std::lock_guard lock(mutex_);
-    if (!error_) error_ = std::move(error);
-  }
-
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
  private:
-  bool done() const { return error_ || next_ == needs_.size(); }
+  bool done() const { return error_.is_set() || next_ == needs_.size(); }
 
   std::span<const std::uint64_t> needs_;
   std::uint64_t budget_;
@@ -80,7 +98,7 @@ class Admission {
   std::size_t next_ = 0;
   std::size_t running_ = 0;
   std::uint64_t used_ = 0;
-  std::exception_ptr error_;
+  const FirstError& error_;
 };
 
 }  // namespace
@@ -110,46 +128,51 @@ void TaskArena::in_arena(const std::function<void()>& work) const {
 }
 
 void TaskArena::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
-  in_arena([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
+  FirstError error;
+  const auto work = [&](std::size_t i) { error.run([&] { body(i); }); };
+  in_arena([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  error.rethrow();
 }
 
 void TaskArena::for_each_within_budget(std::span<const std::uint64_t> needs, std::uint64_t budget,
                                        const std::function<void(std::size_t)>& body) const {
-  Admission admission(needs, budget);
+  FirstError error;
+  Admission admission(needs, budget, error);
   const auto work = [&](std::size_t) {
     while (const std::optional<std::size_t> index = admission.enter()) {
-      try {
-        body(*index);
-      } catch (...) {
-        admission.fail(std::current_exception());
-      }
+      error.run([&] { body(*index); });
       admission.leave(*index);
     }
   };
   in_arena([&] { tbb::parallel_for(std::size_t{0}, threads(), work, tbb::simple_partitioner()); });
-  admission.rethrow();
+  error.rethrow();
 }
 
 void TaskArena::pipeline(const std::function<bool(std::size_t)>& produce,
                          const std::function<void(std::size_t)>& transform,
                          const std::function<void(std::size_t)>& consume, std::size_t slots) const {
+  FirstError error;
   std::size_t next = 0;
   const auto fetch = [&](tbb::flow_control& flow) -> std::size_t {
     const std::size_t slot = next++ % slots;
-    if (!produce(slot)) flow.stop();
+    bool has_more = false;
+    error.run([&] { has_more = produce(slot); });
+    if (!has_more) flow.stop();
     return slot;
   };
   const auto change = [&](std::size_t slot) {
-    transform(slot);
+    error.run([&] { transform(slot); });
     return slot;
   };
+  const auto take = [&](std::size_t slot) { error.run([&] { consume(slot); }); };
   // A slot is used again only after `consume`: the tokens in flight are fewer than the slots.
   in_arena([&] {
     tbb::parallel_pipeline(
         slots, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, fetch) &
                    tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, change) &
-                   tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, consume));
+                   tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, take));
   });
+  error.rethrow();
 }
 
 }  // namespace lacuna

@@ -7,12 +7,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <latch>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <tbb/parallel_for.h>
 
 namespace lacuna {
 namespace {
@@ -44,7 +46,8 @@ TEST_CASE("every index is visited once, with any number of threads") {
     const TaskArena arena(threads);
     std::vector<std::atomic<int>> visits(1000), within(1000);
     arena.for_each(visits.size(), [&](std::size_t i) { ++visits[i]; });
-    arena.for_each_within_budget(std::vector<std::uint64_t>(1000, 3), 10, [&](std::size_t i) { ++within[i]; });
+    arena.for_each_within_budget(std::vector<std::uint64_t>(1000, 3), 10,
+                                 [&](std::size_t i) { ++within[i]; });
     for (std::size_t i = 0; i < 1000; ++i) {
       if (visits[i] != 1 || within[i] != 1) FAIL_CHECK("index " << i << ", " << threads << " threads");
     }
@@ -57,14 +60,15 @@ TEST_CASE("eight threads are eight, even on two cores") {
   BoundedLatch latch;
   std::atomic<int> together = 0;
   arena.for_each_within_budget(std::vector<std::uint64_t>(8, 1), 8,
-                       [&](std::size_t) { together += latch.arrive_and_wait(8); });
+                               [&](std::size_t) { together += latch.arrive_and_wait(8); });
   CHECK(together == 8);
 }
 
 TEST_CASE("one thread runs one body at a time, in ascending order") {
   const TaskArena arena(1);
   std::vector<std::size_t> order;
-  arena.for_each_within_budget(std::vector<std::uint64_t>(100, 0), 100, [&](std::size_t i) { order.push_back(i); });
+  arena.for_each_within_budget(std::vector<std::uint64_t>(100, 0), 100,
+                               [&](std::size_t i) { order.push_back(i); });
   CHECK(order.size() == 100);
   CHECK(std::is_sorted(order.begin(), order.end()));
 }
@@ -109,11 +113,57 @@ TEST_CASE("an exception in a body ends the loop and is rethrown") {
       ++visits;
       if (i == 5) throw std::runtime_error("body 5");
     };
-    CHECK_THROWS_WITH(arena.for_each_within_budget(std::vector<std::uint64_t>(100'000, 1), 4, body), "body 5");
+    CHECK_THROWS_WITH(arena.for_each_within_budget(std::vector<std::uint64_t>(100'000, 1), 4, body),
+                      "body 5");
     CHECK(visits < 100'000);
     CHECK_THROWS_WITH(arena.for_each(10, body), "body 5");
     arena.for_each(10, [&](std::size_t) { ++visits; });  // and the arena goes on working
   }
+}
+
+// OpenVDB frees a tree in a loop of oneTBB: where that loop was skipped, the tree leaked.
+TEST_CASE("a loop inside of a body is whole, though another body fails meanwhile") {
+  const TaskArena arena(2);
+  std::atomic<bool> failed = false;
+  std::atomic<int> visits = 0;
+  const auto fail = [&] {
+    failed = true;
+    throw std::runtime_error("failed");
+  };
+  const auto go_on = [&] {
+    while (!failed) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    tbb::parallel_for(0, 1000, [&](int) { ++visits; });
+  };
+  BoundedLatch both;
+  CHECK_THROWS_WITH(arena.for_each(2,
+                                   [&](std::size_t i) {
+                                     both.arrive_and_wait(2);
+                                     i == 0 ? fail() : go_on();
+                                   }),
+                    "failed");
+  CHECK(visits == 1000);
+
+  failed = false;
+  visits = 0;
+  std::latch consuming(1);
+  int produced = 0;
+  CHECK_THROWS_WITH(arena.pipeline(
+                        [&](std::size_t) {
+                          if (++produced == 2) {
+                            consuming.wait();
+                            fail();
+                          }
+                          return true;
+                        },
+                        [](std::size_t) {},
+                        [&](std::size_t) {
+                          consuming.count_down();
+                          go_on();
+                        },
+                        2),
+                    "failed");
+  CHECK(visits == 1000);
 }
 
 TEST_CASE("nothing to do is done at once") {
@@ -121,14 +171,14 @@ TEST_CASE("nothing to do is done at once") {
   arena.for_each(0, [](std::size_t) { FAIL(); });
   arena.for_each_within_budget({}, 0, [](std::size_t) { FAIL(); });
   arena.pipeline([](std::size_t) { return false; }, [](std::size_t) { FAIL(); }, [](std::size_t) { FAIL(); },
-                3);
+                 3);
 }
 
 TEST_CASE("a body may itself use the arena") {
   const TaskArena arena(4);
   std::atomic<int> sum = 0;
   arena.for_each_within_budget(std::vector<std::uint64_t>(20, 1), 4,
-                       [&](std::size_t) { arena.for_each(10, [&](std::size_t) { ++sum; }); });
+                               [&](std::size_t) { arena.for_each(10, [&](std::size_t) { ++sum; }); });
   CHECK(sum == 200);
 }
 
