@@ -142,6 +142,13 @@ std::string print_config(const Config& config) {
   return text;
 }
 
+Config with_min_hole(Config config) {
+  const double min_hole = config.scale.min_hole;
+  if (config.scale.resolution == 0) config.scale.resolution = min_hole / kCellsAcross;
+  if (config.selection.min_diameter == 0) config.selection.min_diameter = min_hole;
+  return config;
+}
+
 void check_config(const Config& config) {
   Config checked = config;
   for (const Parameter& parameter : parameters(checked)) {

@@ -14,6 +14,14 @@
 
 namespace lacuna {
 
+// How small a hole may be that is wanted.
+struct ScaleConfig {
+  double resolution =
+      0.0;                // edge of the cells that one point each represents, in units of the scan; 0: chosen
+  double min_hole = 0.0;  // diameter of the smallest wanted hole, in units of the scan; 0: off
+  bool every_point = false;  // never choose a resolution
+};
+
 struct NeighbourhoodConfig {
   std::int64_t k = 15;        // nearest neighbours before the symmetric closure, >= 1
   double eps = 0.0;           // radius added to the k neighbours, in units of the scan; 0: off
@@ -86,6 +94,7 @@ struct SelectionConfig {
   double min_confidence = 0.75;  // from 0 to 1; the paper's loops have 1
   double min_perimeter = 0.0;    // lengths in units of the scan
   double max_perimeter = 0.0;    // 0: no limit
+  double min_diameter = 0.0;
   std::int64_t min_points = 0;
   bool holes_only = false;  // no outer boundaries
 };
@@ -109,6 +118,7 @@ struct RunConfig {
 };
 
 struct Config {
+  ScaleConfig scale;
   NeighbourhoodConfig neighbourhood;
   NormalsConfig normals;
   CriteriaConfig criteria;
@@ -155,6 +165,12 @@ std::vector<std::string> read_config(const std::filesystem::path& file, Config& 
 
 // The whole config as TOML, a help comment above each key.
 std::string print_config(const Config& config);
+
+// Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
+// found (docs/method.md, D).
+inline constexpr double kCellsAcross = 5;
+// The config in effect: min_hole sets the resolution and min_diameter where these are 0.
+Config with_min_hole(Config config);
 
 // Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit
 // too small to work in).

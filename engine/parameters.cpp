@@ -22,10 +22,22 @@ constexpr Need kPointsNormals{"--points --normals",
 }  // namespace
 
 std::vector<Parameter> parameters(Config& config) {
-  auto& [neighbourhood, normals, criteria, coherence, loops, spanning, tangential, selection, input, output,
-         run] = config;
+  auto& [scale, neighbourhood, normals, criteria, coherence, loops, spanning, tangential, selection, input,
+         output, run] = config;
   const double below_90 = std::nextafter(90.0, 0.0);
   std::vector<Parameter> all = {
+      {"scale", "resolution", &scale.resolution, 0, 1e100, "a length of 0 (automatic) or more",
+       "Edge of the cells of an absolute lattice, in units of the scan: one point represents each cell; 0: "
+       "chosen where "
+       "noise or scan lines are coarser than the points.",
+       kNothing},
+      {"scale", "min_hole", &scale.min_hole, 0, 1e100, "a length of 0 (off) or more",
+       "Diameter of the smallest circle that fits in a wanted hole, in units of the scan; sets the "
+       "resolution.",
+       kNothing},
+      {"scale", "every_point", &scale.every_point, 0, 1, "true or false",
+       "Every point counts, whatever noise and scan lines: no resolution is chosen.", kNothing},
+
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
        "Nearest neighbours of a point, before the neighbourhoods are made symmetric.", kNothing},
       {"neighbourhood", "eps", &neighbourhood.eps, 0, 1e150, "a length of 0 (off) or more",
@@ -103,6 +115,8 @@ std::vector<Parameter> parameters(Config& config) {
        "Loops with a smaller perimeter are not reported.", kNothing},
       {"selection", "max_perimeter", &selection.max_perimeter, 0, 1e300, "a length of 0 (no limit) or more",
        "Loops with a larger perimeter are not reported; 0: no limit.", kNothing},
+      {"selection", "min_diameter", &selection.min_diameter, 0, 1e300, "a length of 0 or more",
+       "Loops with a smaller diameter are not reported; 0: as min_hole has it.", kNothing},
       {"selection", "min_points", &selection.min_points, 0, 1e15, "a whole number from 0 to 10^15",
        "Loops with fewer points are not reported.", kNothing},
       {"selection", "holes_only", &selection.holes_only, 0, 1, "true or false",

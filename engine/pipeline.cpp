@@ -11,7 +11,10 @@
 #include "engine/results/collect.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/probability_voxels.hpp"
+#include "engine/results/represented.hpp"
 #include "engine/survey/survey_scan.hpp"
+#include "engine/thin/choose_resolution.hpp"
+#include "engine/thin/thin_scan.hpp"
 
 #include <cmath>
 #include <memory>
@@ -43,6 +46,15 @@ Summary summarise(const SurveyedScan& survey, std::uint64_t tiles, std::uint64_t
   return summary;
 }
 
+// Counts and bounds are of the input, not of the representatives.
+void add_thinned(const ThinnedScan& thinned, Summary& summary) {
+  summary.resolution = thinned.resolution;
+  summary.counts.points = thinned.points;
+  summary.counts.dropped = thinned.dropped;
+  summary.counts.thinned_out = thinned.points - thinned.dropped - thinned.representatives.size();
+  summary.bounds = thinned.bounds;
+}
+
 // The one place where the method is chosen.
 std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
   if (job.config.loops.method == LoopMethod::kPaper) return std::make_unique<PaperBoundary>(store, job);
@@ -51,7 +63,7 @@ std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Jo
 
 void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
   Counts& counts = summary.counts;
-  counts.duplicates = counts.points - counts.dropped - totals.points;
+  counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
   counts.candidates = totals.candidates;
   counts.undefined_normals = totals.undefined_normals;
   counts.boundary_edges = found.edges;
@@ -63,21 +75,55 @@ void add_findings(const Totals& totals, const FoundLoops& found, double eps, Sum
   summary.e = found.minimum_loop;
 }
 
+// The points of the scan in tiles on disk: all distinct ones or, at a resolution, the representatives.
+struct Bucketed {
+  std::optional<ThinnedScan> thinned;
+  SurveyedScan survey;
+  std::uint64_t tile_points;
+  TileStore store;
+};
+
+Bucketed bucket_points(PointSource& scan, Job& job) {
+  SurveyedScan survey = survey_scan(scan, job);
+  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
+  return {{}, std::move(survey), tile_points, std::move(store)};
+}
+
+Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) {
+  ThinnedScan thinned = thin_scan(scan, resolution, job);
+  Bucketed bucketed = bucket_points(*read_representatives(thinned), job);
+  bucketed.thinned.emplace(std::move(thinned));
+  return bucketed;
+}
+
+// Survey and bucket, at the resolution that is wanted, or that noise and scan lines leave (docs/method.md,
+// D).
+Bucketed bucket(PointSource& scan, Job& job) {
+  const ScaleConfig& scale = job.config.scale;
+  if (scale.resolution > 0) return bucket_representatives(scan, scale.resolution, job);
+  std::optional<Bucketed> all = bucket_points(scan, job);
+  const double resolution = scale.every_point ? 0 : choose_resolution(all->store, job);
+  if (resolution == 0) return *std::move(all);
+  all.reset();
+  return bucket_representatives(scan, resolution, job);
+}
+
 }  // namespace
 
-std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
                                   const std::filesystem::path& workspace, Progress& progress) {
-  check_config(config);
+  check_config(given);
+  const Config config = with_min_hole(given);
   Job job(config, workspace, progress);
 
   // Survey and bucket: where the points are, and the points in tiles on disk.
-  SurveyedScan survey = survey_scan(scan, job);
+  auto [thinned, survey, tile_points, store] = bucket(scan, job);
   const double extent = diagonal(survey.bounds);
   const double eps = eps_length(config.neighbourhood, extent);
-  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  const TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
   Summary summary = summarise(survey, store.tiling().tiles.size(), tile_points, job);
+  if (thinned) add_thinned(*thinned, summary);
 
   // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
   // keeps what it needs of an evaluated tile.
@@ -89,7 +135,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   std::optional<ProbabilityVoxels> voxels;
   std::optional<OrientationGraph> orientation;
   std::vector<TileConsumer*> consumers = {&candidates, boundary.get()};
-  if (config.output.points) consumers.push_back(&points.emplace(survey.points, store, job));
+  if (config.output.points) consumers.push_back(&points.emplace(summary.counts.points, store, job));
   if (config.output.vdb) consumers.push_back(&voxels.emplace(job));
   if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
   const Totals totals = evaluate_tiles(store, std::move(halo), eps, extent, consumers, job);
@@ -107,20 +153,29 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
-  return collect_results(
+  std::unique_ptr<Detection> detection = collect_results(
       {std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates),
        std::move(points), std::move(probabilities), std::move(opposed_normals)},
       candidates, store, job);
+  const bool is_spread = thinned && thinned->represented;
+  return is_spread ? spread_results(std::move(detection), std::move(*thinned->represented), job)
+                   : std::move(detection);
 }
 
-Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
-  check_config(config);
+Estimate estimate(PointSource& scan, const Config& given, Progress& progress) {
+  check_config(given);
+  const Config config = with_min_hole(given);
   Job job(config, {}, progress);
   SurveyedScan survey = survey_scan(scan, job);
-  const std::uint64_t points = survey.points - survey.dropped;
+  std::uint64_t points = survey.points - survey.dropped;
+  const std::uint64_t finite = points;
+  if (config.scale.resolution > 0) points = count_representatives(scan, config.scale.resolution, job);
   const std::uint64_t tile_points = job.tile_points(points);
   const TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  Estimate estimate{.summary = summarise(survey, plan.most_tiles(), tile_points, job)};
+  const std::uint64_t tiles = points < finite ? points / tile_points + 1 : plan.most_tiles();
+  Estimate estimate{.summary = summarise(survey, tiles, tile_points, job)};
+  estimate.summary.counts.thinned_out = finite - points;
+  estimate.summary.resolution = config.scale.resolution;
   estimate.summary.phases = job.phases;
   estimate.cell_size = plan.grid.edge();
   estimate.cells = plan.cells.size() + plan.aside.size();
@@ -136,6 +191,10 @@ Estimate estimate(PointSource& scan, const Config& config, Progress& progress) {
   // clean surfaces; noisy scans took up to three times the whole.
   const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
   estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results + voxels);
+  if (config.scale.resolution > 0) {
+    const std::uint64_t represented = config.output.points ? sizeof(Represented) + sizeof(PointResult) : 0;
+    estimate.workspace_bytes += 2 * points * sizeof(Representative) + finite * represented;
+  }
   return estimate;
 }
 

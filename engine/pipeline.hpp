@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "engine/run/progress.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
+#include "engine/run/progress.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -17,7 +17,8 @@ namespace lacuna {
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
                                   const std::filesystem::path& workspace, Progress& progress);
 
-// What a run would take, from one streaming pass over all of the scan. Throws `Error`.
+// What a run would take, from one streaming pass over all of the scan, and another one with a resolution.
+// Throws `Error`.
 struct Estimate {
   Summary summary;                    // points, dropped, bounds, tiles, threads, memory limit, phases
   std::uint64_t workspace_bytes = 0;  // of a clean scan; where all is noise up to three times that

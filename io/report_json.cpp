@@ -61,6 +61,7 @@ Json counts(const Counts& counts, const std::vector<LoopMeasures>& loops) {
   for (const LoopMeasures& loop : loops) holes += loop.kind == LoopKind::kHole ? 1 : 0;
   return {{"points", counts.points},
           {"dropped", counts.dropped},
+          {"thinned_out", counts.thinned_out},
           {"duplicates", counts.duplicates},
           {"candidates", counts.candidates},
           {"coherent", counts.coherent},
@@ -101,6 +102,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   if (!summary.bounds.isEmpty()) {
     json["bounds"] = {{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}};
   }
+  json["resolution"] = summary.resolution;
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;
   json["eps"] = summary.eps;

@@ -100,6 +100,11 @@ void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
   const Summary& summary = run.estimate.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
   if (summary.counts.dropped > 0) std::cout << ", " << print_count(summary.counts.dropped) << " not finite";
+  if (summary.resolution > 0) {
+    std::cout << "\n  thinned to    "
+              << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
+              << ", one per cell of " << summary.resolution;
+  }
   std::cout << "\n  bounds        ";
   if (summary.bounds.isEmpty()) {
     std::cout << "none: no finite point";

@@ -38,6 +38,7 @@ std::string print_input(const Counts& counts, const std::vector<std::filesystem:
   text += scans.size() == 1 ? " in " + visible(scans.front().string())
                             : " in " + std::to_string(scans.size()) + " files, as one scan";
   if (counts.dropped > 0) text += "; " + print_count(counts.dropped) + " not finite, dropped";
+  if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " represented by another";
   if (counts.duplicates > 0) text += "; " + print_count(counts.duplicates) + " at the place of another";
   return text + "\n";
 }
@@ -53,6 +54,11 @@ std::string print_findings(const Summary& summary) {
       {"tiles, points per tile at most",
        print_count(summary.tiles) + ", " + print_count(summary.tile_points)},
   };
+  if (summary.resolution > 0) {
+    const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
+    rows.insert(rows.begin(), {"representatives, one per cell of",
+                               print_count(representatives) + ", " + print_measure(summary.resolution)});
+  }
   if (summary.e > 0) {  // the method of the paper
     rows.push_back({"eligible edges, components",
                     print_count(counts.boundary_edges) + ", " + print_count(counts.components)});

@@ -73,7 +73,7 @@ void Scattered::scatter(const Destinations& to) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const std::uint32_t at = ends[destinations[i]]++;
     const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
-    points[at] = {p.x(), p.y(), p.z(), PointId{value(batch.first) + i}};
+    points[at] = {p.x(), p.y(), p.z(), batch.id(i)};
     if (!normals.empty()) normals[at] = {batch.normals[i].x(), batch.normals[i].y(), batch.normals[i].z()};
   }
   points.resize(finite);

@@ -2,11 +2,10 @@
 
 #include "engine/halo/distance_bound.hpp"
 #include "engine/neighbours/block_search.hpp"
+#include "engine/neighbours/stored_search.hpp"
 #include "engine/store/outbox.hpp"
 
 #include <algorithm>
-#include <queue>
-#include <unordered_map>
 
 namespace lacuna {
 namespace {
@@ -163,7 +162,7 @@ class BorderPlan {
 class HaloBuilder {
  public:
   HaloBuilder(const TileStore& store, std::size_t k, TileIndex tile, AppendLists<HaloEdge>& inboxes)
-      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), outbox_(inboxes) {}
+      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), outbox_(inboxes), far_search_(store) {}
 
   void send_edges_of_group(const Group& group) {
     std::vector<StoredPoint> stored;
@@ -190,88 +189,15 @@ class HaloBuilder {
   void send_edges_of_far_cell(std::uint32_t cell) {
     const std::vector<StoredPoint> points = store_.cell(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      send_edges_of_far_point(points[i], Row{value(tiling_.cells[cell].first_row) + i});
+      const Row row{value(tiling_.cells[cell].first_row) + i};
+      for (const StoredNeighbour& near : far_search_.nearest(points[i], row, k_))
+        send_edge(points[i], row, near.point, near.row);
     }
   }
 
   void send() { outbox_.send(); }
 
  private:
-  struct Found {
-    double squared_distance;
-    StoredPoint point;
-    Row row;
-
-    friend bool operator<(const Found& a, const Found& b) {
-      return a.squared_distance != b.squared_distance ? a.squared_distance < b.squared_distance
-                                                      : a.point.id < b.point.id;
-    }
-  };
-  struct Place {
-    double squared_distance;
-    std::uint32_t index;
-    bool is_cell;
-
-    friend bool operator<(const Place& a, const Place& b) { return a.squared_distance > b.squared_distance; }
-  };
-
-  // Best first over the tree of cells; cells are read as they come.
-  void send_edges_of_far_point(const StoredPoint& p, Row row) {
-    const Eigen::AlignedBox3d here(p.position(), p.position());
-    std::priority_queue<Place> places;
-    std::priority_queue<Found> nearest;
-    places.push({0, 0, false});
-    while (!places.empty()) {
-      const Place place = places.top();
-      places.pop();
-      if (nearest.size() == k_ && place.squared_distance > nearest.top().squared_distance) break;
-      if (place.is_cell) {
-        search_cell(place.index, p, row, nearest);
-        continue;
-      }
-      const CellNode& node = tiling_.nodes[place.index];
-      if (node.left != 0) {
-        for (const std::uint32_t child : {node.left, node.right}) {
-          places.push({min_squared_distance(here, tiling_.nodes[child].box), child, false});
-        }
-      } else {
-        for (std::uint32_t c = node.first; c < node.last; ++c) {
-          places.push({min_squared_distance(here, tiling_.cells[c].box), c, true});
-        }
-      }
-    }
-    for (; !nearest.empty(); nearest.pop()) {
-      refuse_underflow(nearest.top().squared_distance, p.id, nearest.top().point.id);
-      send_edge(p, row, nearest.top().point, nearest.top().row);
-    }
-  }
-
-  void search_cell(std::uint32_t cell, const StoredPoint& p, Row row, std::priority_queue<Found>& nearest) {
-    const std::vector<StoredPoint>& points = cached(cell);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Row other{value(tiling_.cells[cell].first_row) + i};
-      const double distance = squared_distance(points[i].position(), p.position());
-      if (other == row || (nearest.size() == k_ && distance > nearest.top().squared_distance)) continue;
-      nearest.push({distance, points[i], other});
-      if (nearest.size() > k_) nearest.pop();
-    }
-  }
-
-  const std::vector<StoredPoint>& cached(std::uint32_t cell) {
-    constexpr std::uint64_t kCachedPoints = 65'536;
-    const auto [place, is_new] = cache_.try_emplace(cell);
-    if (is_new) {
-      cached_points_ += tiling_.cells[cell].points;
-      if (cached_points_ > kCachedPoints) {
-        cache_.clear();
-        cached_points_ = tiling_.cells[cell].points;
-        return cache_[cell] = store_.cell(cell);
-      }
-      place->second = store_.cell(cell);
-    }
-    return place->second;
-  }
-
   // p has q among its k nearest.
   void send_edge(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
     const Tile& here = tiling_.tiles[tile_];
@@ -286,8 +212,7 @@ class HaloBuilder {
   std::size_t k_;
   TileIndex tile_;
   Outbox<HaloEdge> outbox_;
-  std::unordered_map<std::uint32_t, std::vector<StoredPoint>> cache_;
-  std::uint64_t cached_points_ = 0;
+  StoredSearch far_search_;
 };
 
 }  // namespace

@@ -19,10 +19,11 @@ namespace lacuna {
 struct Counts {
   std::uint64_t points = 0;           // rows of the input
   std::uint64_t dropped = 0;          // with a non-finite coordinate
+  std::uint64_t thinned_out = 0;      // represented by another point of their cell; 0 without a resolution
   std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id
   std::uint64_t candidates = 0;       // distinct points with Pi above the threshold
   std::uint64_t coherent = 0;         // of these, those that are coherent (paper, 5.1)
-  std::uint64_t boundary_points = 0;  // points of the input, duplicates too
+  std::uint64_t boundary_points = 0;  // points of the input, duplicates too, but none that was thinned out
   std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
@@ -37,6 +38,7 @@ struct PhaseTime {
 struct Summary {
   Counts counts;
   Eigen::AlignedBox3d bounds;   // of the finite points; empty without any
+  double resolution = 0;        // in effect; 0: none
   double mean_neighbours = 0;   // K
   double mean_edge_length = 0;  // over the edges of G
   double eps = 0;               // in effect
@@ -50,7 +52,8 @@ struct Summary {
 
 inline constexpr std::size_t kMostCriteria = 8;
 
-// Result of one point of the input; a duplicate has those of the point that it is a copy of.
+// Result of one point of the input; a duplicate has those of the point that it is a copy of, a point that was
+// thinned out those of its representative.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table

@@ -11,18 +11,20 @@
 
 namespace lacuna {
 
-// Consecutive points of the input, non-finite ones included. Point i has id `first + i`.
+// Points of the input in ascending id, non-finite ones included.
 struct PointBatch {
   PointId first{};
+  std::vector<PointId> ids;  // of each point; empty where point i has id `first + i`
   std::vector<Eigen::Vector3d> positions;
   // As given: one for each position if the source has normals, NaN where a file of it has none; else empty.
   std::vector<Eigen::Vector3d> normals;
 
   std::size_t size() const { return positions.size(); }
+  PointId id(std::size_t i) const { return ids.empty() ? PointId{value(first) + i} : ids[i]; }
 };
 
 // One registered scan, in any unit of length, read in bounded batches, from the first point to the last and
-// as often as wanted; ids go from 0 on. Asked from one thread at a time, not always the same; several batches
+// as often as wanted; ids ascend. Asked from one thread at a time, not always the same; several batches
 // are in memory at once. Throws `Error` naming file and place.
 class PointSource {
  public:

@@ -97,11 +97,12 @@ std::uint64_t few_points(std::uint64_t points) {
 
 Precision SurveyedScan::precision() const {
   constexpr std::uint64_t kIds = std::uint64_t{1} << 32;
-  return is_single && points <= kIds ? Precision::kSingle : Precision::kDouble;
+  return is_single && ids <= kIds ? Precision::kSingle : Precision::kDouble;
 }
 
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   CellCounts counts{.points = batch.size()};
+  if (batch.size() > 0) counts.ids = value(batch.id(batch.size() - 1)) + 1;
   const std::span<const Eigen::Vector3d> positions = batch.positions;
   counts.runs.reserve(positions.size());
   std::array<CellCoord, 256> cells;
@@ -192,6 +193,7 @@ void Survey::add(const PointBatch& batch) {
 void Survey::add(const CellCounts& counts) {
   scan_.points += counts.points;
   scan_.dropped += counts.dropped;
+  scan_.ids = std::max(scan_.ids, counts.ids);
   scan_.bounds.extend(counts.bounds);
   scan_.is_single &= counts.is_single;
   for_each_part(counts.runs, [&](std::span<const CellRun> runs) {

@@ -21,6 +21,7 @@ struct SurveyedScan {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis of the first points
   std::uint64_t points = 0;                          // rows of the input
   std::uint64_t dropped = 0;                         // with a non-finite coordinate
+  std::uint64_t ids = 0;                             // all ids are below
   bool is_single = true;  // every finite coordinate is a number of single precision
 
   Precision precision() const;
@@ -32,6 +33,7 @@ struct CellCounts {
   Eigen::AlignedBox3d bounds;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;
+  std::uint64_t ids = 0;
   bool is_single = true;
 };
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);

@@ -11,7 +11,7 @@ bool MemoryScan::next(PointBatch& batch) {
     return std::vector(all.begin() + static_cast<std::ptrdiff_t>(next_),
                        all.begin() + static_cast<std::ptrdiff_t>(end));
   };
-  batch = {PointId{next_}, part(cloud_.positions), part(cloud_.normals)};
+  batch = {PointId{next_}, {}, part(cloud_.positions), part(cloud_.normals)};
   next_ = end;
   return batch.size() > 0;
 }

@@ -1,0 +1,18 @@
+// Results of every point of a thinned scan: those of its representative.
+#pragma once
+
+#include "engine/model/detection.hpp"
+#include "engine/run/job.hpp"
+#include "engine/thin/thin_scan.hpp"
+
+#include <memory>
+
+namespace lacuna {
+
+// The detection on the representatives, with result blocks of all points of the input. Everything else is of
+// representatives alone. Cost: one sort of all points on disk when the blocks are read. With output.points
+// only.
+std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
+                                          AppendLists<Represented> represented, const Job& job);
+
+}  // namespace lacuna

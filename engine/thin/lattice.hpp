@@ -1,0 +1,32 @@
+// The lattice of a resolution: cubes of one edge that are counted from the origin of the coordinates, so that
+// the cell of a point depends on that point alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+// Where a point lies.
+struct LatticePlace {
+  Eigen::Vector3d cell;                 // whole numbers
+  std::array<std::uint32_t, 3> offset;  // from the cell's lowest corner, in edges of 2^32
+  std::uint64_t hash;                   // of the cell
+};
+
+std::uint64_t hash_of(const Eigen::Vector3d& cell);
+
+class Lattice {
+ public:
+  explicit Lattice(double edge) : per_length_(1 / edge) {}  // edge: above 0
+
+  // A place whose cell is not finite where the coordinates are too large for the edge.
+  LatticePlace place_of(const Eigen::Vector3d& position) const;
+
+ private:
+  double per_length_;
+};
+
+}  // namespace lacuna
