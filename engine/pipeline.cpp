@@ -2,8 +2,6 @@
 
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/boundary/tangential/tangential_boundary.hpp"
-#include "engine/bucket/bucket_scan.hpp"
-#include "engine/bucket/split.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
@@ -12,9 +10,7 @@
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
-#include "engine/survey/survey_scan.hpp"
-#include "engine/thin/choose_resolution.hpp"
-#include "engine/thin/thin_scan.hpp"
+#include "engine/thin/bucket_input.hpp"
 
 #include <cmath>
 #include <memory>
@@ -33,26 +29,25 @@ double eps_length(const NeighbourhoodConfig& config, double extent) {
   return config.eps > 0 ? config.eps : config.eps_fraction * extent;
 }
 
-Summary summarise(const SurveyedScan& survey, std::uint64_t tiles, std::uint64_t tile_points,
-                  const Job& job) {
+// Counts and bounds are of the input, not of the representatives.
+Summary summarise(const Bucketed& bucketed, const Job& job) {
+  const auto& [thinned, survey, tile_points, store] = bucketed;
   Summary summary;
   summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
-  summary.tiles = tiles;
+  if (thinned) {
+    summary.resolution = thinned->resolution;
+    summary.counts.points = thinned->points;
+    summary.counts.dropped = thinned->dropped;
+    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
+    summary.bounds = thinned->bounds;
+  }
+  summary.tiles = store.tiling().tiles.size();
   summary.tile_points = tile_points;
   summary.threads = job.arena.threads();
   summary.memory_limit = job.memory.limit;
   return summary;
-}
-
-// Counts and bounds are of the input, not of the representatives.
-void add_thinned(const ThinnedScan& thinned, Summary& summary) {
-  summary.resolution = thinned.resolution;
-  summary.counts.points = thinned.points;
-  summary.counts.dropped = thinned.dropped;
-  summary.counts.thinned_out = thinned.points - thinned.dropped - thinned.representatives.size();
-  summary.bounds = thinned.bounds;
 }
 
 // The one place where the method is chosen.
@@ -75,41 +70,6 @@ void add_findings(const Totals& totals, const FoundLoops& found, double eps, Sum
   summary.e = found.minimum_loop;
 }
 
-// The points of the scan in tiles on disk: all distinct ones or, at a resolution, the representatives.
-struct Bucketed {
-  std::optional<ThinnedScan> thinned;
-  SurveyedScan survey;
-  std::uint64_t tile_points;
-  TileStore store;
-};
-
-Bucketed bucket_points(PointSource& scan, Job& job) {
-  SurveyedScan survey = survey_scan(scan, job);
-  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
-  return {{}, std::move(survey), tile_points, std::move(store)};
-}
-
-Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) {
-  ThinnedScan thinned = thin_scan(scan, resolution, job);
-  Bucketed bucketed = bucket_points(*read_representatives(thinned), job);
-  bucketed.thinned.emplace(std::move(thinned));
-  return bucketed;
-}
-
-// Survey and bucket, at the resolution that is wanted, or that noise and scan lines leave (docs/method.md,
-// D).
-Bucketed bucket(PointSource& scan, Job& job) {
-  const ScaleConfig& scale = job.config.scale;
-  if (scale.resolution > 0) return bucket_representatives(scan, scale.resolution, job);
-  std::optional<Bucketed> all = bucket_points(scan, job);
-  const double resolution = scale.every_point ? 0 : choose_resolution(all->store, job);
-  if (resolution == 0) return *std::move(all);
-  all.reset();
-  return bucket_representatives(scan, resolution, job);
-}
-
 }  // namespace
 
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
@@ -119,11 +79,11 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   Job job(config, workspace, progress);
 
   // Survey and bucket: where the points are, and the points in tiles on disk.
-  auto [thinned, survey, tile_points, store] = bucket(scan, job);
-  const double extent = diagonal(survey.bounds);
+  Bucketed bucketed = bucket_input(scan, job);
+  const TileStore& store = bucketed.store;
+  const double extent = diagonal(bucketed.survey.bounds);
   const double eps = eps_length(config.neighbourhood, extent);
-  Summary summary = summarise(survey, store.tiling().tiles.size(), tile_points, job);
-  if (thinned) add_thinned(*thinned, summary);
+  Summary summary = summarise(bucketed, job);
 
   // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
   // keeps what it needs of an evaluated tile.
@@ -149,7 +109,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
 
   // Results, in the order of the input.
   std::optional<ProbabilityGrid> probabilities;
-  if (voxels) probabilities.emplace(voxels->finish(store, survey.middle, job));
+  if (voxels) probabilities.emplace(voxels->finish(store, bucketed.survey.middle, job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
@@ -157,28 +117,22 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
       {std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates),
        std::move(points), std::move(probabilities), std::move(opposed_normals)},
       candidates, store, job);
-  const bool is_spread = thinned && thinned->represented;
-  return is_spread ? spread_results(std::move(detection), std::move(*thinned->represented), job)
-                   : std::move(detection);
+  if (!bucketed.thinned || !config.output.points) return detection;
+  return spread_results(std::move(detection), std::move(*bucketed.thinned->represented), job);
 }
 
-Estimate estimate(PointSource& scan, const Config& given, Progress& progress) {
+Estimate estimate(PointSource& scan, const Config& given, const std::filesystem::path& workspace,
+                  Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
-  Job job(config, {}, progress);
-  SurveyedScan survey = survey_scan(scan, job);
-  std::uint64_t points = survey.points - survey.dropped;
-  const std::uint64_t finite = points;
-  if (config.scale.resolution > 0) points = count_representatives(scan, config.scale.resolution, job);
-  const std::uint64_t tile_points = job.tile_points(points);
-  const TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
-  const std::uint64_t tiles = points < finite ? points / tile_points + 1 : plan.most_tiles();
-  Estimate estimate{.summary = summarise(survey, tiles, tile_points, job)};
-  estimate.summary.counts.thinned_out = finite - points;
-  estimate.summary.resolution = config.scale.resolution;
+  Job job(config, workspace, progress);
+  const Bucketed bucketed = bucket_input(scan, job);
+  const Tiling& tiling = bucketed.store.tiling();
+  Estimate estimate{.summary = summarise(bucketed, job)};
   estimate.summary.phases = job.phases;
-  estimate.cell_size = plan.grid.edge();
-  estimate.cells = plan.cells.size() + plan.aside.size();
+  estimate.cell_size = bucketed.survey.grid.edge();
+  estimate.cells = tiling.cells.size();
+  const std::uint64_t points = bucketed.survey.points - bucketed.survey.dropped;
   const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
   // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
   const std::uint64_t orientation =
@@ -186,14 +140,15 @@ Estimate estimate(PointSource& scan, const Config& given, Progress& progress) {
   const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
   const std::uint64_t voxels = config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20
                                                  : 0;  // at most one for each point, sorted
-  const std::uint64_t stored = survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
+  const std::uint64_t stored = bucketed.survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
   // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on
   // clean surfaces; noisy scans took up to three times the whole.
-  const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
+  const auto exchanged =
+      static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(bucketed.tile_points)));
   estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results + voxels);
-  if (config.scale.resolution > 0) {
+  if (bucketed.thinned) {
     const std::uint64_t represented = config.output.points ? sizeof(Represented) + sizeof(PointResult) : 0;
-    estimate.workspace_bytes += 2 * points * sizeof(Representative) + finite * represented;
+    estimate.workspace_bytes += 2 * points * sizeof(Representative) + bucketed.thinned->points * represented;
   }
   return estimate;
 }

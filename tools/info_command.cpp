@@ -4,10 +4,12 @@
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
+#include "io/temporary_folder.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
+#include "tools/workspace.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -29,6 +31,8 @@ using Json = nlohmann::ordered_json;
 // Measured: points per second of a whole `lacuna detect` with default parameters, on two threads.
 constexpr double kPointsPerSecond = 1'900'000;
 constexpr double kMeasuredThreads = 2;
+// Measured: points per second that are read to choose the resolution, and read and thinned out.
+constexpr double kThinnedPerSecond = 4'000'000;
 
 struct InfoArguments {
   explicit InfoArguments(CLI::App& command) : parameters(command) {}
@@ -67,12 +71,17 @@ FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
 RunInfo estimate_run(FileScan& scan, const Config& config) {
   RunInfo run;
   NoProgress silence;
-  run.estimate = estimate(scan, config, silence);
+  const MadeFolder parent(config.run.workspace.empty() ? fs::temp_directory_path()
+                                                       : fs::path(config.run.workspace));
+  const TemporaryFolder workspace(parent.path(), "lacuna-");
+  run.estimate = estimate(scan, config, workspace.path(), silence);
   const Summary& summary = run.estimate.summary;
   run.points_ply_bytes = point_row_bytes(scan, config.output) * summary.counts.points;
 
   const double threads = std::max<double>(1, static_cast<double>(summary.threads));
-  run.seconds = static_cast<double>(summary.counts.points) / kPointsPerSecond * kMeasuredThreads / threads;
+  const std::uint64_t points = summary.counts.points - summary.counts.thinned_out;
+  run.seconds = static_cast<double>(points) / kPointsPerSecond * kMeasuredThreads / threads +
+                static_cast<double>(summary.counts.thinned_out) / kThinnedPerSecond;
   return run;
 }
 
@@ -101,9 +110,9 @@ void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
   if (summary.counts.dropped > 0) std::cout << ", " << print_count(summary.counts.dropped) << " not finite";
   if (summary.resolution > 0) {
-    std::cout << "\n  thinned to    "
+    std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
-              << ", one per cell of " << summary.resolution;
+              << " points represent the others";
   }
   std::cout << "\n  bounds        ";
   if (summary.bounds.isEmpty()) {
@@ -148,6 +157,8 @@ void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
       has_bounds
           ? Json({{"min", point_json(summary.bounds.min())}, {"max", point_json(summary.bounds.max())}})
           : Json();
+  root["resolution"] = summary.resolution;
+  root["thinned_out"] = summary.counts.thinned_out;
   root["tiles"] = summary.tiles;
   root["tile_points"] = summary.tile_points;
   root["cells"] = run.estimate.cells;

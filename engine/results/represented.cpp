@@ -37,7 +37,7 @@ class SpreadDetection final : public Detection {
       : detection_(std::move(detection)),
         represented_(std::move(represented)),
         file_(job.file("spread")),
-        budget_(job.memory.spills) {}
+        budget_(job.memory.spills / 4) {}
 
   const Summary& summary() const override { return detection_->summary(); }
   const std::vector<LoopMeasures>& loops() const override { return detection_->loops(); }

@@ -146,7 +146,7 @@ class Thinner {
   void assign(OccupiedCells& cells) {
     if (!thinned_.represented)
       thinned_.represented.emplace(job_.file("represented"), thinned_.points / kRepresentedBlock + 1,
-                                   job_.memory.spills);
+                                   job_.memory.spills / 8);
     Outbox<Represented> outbox(*thinned_.represented);
     stream([&](const PlacedBatch& batch) {
       for_each_in_share(batch, cells, [&](const LatticePlace& place, std::uint32_t i) {
@@ -212,15 +212,6 @@ ThinnedScan thin_scan(PointSource& scan, double resolution, Job& job) {
 
 std::unique_ptr<PointSource> read_representatives(const ThinnedScan& thinned) {
   return std::make_unique<Representatives>(thinned);
-}
-
-std::uint64_t count_representatives(PointSource& scan, double resolution, Job& job) {
-  Phase phase(job, "thin", scan.expected_points().value_or(0));
-  OccupiedCells cells({}, job.memory.global);
-  std::vector<CellShare> left_out;
-  for_each_batch(scan, resolution, job, phase,
-                 [&](const PlacedBatch& batch) { add_points(batch, cells, left_out); });
-  return std::uint64_t{cells.size()} << cells.share().bits;
 }
 
 }  // namespace lacuna

@@ -49,8 +49,4 @@ ThinnedScan thin_scan(PointSource& scan, double resolution, Job& job);
 // The representatives as a scan, with the ids of the input. `thinned` must outlive it.
 std::unique_ptr<PointSource> read_representatives(const ThinnedScan& thinned);
 
-// Occupied cells of the same lattice, within about one in a hundred where they do not fit in memory. One
-// pass.
-std::uint64_t count_representatives(PointSource& scan, double resolution, Job& job);
-
 }  // namespace lacuna

@@ -1,0 +1,46 @@
+#include "engine/thin/bucket_input.hpp"
+
+#include "engine/bucket/bucket_scan.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/survey/survey_scan.hpp"
+#include "engine/thin/choose_resolution.hpp"
+
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna {
+namespace {
+
+Bucketed bucket_points(PointSource& scan, Job& job) {
+  SurveyedScan survey = survey_scan(scan, job);
+  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
+  return {{}, std::move(survey), tile_points, std::move(store)};
+}
+
+Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) {
+  ThinnedScan thinned = thin_scan(scan, resolution, job);
+  Bucketed bucketed = bucket_points(*read_representatives(thinned), job);
+  bucketed.thinned.emplace(std::move(thinned));
+  return bucketed;
+}
+
+}  // namespace
+
+Bucketed bucket_input(PointSource& input, Job& job) {
+  const ScaleConfig& scale = job.config.scale;
+  if (scale.resolution > 0) return bucket_representatives(input, scale.resolution, job);
+  std::optional<Bucketed> all = bucket_points(input, job);
+  const double resolution = scale.every_point ? 0 : choose_resolution(all->store, job);
+  if (resolution == 0) return *std::move(all);
+  all.reset();  // before as much is stored again
+  spdlog::info(
+      "the points lie in lines, so one of them represents each cell of {}; --min-hole or --resolution "
+      "set another size, --every-point uses all points",
+      resolution);
+  return bucket_representatives(input, resolution, job);
+}
+
+}  // namespace lacuna
