@@ -19,7 +19,7 @@ struct ScaleConfig {
   double resolution =
       0.0;                // edge of the cells that one point each represents, in units of the scan; 0: chosen
   double min_hole = 0.0;  // diameter of the smallest wanted hole, in units of the scan; 0: off
-  bool every_point = false;  // never choose a resolution
+  bool every_point = false;  // no resolution is chosen, as with the paper's method
 };
 
 struct NeighbourhoodConfig {

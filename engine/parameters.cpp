@@ -36,7 +36,7 @@ std::vector<Parameter> parameters(Config& config) {
        "resolution.",
        kNothing},
       {"scale", "every_point", &scale.every_point, 0, 1, "true or false",
-       "Every point counts, whatever noise and scan lines: no resolution is chosen.", kNothing},
+       "Every point counts, though points lie in lines: no resolution is chosen.", kTangential},
 
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
        "Nearest neighbours of a point, before the neighbourhoods are made symmetric.", kNothing},

@@ -33,7 +33,8 @@ Bucketed bucket_input(PointSource& input, Job& job) {
   const ScaleConfig& scale = job.config.scale;
   if (scale.resolution > 0) return bucket_representatives(input, scale.resolution, job);
   std::optional<Bucketed> all = bucket_points(input, job);
-  const double resolution = scale.every_point ? 0 : choose_resolution(all->store, job);
+  const bool is_chosen = job.config.loops.method == LoopMethod::kTangential && !scale.every_point;
+  const double resolution = is_chosen ? choose_resolution(all->store, job) : 0;
   if (resolution == 0) return *std::move(all);
   all.reset();  // before as much is stored again
   spdlog::info(

@@ -19,7 +19,8 @@ struct Bucketed {
   TileStore store;                     // all distinct points or, at a resolution, the representatives
 };
 
-// At the resolution that the config has, or that the lines of the scan leave (docs/method.md, D). Reads the
+// At the resolution that the config has, or that the lines of the scan leave (docs/method.md, D). By the
+// paper every point counts unless the config has a resolution. Reads the
 // input twice: for the survey and the tiles, or for the representatives. Four times where a resolution is
 // chosen. Throws `Error`.
 Bucketed bucket_input(PointSource& input, Job& job);

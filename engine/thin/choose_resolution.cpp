@@ -80,6 +80,7 @@ std::optional<LocalSampling> sampling_around(const SamplePoint& sample, StoredSe
 
 double choose_resolution(const TileStore& store, Job& job) {
   Phase phase(job, "resolution", store.tiling().points());
+  if (store.tiling().points() < kSampleSize) return 0;
   const std::vector<SamplePoint> points = sample_of(store, job, phase);
   std::vector<std::optional<LocalSampling>> around(points.size());
   constexpr std::size_t kTogether = 50;

@@ -13,6 +13,15 @@ bool is_full(std::size_t cells, std::size_t slots) {
   return 3 * cells > 2 * slots;
 }
 
+// Of points that are as near as each other: the lowest coordinates, so that the order of the input does not
+// matter.
+bool comes_first(const Eigen::Vector3d& position, PointId id, const OccupiedCell& cell) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (position[axis] != cell.nearest[axis]) return position[axis] < cell.nearest[axis];
+  }
+  return id < cell.id;
+}
+
 }  // namespace
 
 OccupiedCells::OccupiedCells(CellShare share, std::uint64_t memory)
@@ -75,7 +84,8 @@ void offer(OccupiedCell& cell, const LatticePlace& place, const Eigen::Vector3d&
     const double difference = static_cast<double>(place.offset[axis]) - mean;
     distance += difference * difference;
   }
-  if (distance > cell.distance || (distance == cell.distance && cell.id < id)) return;
+  if (distance > cell.distance) return;
+  if (distance == cell.distance && !comes_first(position, id, cell)) return;
   cell.distance = distance;
   cell.nearest = position;
   cell.normal = normal;

@@ -2,7 +2,7 @@
 //
 // The points are streamed twice. The first pass adds up where they lie in their cells, in whole numbers, so
 // that their order does not matter. The second pass finds the nearest one; of several the one with the lowest
-// id.
+// coordinates, by x first, and of copies the one with the lowest id.
 #pragma once
 
 #include "engine/model/ids.hpp"

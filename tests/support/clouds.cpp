@@ -362,6 +362,7 @@ Config random_config(std::uint64_t seed, double spacing) {
   Random random(seed);
   const auto varied = [&] { return random.chance(0.5); };
   Config config;
+  config.scale.every_point = true;  // clouds of points at random places have lines here and there
   if (varied()) config.neighbourhood.k = random.whole(1, 30);
   if (random.chance(0.3)) config.neighbourhood.eps = random.uniform(0.5, 4) * spacing;
   if (config.neighbourhood.eps == 0 && random.chance(0.15)) {

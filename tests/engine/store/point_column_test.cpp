@@ -73,7 +73,7 @@ TEST_CASE("a scan is of single precision if all of its finite coordinates are") 
   CHECK(surveyed(batch).precision() == Precision::kSingle);
   batch.positions.emplace_back(0.1, 0, 0);
   CHECK(surveyed(batch).precision() == Precision::kDouble);
-  CHECK(SurveyedScan{.points = (std::uint64_t{1} << 32) + 1}.precision() == Precision::kDouble);
+  CHECK(SurveyedScan{.ids = (std::uint64_t{1} << 32) + 1}.precision() == Precision::kDouble);
 }
 
 }  // namespace

@@ -1,0 +1,179 @@
+// Runs at a resolution: the method on the representatives, with ids and results of the whole input.
+#include "engine/thin/lattice.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+Config at_resolution(double resolution) {
+  Config config;
+  config.scale.resolution = resolution;
+  return config;
+}
+
+// A dense sheet with two holes, far from the origin.
+Cloud sheet() {
+  return plane(150)
+      .punched({40, 50}, 12)
+      .punched({100, 90}, 18)
+      .jittered(0.5, 1)
+      .noisy(0.1, 2)
+      .translated({500'000, 5'400'000, 300});
+}
+
+using CellKey = std::array<double, 3>;
+
+CellKey cell_of(const Eigen::Vector3d& position, double resolution) {
+  const Eigen::Vector3d cell = Lattice(resolution).place_of(position).cell;
+  return {cell.x(), cell.y(), cell.z()};
+}
+
+bool same(const PointResult& a, const PointResult& b) {
+  return a.probability == b.probability && a.criteria == b.criteria && a.boundary == b.boundary &&
+         a.coherent == b.coherent && a.loop == b.loop && a.normal == b.normal;
+}
+
+TEST_CASE("a run at a resolution finds the loops of the representatives alone, by the ids of the input") {
+  const Cloud cloud = sheet().with_unusable(50, 3);
+  const double resolution = 2.5;
+  const Detected thinned = run_engine(cloud, at_resolution(resolution));
+  const Counts& counts = thinned.summary.counts;
+  CHECK(thinned.summary.resolution == resolution);
+  CHECK(counts.points == cloud.size());
+  CHECK(counts.dropped == 50);
+  CHECK(counts.duplicates == 0);
+  REQUIRE(thinned.loops.size() == 3);
+
+  // The representatives again, found plainly, as a scan of their own.
+  std::map<CellKey, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.positions[i].allFinite()) cells[cell_of(cloud.positions[i], resolution)].push_back(i);
+  }
+  CHECK(counts.thinned_out == cloud.size() - 50 - cells.size());
+  std::vector<std::size_t> chosen;
+  for (const auto& [key, members] : cells) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const std::size_t i : members) mean += cloud.positions[i] / static_cast<double>(members.size());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : members) nearest = std::min(nearest, (cloud.positions[i] - mean).norm());
+    const auto first = [&](std::size_t a, std::size_t b) {
+      return std::lexicographical_compare(cloud.positions[a].begin(), cloud.positions[a].end(),
+                                          cloud.positions[b].begin(), cloud.positions[b].end());
+    };
+    std::vector<std::size_t> candidates;  // two points of a cell are as near as each other
+    std::copy_if(members.begin(), members.end(), std::back_inserter(candidates),
+                 [&](std::size_t i) { return (cloud.positions[i] - mean).norm() <= nearest + 1e-7; });
+    chosen.push_back(*std::min_element(candidates.begin(), candidates.end(), first));
+  }
+  std::sort(chosen.begin(), chosen.end());
+  Cloud alone;
+  for (const std::size_t i : chosen) alone.positions.push_back(cloud.positions[i]);
+  Config every_point;
+  every_point.scale.every_point = true;
+  const Detected plain = run_engine(alone, every_point);
+  std::vector<std::vector<PointId>> expected = plain.loop_ids();
+  for (auto& loop : expected) {
+    for (PointId& id : loop) id = PointId{chosen[value(id)]};
+  }
+  CHECK(thinned.loop_ids() == expected);
+
+  // Each point has the results of its representative, a dropped one none.
+  REQUIRE(thinned.points.size() == cloud.size());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    for (const std::size_t member : cells[cell_of(cloud.positions[chosen[i]], resolution)])
+      wrong += !same(thinned.points[member], plain.points[i]);
+  }
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    wrong += !cloud.positions[i].allFinite() && !std::isnan(thinned.points[i].probability);
+  CHECK(wrong == 0);
+  for (const BoundaryPoint& b : thinned.boundary)
+    CHECK(std::binary_search(chosen.begin(), chosen.end(), value(b.id)));
+}
+
+TEST_CASE("tiles, threads, memory and batches never show at a resolution") {
+  const Cloud cloud = sheet().with_duplicates(500, 1).with_unusable(20, 2);
+  const std::string one_tile = run_engine(cloud, tiled(at_resolution(2), 1'000'000, 1)).bytes();
+  for (const std::int64_t tile_points : {50, 500, 5'000}) {
+    for (const std::int64_t threads : {1, 4})
+      CHECK(run_engine(cloud, tiled(at_resolution(2), tile_points, threads)).bytes() == one_tile);
+  }
+  Config limited = at_resolution(2);
+  limited.run.memory_limit = std::uint64_t{64} << 20;
+  CHECK(run_engine(cloud, limited).bytes() == one_tile);
+}
+
+TEST_CASE("the order of the points does not change the loops at a resolution") {
+  const Cloud cloud = sheet();
+  const auto positions = [](const Detected& detected) {
+    std::vector<std::vector<double>> loops;
+    for (const ReportedLoop& loop : detected.loops) {
+      std::vector<double> sorted;
+      for (const LoopPoint& p : loop.points) sorted.push_back(p.position.x());
+      std::sort(sorted.begin(), sorted.end());
+      loops.push_back(sorted);
+    }
+    std::sort(loops.begin(), loops.end());
+    return loops;
+  };
+  CHECK(positions(run_engine(cloud, at_resolution(2.5))) ==
+        positions(run_engine(cloud.shuffled(7), at_resolution(2.5))));
+}
+
+TEST_CASE("min_hole sets a fifth of it as resolution, and leaves smaller loops out") {
+  Config config;
+  config.scale.min_hole = 30;
+  CHECK(with_min_hole(config).scale.resolution == 6);
+  CHECK(with_min_hole(config).selection.min_diameter == 30);
+  config.scale.resolution = 2;
+  config.selection.min_diameter = 1;
+  CHECK(with_min_hole(config).scale.resolution == 2);
+  CHECK(with_min_hole(config).selection.min_diameter == 1);
+  CHECK(with_min_hole(Config{}).scale.resolution == 0);
+
+  // Holes 24 and 36 across.
+  config = {};
+  config.scale.min_hole = 30;
+  const Detected detected = run_engine(sheet(), config);
+  REQUIRE(detected.loops.size() == 2);
+  CHECK(detected.loops[0].measures.diameter > 100);  // the outer edge
+  CHECK(detected.loops[1].measures.diameter > 30);
+}
+
+// Sweeps with points one apart along them and six apart across; two of them are interrupted.
+TEST_CASE("a scan of lines is thinned to their distance, unless every point counts or by the paper") {
+  Cloud cloud;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 360; ++x) cloud.positions.emplace_back(x, 6 * y, 0);
+  }
+  cloud = cloud.punched({180, 180}, 40).jittered(0.3, 1).noisy(0.2, 2);
+  const Detected automatic = run_engine(cloud, {});
+  CHECK(automatic.summary.resolution == 6);
+  const auto holes = std::count_if(automatic.loops.begin(), automatic.loops.end(),
+                                   [](const ReportedLoop& l) { return l.measures.kind == LoopKind::kHole; });
+  CHECK(holes == 1);
+  CHECK(automatic.bytes() == run_engine(cloud, at_resolution(6)).bytes());
+
+  Config every_point;
+  every_point.scale.every_point = true;
+  CHECK(run_engine(cloud, every_point).summary.resolution == 0);
+  Config paper;
+  paper.loops.method = LoopMethod::kPaper;
+  CHECK(run_engine(cloud, paper).summary.resolution == 0);
+  paper.scale.resolution = 6;
+  CHECK(run_engine(cloud, paper).summary.resolution == 6);
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,48 @@
+#include "engine/neighbours/stored_search.hpp"
+
+#include "engine/model/neighbourhoods.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/tiled_scan.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+TEST_CASE("the neighbours of single stored points are those of a plain search") {
+  for (const auto& [cloud, k] : {std::pair{hard_cloud(1), 15},
+                                 {scattered(3000, 2), 48},
+                                 {lattice(12), 20},
+                                 {scattered(5, 3), 15},
+                                 {scattered(1, 3), 15}}) {
+    TiledScan scan(cloud, tiled({}, 300));
+    std::vector<StoredPoint> points;
+    for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
+      for (const StoredPoint& p : scan.store.points(t)) points.push_back(p);
+    }
+    const std::map<PointId, Row> row_of = scan.rows();
+    StoredSearch search(scan.store);
+    for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 60) {
+      std::vector<StoredNeighbour> plain;
+      for (const StoredPoint& q : points) {
+        if (q.id == points[i].id) continue;
+        plain.push_back({squared_distance(q.position(), points[i].position()), q, row_of.at(q.id)});
+      }
+      std::sort(plain.begin(), plain.end());
+      plain.resize(std::min<std::size_t>(plain.size(), k));
+      std::vector<StoredNeighbour> found = search.nearest(points[i], row_of.at(points[i].id), k);
+      std::sort(found.begin(), found.end());
+      CHECK(std::equal(plain.begin(), plain.end(), found.begin(), found.end(),
+                       [](const StoredNeighbour& a, const StoredNeighbour& b) {
+                         return a.point.id == b.point.id && a.row == b.row &&
+                                a.squared_distance == b.squared_distance;
+                       }));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lacuna
