@@ -34,7 +34,7 @@ def write_scan(points, path):
 
 def found_by(program, folder, run, weights, threshold):
     method, min_confidence = run
-    options = ["--out", folder / method, "--quiet", "--crease-threshold", 1]
+    options = ["--out", folder / method, "--quiet", "--every-point", "--crease-threshold", 1]
     options += ["--method", method, "--threshold", threshold]
     for name, weight in zip(("angle", "halfdisc", "shape"), weights):
         options += [f"--weight-{name}", weight]
