@@ -34,12 +34,12 @@ def write_scan(points, path):
 
 def found_by(program, folder, run, weights, threshold):
     method, min_confidence = run
-    options = ["--out", folder / method, "--quiet", "--every-point", "--crease-threshold", 1]
+    options = ["--out", folder / method, "--quiet", "--crease-threshold", 1]
     options += ["--method", method, "--threshold", threshold]
     for name, weight in zip(("angle", "halfdisc", "shape"), weights):
         options += [f"--weight-{name}", weight]
     if method == "tangential":
-        options += ["--min-confidence", min_confidence]
+        options += ["--min-confidence", min_confidence, "--every-point"]
     subprocess.run([str(word) for word in [program, "detect", folder / "scan.ply", *options]], check=True)
     report = json.loads((folder / method / "holes.json").read_text(encoding="utf-8"))
     return [(loop["points"], loop["confidence"]) for loop in report["loops"]]

@@ -47,13 +47,15 @@ std::string write_scan(const test::ScratchFolder& scratch, const Cloud& cloud) {
   return scratch.write("scan.ply", ply);
 }
 
-void check_limit(const Cloud& cloud) {
+void check_limit(const Cloud& cloud, const std::vector<std::string>& more = {}) {
   const test::ScratchFolder scratch;
   const std::string scan = write_scan(scratch, cloud);
   for (const char* method : {"tangential", "paper"}) {
-    const test::ProgramResult result =
-        test::run_program({"detect", scan, "--out", (scratch / method).string(), "--quiet", "--points",
-                           "--method", method, "--threads", "2", "--memory-limit", "64MiB"});
+    std::vector<std::string> words = {"detect",    scan,       "--out",          (scratch / method).string(),
+                                      "--quiet",   "--points", "--method",       method,
+                                      "--threads", "2",        "--memory-limit", "64MiB"};
+    words.insert(words.end(), more.begin(), more.end());
+    const test::ProgramResult result = test::run_program(words);
     INFO(method << ": " << result.err);
     REQUIRE(result.exit_code == 0);
     CAPTURE(result.peak_memory >> 20);  // MiB
@@ -63,6 +65,10 @@ void check_limit(const Cloud& cloud) {
 
 TEST_CASE("a volume of random points stays within the memory limit") {
   check_limit(volume(300'000, 1));
+}
+
+TEST_CASE("a scan thinned in several shares stays within the memory limit") {
+  check_limit(volume(300'000, 1), {"--resolution", "0.01"});
 }
 
 TEST_CASE("a million equal points stay within the memory limit") {
