@@ -1,7 +1,10 @@
 #include "io/scan_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/las_reader.hpp"
+#include "io/other_formats.hpp"
 #include "io/ply_reader.hpp"
+#include "io/ptx_reader.hpp"
 #include "io/text_reader.hpp"
 
 #include <array>
@@ -18,10 +21,19 @@ struct Format {
 // Tried in this order.
 constexpr std::array kFormats = {
     Format{"PLY", looks_like_ply, open_ply},
+    Format{"LAS", looks_like_las, open_las},
+    Format{"PTX", looks_like_ptx, open_ptx},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
 constexpr std::size_t kFirstBytes = 4096;
+
+const Format* find_format(std::string_view first_bytes) {
+  for (const Format& format : kFormats) {
+    if (format.recognises(first_bytes)) return &format;
+  }
+  return nullptr;
+}
 
 std::string format_names() {
   std::string names;
@@ -31,14 +43,22 @@ std::string format_names() {
 
 }  // namespace
 
+Recognised recognise(const std::filesystem::path& file) {
+  InputFile in(file);
+  const std::string_view first_bytes = in.peek(kFirstBytes);
+  const Format* const format = find_format(first_bytes);
+  if (first_bytes.empty() || describe_other_format(first_bytes) || format == nullptr) return Recognised::kNo;
+  return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
+}
+
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile in(file);
   const std::string_view first_bytes = in.peek(kFirstBytes);
   if (first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
-  for (const Format& format : kFormats) {
-    if (format.recognises(first_bytes)) return format.open(file, options);
-  }
-  in.fail_at_byte(0, "unknown format; allowed are " + format_names());
+  if (const auto other = describe_other_format(first_bytes)) in.fail_at_byte(0, *other);
+  if (const Format* const format = find_format(first_bytes)) return format->open(file, options);
+  in.fail_at_byte(
+      0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }
 
 }  // namespace lacuna
