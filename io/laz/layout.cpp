@@ -73,7 +73,8 @@ Layout parse_layout(std::span<const std::byte> record) {
                   std::to_string(kItemsAt));
   }
   Layout layout{.compressor = load<std::uint16_t>(&record[kCompressorAt]),
-                .chunk_points = load<std::uint32_t>(&record[kChunkPointsAt])};
+                .chunk_points = load<std::uint32_t>(&record[kChunkPointsAt]),
+                .items = {}};
   if (layout.compressor < compressor::kPointwise || layout.compressor > compressor::kLayeredChunked) {
     throw Corrupt("compressor " + std::to_string(layout.compressor) + " is not supported (1, 2 and 3 are)");
   }
