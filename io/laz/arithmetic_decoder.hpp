@@ -10,8 +10,8 @@
 
 namespace lacuna::laz {
 
-// Decodes from `bytes`, which outlive it. An encoder ends its data such that a decoder reads exactly all bytes;
-// so each function throws `Corrupt` at the end of the bytes. Between calls value_ < length_ and
+// Decodes from `bytes`, which outlive it. An encoder ends its data such that a decoder reads exactly all
+// bytes; so each function throws `Corrupt` at the end of the bytes. Between calls value_ < length_ and
 // length_ >= kMinLength hold, whatever the bytes are.
 class ArithmeticDecoder {
  public:

@@ -23,7 +23,8 @@ std::uint32_t chunk_count(std::span<const std::byte> table) {
   if (table.size() < kHeaderBytes) throw Corrupt("the chunk table is cut");
   const auto version = load<std::uint32_t>(table.data());
   if (version != 0) {
-    throw Corrupt("the chunk table has version " + std::to_string(version) + ", not 0: its offset may be wrong");
+    throw Corrupt("the chunk table has version " + std::to_string(version) +
+                  ", not 0: its offset may be wrong");
   }
   return load<std::uint32_t>(table.data() + 4);
 }
@@ -31,8 +32,8 @@ std::uint32_t chunk_count(std::span<const std::byte> table) {
 }  // namespace
 
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes) {
-  // A number of 32 bits takes at most 15 bits for its k, 15 for its first bits and 23 for the others; with what
-  // an encoder adds at the end, 8 bytes for each number are enough.
+  // A number of 32 bits takes at most 15 bits for its k, 15 for its first bits and 23 for the others; with
+  // what an encoder adds at the end, 8 bytes for each number are enough.
   return kHeaderBytes + 16 + 2 * 8 * std::uint64_t{chunk_count(first_8_bytes)};
 }
 
@@ -44,8 +45,8 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
   // Each chunk has a point at least, and the first one is not compressed.
   const std::uint64_t most = std::min((table_offset - first_chunk) / layout.record_bytes(), points);
   if (count > most) {
-    throw Corrupt("the chunk table has " + std::to_string(count) + " chunks, more than the " + std::to_string(most) +
-                  " that the file can hold");
+    throw Corrupt("the chunk table has " + std::to_string(count) + " chunks, more than the " +
+                  std::to_string(most) + " that the file can hold");
   }
 
   std::vector<Chunk> chunks;
@@ -63,7 +64,8 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
       if (bytes > table_offset - offset) throw Corrupt(chunk + " reaches beyond the chunk table");
       if (has == 0 || has > left) throw Corrupt(chunk + " does not fit the number of points of the file");
       if (bytes < layout.record_bytes() || has > kMostPointsInAByte * bytes) {
-        throw Corrupt(chunk + " has " + std::to_string(has) + " points in only " + std::to_string(bytes) + " bytes");
+        throw Corrupt(chunk + " has " + std::to_string(has) + " points in only " + std::to_string(bytes) +
+                      " bytes");
       }
       chunks.push_back({offset, bytes, has});
       offset += bytes;

@@ -17,15 +17,16 @@ inline unsigned return_level(unsigned number_of_returns, unsigned return_number)
                                            : return_number - number_of_returns;
 }
 
-// The context of the y difference by the k of the x difference, and of z by the mean k of both: even numbers up to
-// `largest`, the next odd one for the only return of a pulse.
+// The context of the y difference by the k of the x difference, and of z by the mean k of both: even numbers
+// up to `largest`, the next odd one for the only return of a pulse.
 inline unsigned k_context(unsigned k, unsigned largest, bool only_return) {
   return std::min(k & ~1u, largest) + (only_return ? 1 : 0);
 }
 inline constexpr unsigned kLargestYContext = 20;
 inline constexpr unsigned kLargestZContext = 18;
 
-// A model for each value that came before; most values never come, so a model is made when it is first needed.
+// A model for each value that came before; most values never come, so a model is made when it is first
+// needed.
 template <unsigned kSymbols, unsigned kContexts>
 class ModelByValue {
  public:

@@ -8,8 +8,8 @@
 
 namespace lacuna::laz {
 
-// The two items code the same way, but only GPSTIME11 codes times that are the last point's: POINT14 knows that
-// from another layer.
+// The two items code the same way, but only GPSTIME11 codes times that are the last point's: POINT14 knows
+// that from another layer.
 enum class GpsTimeCodes { kGpsTime11, kPoint14 };
 
 // Bits of double values, predicted as integers from up to four interleaved sequences of times, such as of
@@ -42,8 +42,8 @@ class GpsTimeDecoder {
   static constexpr unsigned kSymbols = kFull + 4;
 
   // Contexts of the integers.
-  static constexpr unsigned kFirst = 0, kSame = 1, kFewTimes = 2, kManyTimes = 3, kMostTimes = 4, kNegative = 5,
-                            kMostNegative = 6, kZero = 7, kHighHalf = 8;
+  static constexpr unsigned kFirst = 0, kSame = 1, kFewTimes = 2, kManyTimes = 3, kMostTimes = 4,
+                            kNegative = 5, kMostNegative = 6, kZero = 7, kHighHalf = 8;
 
   // Both return whether the time is known, and not only its sequence.
   bool decode_first(ArithmeticDecoder& decoder) {

@@ -8,15 +8,17 @@
 
 namespace lacuna::laz {
 
-// Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a number k,
-// in one model for each context, and then as its place in the k-th interval: 0 and 1 for k = 0, else
-// -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for each k, the
-// lower ones none.
+// Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a
+// number k, in one model for each context, and then as its place in the k-th interval: 0 and 1 for k = 0,
+// else
+// -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for each k,
+// the lower ones none.
 template <unsigned kBits, unsigned kContexts = 1>
 class IntegerDecoder {
  public:
   IntegerDecoder() {
-    for (unsigned k = 1; k < kHighBits; ++k) short_places_[k - 1] = SymbolModel<1u << (kHighBits - 1)>(1u << k);
+    for (unsigned k = 1; k < kHighBits; ++k)
+      short_places_[k - 1] = SymbolModel<1u << (kHighBits - 1)>(1u << k);
   }
 
   // The value modulo 2^kBits; in 32 bits of two's complement where kBits is 32.

@@ -87,7 +87,8 @@ void decode_layered(const Layout& layout, std::span<const std::byte> chunk, std:
                     std::span<std::byte> records) {
   // The first point is not compressed.
   const std::size_t record_bytes = layout.record_bytes();
-  if (chunk.size() < record_bytes) throw Corrupt("a chunk of compressed points is shorter than its first point");
+  if (chunk.size() < record_bytes)
+    throw Corrupt("a chunk of compressed points is shorter than its first point");
   std::copy_n(chunk.begin(), record_bytes, records.begin());
   if (points == 1) return;
 

@@ -11,13 +11,14 @@ namespace lacuna::laz {
 // A stream of one attribute, or nothing where the attribute is the first point's for all points.
 using Layer = std::optional<ArithmeticDecoder>;
 
-// Hands out layer after layer. The bytes are: the number of points, 4 bytes; the size of each layer, 4 bytes each;
-// the layers.
+// Hands out layer after layer. The bytes are: the number of points, 4 bytes; the size of each layer, 4 bytes
+// each; the layers.
 class Layers {
  public:
   Layers(std::span<const std::byte> bytes, std::size_t count) : sizes_(bytes), layers_(bytes) {
     constexpr std::size_t kPointsBytes = 4;
-    if (bytes.size() < kPointsBytes + kSizeBytes * count) throw Corrupt("a chunk of compressed points is cut");
+    if (bytes.size() < kPointsBytes + kSizeBytes * count)
+      throw Corrupt("a chunk of compressed points is cut");
     sizes_ = bytes.subspan(kPointsBytes, kSizeBytes * count);
     layers_ = bytes.subspan(kPointsBytes + kSizeBytes * count);
   }

@@ -69,8 +69,8 @@ std::size_t Layout::record_bytes() const {
 
 Layout parse_layout(std::span<const std::byte> record) {
   if (record.size() < kItemsAt) {
-    throw Corrupt("the record \"laszip encoded\" has " + std::to_string(record.size()) + " bytes, not at least " +
-                  std::to_string(kItemsAt));
+    throw Corrupt("the record \"laszip encoded\" has " + std::to_string(record.size()) +
+                  " bytes, not at least " + std::to_string(kItemsAt));
   }
   Layout layout{.compressor = load<std::uint16_t>(&record[kCompressorAt]),
                 .chunk_points = load<std::uint32_t>(&record[kChunkPointsAt]),

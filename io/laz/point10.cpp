@@ -7,13 +7,14 @@ namespace {
 
 // By number of returns, then by return number: possible pairs have a context of their own up to five returns.
 constexpr std::uint8_t kReturnContext[8][8] = {
-    {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},     {13, 1, 2, 4, 7, 11, 11, 10},
-    {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},    {10, 10, 11, 12, 13, 14, 14, 13},
+    {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},    {13, 1, 2, 4, 7, 11, 11, 10},
+    {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},   {10, 10, 11, 12, 13, 14, 14, 13},
     {9, 10, 11, 12, 13, 14, 15, 14}, {8, 9, 10, 11, 12, 13, 14, 15},
 };
 
 // Bits of the symbol that says which fields differ from the last point's.
-constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassification = 8, kIntensity = 16, kReturns = 32;
+constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassification = 8, kIntensity = 16,
+                   kReturns = 32;
 
 }  // namespace
 
@@ -53,8 +54,8 @@ void Point10::decode(ArithmeticDecoder& decoder, std::byte* item) {
   const std::int32_t dx = dx_.decode_signed(decoder, x_medians_[context].middle(), only);
   x_medians_[context].add(dx);
   last_.x = static_cast<std::int32_t>(static_cast<std::uint32_t>(last_.x) + static_cast<std::uint32_t>(dx));
-  const std::int32_t dy = dy_.decode_signed(decoder, y_medians_[context].middle(),
-                                            k_context(dx_.k(), kLargestYContext, only));
+  const std::int32_t dy =
+      dy_.decode_signed(decoder, y_medians_[context].middle(), k_context(dx_.k(), kLargestYContext, only));
   y_medians_[context].add(dy);
   last_.y = static_cast<std::int32_t>(static_cast<std::uint32_t>(last_.y) + static_cast<std::uint32_t>(dy));
   std::int32_t& height = last_heights_[return_level(n, r)];

@@ -33,9 +33,9 @@ class Point10 {
   static_assert(sizeof(Fields) == kBytes);
 
   Fields last_;
-  std::array<std::uint16_t, 16> last_intensities_{};      // by context of return numbers
+  std::array<std::uint16_t, 16> last_intensities_{};       // by context of return numbers
   std::array<StreamingMedian, 16> x_medians_, y_medians_;  // by context of return numbers
-  std::array<std::int32_t, 8> last_heights_{};            // by return level
+  std::array<std::int32_t, 8> last_heights_{};             // by return level
 
   SymbolModel<64> changed_;
   ModelByValue<256, 256> returns_;

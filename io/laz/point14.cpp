@@ -5,8 +5,8 @@
 namespace lacuna::laz {
 namespace {
 
-// Bits of the symbol that says what changed. The two lowest are of the return number: equal, one more, one less,
-// or coded.
+// Bits of the symbol that says what changed. The two lowest are of the return number: equal, one more, one
+// less, or coded.
 constexpr unsigned kReturnNumber = 3, kNumberOfReturns = 4, kScanAngle = 8, kGpsTime = 16, kPointSource = 32,
                    kScannerChannel = 64;
 
@@ -40,7 +40,8 @@ struct Point14::Channel {
   bool last_has_new_time = false;
 
   // Layer of channel, returns, x and y.
-  std::array<SymbolModel<128>, 8> changed;  // by the last point's place in its pulse, and by last_has_new_time
+  std::array<SymbolModel<128>, 8>
+      changed;  // by the last point's place in its pulse, and by last_has_new_time
   SymbolModel<3> channel_step;
   ModelByValue<16, 16> number_of_returns, return_number;  // by the last one
   SymbolModel<13> return_number_step;

@@ -13,8 +13,8 @@
 
 namespace lacuna::laz {
 
-// Decodes nine layers. All models and last values are of one of four scanner channels; those of a channel begin,
-// at its first point, with the values of the point before.
+// Decodes nine layers. All models and last values are of one of four scanner channels; those of a channel
+// begin, at its first point, with the values of the point before.
 class Point14 {
  public:
   static constexpr std::size_t kBytes = 30;
@@ -53,7 +53,8 @@ class Point14 {
   void write(const Fields& fields, std::byte* item) const;
 
   // In the order of the chunk. Those that hold one value for all points are empty, but for the first.
-  Layer returns_xy_, z_, classification_, flags_, intensity_, scan_angle_, user_data_, point_source_, gps_time_;
+  Layer returns_xy_, z_, classification_, flags_, intensity_, scan_angle_, user_data_, point_source_,
+      gps_time_;
   std::array<std::unique_ptr<Channel>, kChannels> channels_;
   unsigned channel_;
   bool changed_channel_ = false;

@@ -108,7 +108,8 @@ void decode_pointwise(const Layout& layout, std::span<const std::byte> chunk, st
                       std::span<std::byte> records) {
   // The first point is not compressed.
   const std::size_t record_bytes = layout.record_bytes();
-  if (chunk.size() < record_bytes) throw Corrupt("a chunk of compressed points is shorter than its first point");
+  if (chunk.size() < record_bytes)
+    throw Corrupt("a chunk of compressed points is shorter than its first point");
   std::copy_n(chunk.begin(), record_bytes, records.begin());
   if (points == 1) return;
   const auto compressed = chunk.subspan(record_bytes);

@@ -1,4 +1,5 @@
-// Chunks of point formats 0 to 3: all items of a point in one stream, point by point (LAZ, compressors 1 and 2).
+// Chunks of point formats 0 to 3: all items of a point in one stream, point by point (LAZ, compressors 1 and
+// 2).
 #pragma once
 
 #include "io/laz/laz.hpp"

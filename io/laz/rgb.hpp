@@ -10,8 +10,8 @@ namespace lacuna::laz {
 
 using Rgb = std::array<std::uint16_t, 3>;
 
-// Codes the bytes of a colour that differ from the last colour's; green and blue as difference to what red's, and
-// then green's, difference predicts.
+// Codes the bytes of a colour that differ from the last colour's; green and blue as difference to what red's,
+// and then green's, difference predicts.
 class RgbModels {
  public:
   Rgb decode(ArithmeticDecoder& decoder, const Rgb& last);

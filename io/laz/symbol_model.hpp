@@ -7,8 +7,8 @@
 
 namespace lacuna::laz {
 
-// How often each symbol of an alphabet occurred, and its share of the coder's interval. The shares are computed
-// anew after more and more symbols, so that few steps pay for it.
+// How often each symbol of an alphabet occurred, and its share of the coder's interval. The shares are
+// computed anew after more and more symbols, so that few steps pay for it.
 template <unsigned kCapacity>
 class SymbolModel {
  public:

@@ -16,7 +16,8 @@ std::int32_t wrapped_sum(std::int32_t a, std::int32_t b) {
 }
 
 // Bits of the symbol that says which fields differ from the last point's; not in the order of version 2.
-constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassification = 8, kReturns = 16, kIntensity = 32;
+constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassification = 8, kReturns = 16,
+                   kIntensity = 32;
 
 constexpr unsigned kLargestKContext = 19;
 
@@ -29,8 +30,7 @@ Point10::Point10(const std::byte* first) {
 
 void Point10::decode(ArithmeticDecoder& decoder, std::byte* item) {
   const std::int32_t dx = dx_.decode_signed(decoder, middle(last_dx_));
-  const std::int32_t dy =
-      dy_.decode_signed(decoder, middle(last_dy_), std::min(dx_.k(), kLargestKContext));
+  const std::int32_t dy = dy_.decode_signed(decoder, middle(last_dy_), std::min(dx_.k(), kLargestKContext));
   const unsigned k = (dx_.k() + dy_.k()) / 2;
   last_.x = wrapped_sum(last_.x, dx);
   last_.y = wrapped_sum(last_.y, dy);
@@ -118,8 +118,8 @@ ExtraBytes::ExtraBytes(const std::byte* first, std::size_t count) : last_(first,
 
 void ExtraBytes::decode(ArithmeticDecoder& decoder, std::byte* item) {
   for (std::size_t i = 0; i < last_.size(); ++i) {
-    last_[i] = static_cast<std::byte>(
-        integers_.decode(decoder, std::to_integer<std::uint32_t>(last_[i]), ks_[i]));
+    last_[i] =
+        static_cast<std::byte>(integers_.decode(decoder, std::to_integer<std::uint32_t>(last_[i]), ks_[i]));
   }
   std::copy(last_.begin(), last_.end(), item);
 }
