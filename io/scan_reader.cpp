@@ -1,6 +1,7 @@
 #include "io/scan_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
 #include "io/text_reader.hpp"
 
@@ -11,13 +12,14 @@ namespace {
 
 struct Format {
   const char* name;
-  bool (*recognises)(std::string_view first_bytes);
+  bool (*recognises)(const FileStart& start);
   std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
 };
 
 // Tried in this order.
 constexpr std::array kFormats = {
     Format{"PLY", looks_like_ply, open_ply},
+    Format{"PCD", looks_like_pcd, open_pcd},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
@@ -33,10 +35,10 @@ std::string format_names() {
 
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile in(file);
-  const std::string_view first_bytes = in.peek(kFirstBytes);
-  if (first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
+  const FileStart start{.first_bytes = in.peek(kFirstBytes), .size = in.position() + in.remaining()};
+  if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
   for (const Format& format : kFormats) {
-    if (format.recognises(first_bytes)) return format.open(file, options);
+    if (format.recognises(start)) return format.open(file, options);
   }
   in.fail_at_byte(0, "unknown format; allowed are " + format_names());
 }

@@ -52,6 +52,14 @@ struct ReadOptions {
   std::string columns;  // text files: column names, space separated; empty: from the header line
 };
 
+// What a format is recognised by.
+struct FileStart {
+  std::string_view first_bytes;
+  std::uint64_t size = 0;  // of the whole file
+
+  bool is_whole() const { return first_bytes.size() == size; }
+};
+
 // Opens a file by what it holds, not by its name. Throws `Error`.
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options);
 

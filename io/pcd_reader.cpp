@@ -1,0 +1,344 @@
+#include "io/pcd_reader.hpp"
+
+#include "io/line_words.hpp"
+#include "io/lzf.hpp"
+#include "io/pcd_header.hpp"
+#include "io/property_name.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <set>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+constexpr std::size_t kMostColumns = 256;  // of a compressed file: each takes a stream
+
+// Calls `visit(T{})` with the C++ type of the field's values.
+template <class Visit>
+void with_type(const PcdField& field, const Visit& visit) {
+  if (field.type == 'F') return field.size == 4 ? visit(float{}) : visit(double{});
+  const bool is_signed = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return is_signed ? visit(std::int8_t{}) : visit(std::uint8_t{});
+    case 2:
+      return is_signed ? visit(std::int16_t{}) : visit(std::uint16_t{});
+    case 4:
+      return is_signed ? visit(std::int32_t{}) : visit(std::uint32_t{});
+    default:
+      return is_signed ? visit(std::int64_t{}) : visit(std::uint64_t{});
+  }
+}
+
+// The type of its properties.
+Scalar scalar_of(const PcdField& field) {
+  if (field.size == 8) return Scalar::kFloat64;
+  if (field.type == 'F') return Scalar::kFloat32;
+  constexpr std::array kSigned = {Scalar::kInt8, Scalar::kInt16, Scalar::kInt32};
+  constexpr std::array kUnsigned = {Scalar::kUint8, Scalar::kUint16, Scalar::kUint32};
+  const std::size_t rank = std::countr_zero(field.size);
+  return field.type == 'I' ? kSigned[rank] : kUnsigned[rank];
+}
+
+// Colours as bytes of one value: blue is the lowest, alpha the highest.
+bool is_packed_colour(const PcdField& field) {
+  return (field.name == "rgb" || field.name == "rgba") && field.size == 4 && field.count == 1;
+}
+
+std::string name_of(const PcdField& field) {
+  for (const auto& [given, name] :
+       {std::pair{"normal_x", "nx"}, std::pair{"normal_y", "ny"}, std::pair{"normal_z", "nz"}}) {
+    if (field.name == given) return name;
+  }
+  return property_name(field.name);
+}
+
+RowLayout layout_of(const InputFile& in, const PcdHeader& header) {
+  std::vector<std::pair<std::string, Scalar>> properties;
+  for (const PcdField& field : header.fields) {
+    if (field.is_padding()) continue;
+    if (is_packed_colour(field)) {
+      for (const char* name : {"red", "green", "blue"}) properties.emplace_back(name, Scalar::kUint8);
+      if (field.name == "rgba") properties.emplace_back("alpha", Scalar::kUint8);
+    } else if (field.count == 1) {
+      properties.emplace_back(name_of(field), scalar_of(field));
+    } else {
+      for (std::size_t i = 0; i < field.count; ++i) {
+        properties.emplace_back(name_of(field) + '_' + std::to_string(i), scalar_of(field));
+      }
+    }
+  }
+  std::set<std::string_view> names;
+  for (const auto& [name, type] : properties) {
+    if (!names.insert(name).second) {
+      in.fail_at_line(in.line(), "two fields have the name " + in_quotes(name) + "; names must differ");
+    }
+  }
+  for (const char* name : {"x", "y", "z"}) {
+    if (!names.contains(name)) {
+      in.fail_at_line(in.line(),
+                      "no field " + in_quotes(name) + " with one value a point; x, y and z are needed");
+    }
+  }
+  return packed_layout(properties);
+}
+
+// One field of `count` rows, from rows as they are in the file to rows of properties.
+void convert(const PcdField& field, ConstColumn from, std::byte* to, std::size_t to_stride,
+             std::size_t count) {
+  if (is_packed_colour(field)) {
+    const std::size_t channels = field.name == "rgba" ? 4 : 3;
+    constexpr std::array kShift = {16, 8, 0, 24};  // red, green, blue, alpha
+    for (std::size_t row = 0; row < count; ++row) {
+      std::uint32_t packed;
+      std::memcpy(&packed, from.data + row * from.stride, sizeof packed);
+      for (std::size_t i = 0; i < channels; ++i) {
+        to[row * to_stride + i] = static_cast<std::byte>(packed >> kShift[i]);
+      }
+    }
+    return;
+  }
+  const std::size_t to_size = size_of(scalar_of(field));
+  for (std::size_t i = 0; i < field.count; ++i) {
+    const std::byte* values = from.data + i * field.size;
+    if (field.size == 8 && field.type != 'F') {
+      with_type(field, [&](auto value) {
+        for (std::size_t row = 0; row < count; ++row) {
+          std::memcpy(&value, values + row * from.stride, sizeof value);
+          const double wide = static_cast<double>(value);
+          std::memcpy(to + i * to_size + row * to_stride, &wide, sizeof wide);
+        }
+      });
+    } else {
+      copy_column({.data = values, .stride = from.stride, .type = scalar_of(field)},
+                  {.data = to + i * to_size, .stride = to_stride, .type = scalar_of(field)}, count);
+    }
+  }
+}
+
+std::size_t converted_bytes(const PcdField& field) {
+  if (field.is_padding()) return 0;
+  if (is_packed_colour(field)) return field.name == "rgba" ? 4 : 3;
+  return size_of(scalar_of(field)) * field.count;
+}
+
+std::uint32_t read_size(InputFile& in) {
+  std::array<std::byte, 4> bytes;
+  in.read(bytes.data(), bytes.size());
+  std::uint32_t size = 0;
+  for (std::size_t i = 0; i < 4; ++i) size |= std::to_integer<std::uint32_t>(bytes[i]) << 8 * i;
+  return size;
+}
+
+class PcdReader final : public ScanReader {
+ public:
+  explicit PcdReader(const std::filesystem::path& file)
+      : in_(file), header_(read_pcd_header(in_)), layout_(layout_of(in_, header_)), left_(header_.rows) {
+    raw_stride_ = header_.row_bytes();
+    if (header_.encoding == PcdEncoding::kCompressed) {
+      if (header_.rows > 0) open_block();
+    } else {
+      require_size();
+    }
+  }
+
+  std::string format() const override { return std::string("PCD, ") + pcd_name(header_.encoding); }
+  const RowLayout& layout() const override { return layout_; }
+  std::optional<std::uint64_t> expected_rows() const override { return header_.rows; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / std::max(layout_.stride, raw_stride_));
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
+    batch.bytes.resize(batch.count * layout_.stride);
+    if (batch.count == 0) {
+      // PCL reserves more than the compressed block needs, and leaves the rest zero.
+      const bool is_compressed = header_.encoding == PcdEncoding::kCompressed;
+      require_end(in_, is_compressed ? std::string_view("\0", 1) : kBlanks);
+      return false;
+    }
+    raw_.resize(batch.count * raw_stride_);
+    if (header_.encoding == PcdEncoding::kAscii) {
+      for (std::size_t row = 0; row < batch.count; ++row) read_text_row(raw_.data() + row * raw_stride_);
+    } else {
+      if (header_.encoding == PcdEncoding::kBinary) {
+        in_.read(raw_.data(), raw_.size());
+      } else {
+        read_columns(batch.count);
+      }
+      if constexpr (std::endian::native == std::endian::big) swap_rows(batch.count);
+    }
+    convert_rows(batch);
+    left_ -= batch.count;
+    return true;
+  }
+
+ private:
+  // The rows of an uncompressed file.
+  void require_size() const {
+    const bool is_text = header_.encoding == PcdEncoding::kAscii;
+    std::uint64_t least = raw_stride_, left = in_.remaining();
+    if (is_text) {
+      // A character and a blank for each value, but the last line may have no end.
+      least = 0;
+      for (const PcdField& field : header_.fields) least += 2 * field.count;
+      ++left;
+    }
+    if (header_.rows > left / least) fail_too_short();
+  }
+
+  [[noreturn]] void fail_too_short() const {
+    in_.fail_at_byte(in_.position() + in_.remaining(), "the file ends here, too early for the " +
+                                                           std::to_string(header_.rows) +
+                                                           " points of its header; it must be complete");
+  }
+
+  // A compressed file: two sizes, then the block.
+  void open_block() {
+    const std::uint64_t place = in_.position();
+    if (in_.remaining() < 8) fail_too_short();
+    block_bytes_ = read_size(in_);
+    unpacked_bytes_ = read_size(in_);
+    if (block_bytes_ > in_.remaining()) fail_too_short();
+    // PCL leaves padding out of the block; other writers may not.
+    const std::uint64_t with_padding = raw_stride_;
+    const std::uint64_t without = raw_stride_ - header_.padding_bytes();
+    has_padding_ = is_product(unpacked_bytes_, header_.rows, with_padding);
+    if (!has_padding_ && !is_product(unpacked_bytes_, header_.rows, without)) {
+      in_.fail_at_byte(place + 4, std::to_string(unpacked_bytes_) + " uncompressed bytes are not " +
+                                      std::to_string(header_.rows) + " points of " + std::to_string(without) +
+                                      " bytes; they must be equal");
+    }
+    if (unpacked_bytes_ > block_bytes_ * kLzfLargestRatio) {
+      in_.fail_at_byte(place, std::to_string(block_bytes_) + " compressed bytes cannot come to the " +
+                                  std::to_string(unpacked_bytes_) + " declared; at most " +
+                                  std::to_string(kLzfLargestRatio) + " times as many are possible");
+    }
+    const auto columns = std::count_if(header_.fields.begin(), header_.fields.end(),
+                                       [](const PcdField& field) { return !field.is_padding(); });
+    if (static_cast<std::size_t>(columns) > kMostColumns) {
+      in_.fail_at_byte(place, std::to_string(columns) + " fields; compressed files may have " +
+                                  std::to_string(kMostColumns));
+    }
+  }
+
+  static bool is_product(std::uint64_t product, std::uint64_t a, std::uint64_t b) {
+    return b == 0 ? product == 0 : product % b == 0 && product / b == a;
+  }
+
+  // Unpacks the whole block once, to find where each column begins.
+  void start_columns() {
+    LzfStream stream(in_.file(), in_.position(), block_bytes_, unpacked_bytes_);
+    for (const PcdField& field : header_.fields) {
+      if (field.is_padding() && !has_padding_) continue;
+      if (!field.is_padding()) columns_.push_back(stream.fork());
+      stream.skip(header_.rows * field.bytes());
+    }
+    stream.require_end();
+    in_.skip(block_bytes_);
+  }
+
+  void read_columns(std::size_t count) {
+    if (columns_.empty()) start_columns();
+    std::size_t offset = 0, column = 0;
+    for (const PcdField& field : header_.fields) {
+      if (!field.is_padding()) {
+        column_bytes_.resize(count * field.bytes());
+        columns_[column++].read(column_bytes_.data(), column_bytes_.size());
+        for (std::size_t row = 0; row < count; ++row) {
+          std::memcpy(raw_.data() + row * raw_stride_ + offset, column_bytes_.data() + row * field.bytes(),
+                      field.bytes());
+        }
+      }
+      offset += field.bytes();
+    }
+  }
+
+  void read_text_row(std::byte* to) {
+    std::string_view line, word;
+    do {
+      const auto next = in_.next_line();
+      if (!next) {
+        in_.fail_at_line(in_.line(), "the file ends here with fewer rows than the " +
+                                         std::to_string(header_.rows) + " points of its header");
+      }
+      line = *next;
+    } while (!LineWords(in_, line).next(word));
+    constexpr const char* kNeeded = "every row must have a value for each field";
+    LineWords words(in_, line);
+    for (const PcdField& field : header_.fields) {
+      for (std::size_t i = 0; i < field.count; ++i, to += field.size) {
+        if (field.is_padding()) {
+          if (!words.next(word)) words.fail(std::string("fewer values than needed; ") + kNeeded);
+          continue;
+        }
+        with_type(field, [&](auto value) {
+          value = words.number<decltype(value)>(kNeeded);
+          std::memcpy(to, &value, sizeof value);
+        });
+      }
+    }
+    words.require_end(kNeeded);
+  }
+
+  void swap_rows(std::size_t count) {
+    std::size_t offset = 0;
+    for (const PcdField& field : header_.fields) {
+      for (std::size_t i = 0; i < field.count; ++i, offset += field.size) {
+        swap_bytes({.data = raw_.data() + offset, .stride = raw_stride_, .type = scalar_of(field)}, count);
+      }
+    }
+  }
+
+  void convert_rows(RowBatch& batch) const {
+    std::size_t from = 0, to = 0;
+    for (const PcdField& field : header_.fields) {
+      if (!field.is_padding()) {
+        convert(field, {.data = raw_.data() + from, .stride = raw_stride_, .type = scalar_of(field)},
+                batch.bytes.data() + to, layout_.stride, batch.count);
+      }
+      from += field.bytes();
+      to += converted_bytes(field);
+    }
+  }
+
+  InputFile in_;
+  PcdHeader header_;
+  RowLayout layout_;
+  std::uint64_t left_;             // rows not yet read
+  std::size_t raw_stride_ = 0;     // of a row as the header describes it, padding included
+  std::vector<std::byte> raw_;     // rows, in the machine's byte order
+  std::uint64_t block_bytes_ = 0;  // compressed
+  std::uint64_t unpacked_bytes_ = 0;
+  bool has_padding_ = false;        // the block has columns of padding
+  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are asked for
+  std::vector<std::byte> column_bytes_;
+};
+
+}  // namespace
+
+bool looks_like_pcd(const FileStart& start) {
+  if (start.first_bytes.starts_with("# .PCD")) return true;
+  std::string_view rest = start.first_bytes;
+  while (!rest.empty()) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    std::string_view word;
+    if (!next_field(line, ' ', word) || word.starts_with('#')) continue;
+    return word == "VERSION";
+  }
+  return false;
+}
+
+std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<PcdReader>(file);
+}
+
+}  // namespace lacuna
