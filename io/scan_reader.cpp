@@ -1,6 +1,7 @@
 #include "io/scan_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/obj_reader.hpp"
 #include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
 #include "io/text_reader.hpp"
@@ -20,6 +21,7 @@ struct Format {
 constexpr std::array kFormats = {
     Format{"PLY", looks_like_ply, open_ply},
     Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"OBJ", looks_like_obj, open_obj},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
