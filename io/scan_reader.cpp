@@ -2,6 +2,7 @@
 
 #include "io/input_file.hpp"
 #include "io/obj_reader.hpp"
+#include "io/off_reader.hpp"
 #include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
 #include "io/text_reader.hpp"
@@ -22,6 +23,7 @@ constexpr std::array kFormats = {
     Format{"PLY", looks_like_ply, open_ply},
     Format{"PCD", looks_like_pcd, open_pcd},
     Format{"OBJ", looks_like_obj, open_obj},
+    Format{"OFF", looks_like_off, open_off},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
