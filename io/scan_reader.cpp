@@ -5,6 +5,7 @@
 #include "io/off_reader.hpp"
 #include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
+#include "io/stl_reader.hpp"
 #include "io/text_reader.hpp"
 
 #include <array>
@@ -24,6 +25,7 @@ constexpr std::array kFormats = {
     Format{"PCD", looks_like_pcd, open_pcd},
     Format{"OBJ", looks_like_obj, open_obj},
     Format{"OFF", looks_like_off, open_off},
+    Format{"STL", looks_like_stl, open_stl},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
