@@ -1,5 +1,6 @@
 #include "io/number.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace lacuna {
@@ -10,6 +11,28 @@ float parse_extreme(std::string_view text, float) {
 
 double parse_extreme(std::string_view text, double) {
   return std::strtod(std::string(text).c_str(), nullptr);
+}
+
+bool parse_foreign_number(std::string_view text, double& value) {
+  constexpr std::size_t kLongest = 100;
+  if (text.size() > kLongest) return false;
+  if (const std::size_t sharp = text.find("1.#");
+      sharp <= 1 && text.substr(0, sharp).find_first_not_of("+-") == text.npos) {
+    const std::string_view kind = text.substr(sharp + 3);
+    const bool is_infinite = kind.starts_with("INF");
+    if (!is_infinite && !kind.starts_with("QNAN") && !kind.starts_with("SNAN") && !kind.starts_with("IND"))
+      return false;
+    value = is_infinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    if (text.front() == '-') value = -value;
+    return true;
+  }
+  std::string plain(text);
+  if (std::count(plain.begin(), plain.end(), ',') > 1) return false;
+  for (char& c : plain) {
+    if (c == ',') c = '.';
+    if (c == 'D' || c == 'd') c = 'e';
+  }
+  return parse_number(plain, value);
 }
 
 }  // namespace lacuna

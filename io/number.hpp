@@ -29,6 +29,10 @@ bool parse_number(std::string_view text, T& value) {
   return status == std::errc{};
 }
 
+// The same of numbers as other languages write them: a decimal comma, an exponent of Fortran ("1.0D+02"), and
+// what Microsoft's library prints for NaN and infinity ("-1.#IND", "1.#QNAN", "1.#INF").
+bool parse_foreign_number(std::string_view text, double& value);
+
 // What `parse_number<T>` takes, for error messages.
 template <class T>
 std::string describe_number() {

@@ -1,10 +1,13 @@
 #include "io/scan_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/las_reader.hpp"
 #include "io/obj_reader.hpp"
 #include "io/off_reader.hpp"
+#include "io/other_formats.hpp"
 #include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
+#include "io/ptx_reader.hpp"
 #include "io/stl_reader.hpp"
 #include "io/text_reader.hpp"
 
@@ -21,15 +24,25 @@ struct Format {
 
 // Tried in this order.
 constexpr std::array kFormats = {
-    Format{"PLY", looks_like_ply, open_ply},
-    Format{"PCD", looks_like_pcd, open_pcd},
-    Format{"OBJ", looks_like_obj, open_obj},
-    Format{"OFF", looks_like_off, open_off},
-    Format{"STL", looks_like_stl, open_stl},
-    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+    Format{"PLY", looks_like_ply, open_ply}, Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"OBJ", looks_like_obj, open_obj}, Format{"OFF", looks_like_off, open_off},
+    Format{"STL", looks_like_stl, open_stl}, Format{"LAS", looks_like_las, open_las},
+    Format{"PTX", looks_like_ptx, open_ptx}, Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
 constexpr std::size_t kFirstBytes = 4096;
+
+FileStart file_start(InputFile& in) {
+  const std::uint64_t size = in.remaining();
+  return {.first_bytes = in.peek(kFirstBytes), .size = size};
+}
+
+const Format* find_format(const FileStart& start) {
+  for (const Format& format : kFormats) {
+    if (format.recognises(start)) return &format;
+  }
+  return nullptr;
+}
 
 std::string format_names() {
   std::string names;
@@ -39,14 +52,23 @@ std::string format_names() {
 
 }  // namespace
 
+Recognised recognise(const std::filesystem::path& file) {
+  InputFile in(file);
+  const FileStart start = file_start(in);
+  const Format* const format = find_format(start);
+  if (start.first_bytes.empty() || describe_other_format(start.first_bytes) || format == nullptr)
+    return Recognised::kNo;
+  return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
+}
+
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile in(file);
-  const FileStart start{.first_bytes = in.peek(kFirstBytes), .size = in.position() + in.remaining()};
+  const FileStart start = file_start(in);
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
-  for (const Format& format : kFormats) {
-    if (format.recognises(start)) return format.open(file, options);
-  }
-  in.fail_at_byte(0, "unknown format; allowed are " + format_names());
+  if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);
+  if (const Format* const format = find_format(start)) return format->open(file, options);
+  in.fail_at_byte(
+      0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }
 
 }  // namespace lacuna

@@ -60,6 +60,14 @@ struct FileStart {
   bool is_whole() const { return first_bytes.size() == size; }
 };
 
+// By the first bytes of a file, what it may be. Throws `Error` if it cannot be opened.
+enum class Recognised : std::uint8_t {
+  kNo,      // no format that is read
+  kAsText,  // text, of rows of numbers or of anything else
+  kYes,
+};
+Recognised recognise(const std::filesystem::path& file);
+
 // Opens a file by what it holds, not by its name. Throws `Error`.
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options);
 

@@ -18,11 +18,19 @@ constexpr const char* kAllowed = "rows of numbers divided by blanks, commas or s
 
 using Fields = std::vector<std::string_view>;
 
+Fields split(std::string_view line, char separator);
+
+// Commas divide values, unless a blank is left within one of these: then they are decimal commas.
 char find_separator(std::string_view line) {
-  for (const char separator : {';', ','}) {
-    if (line.find(separator) != std::string_view::npos) return separator;
-  }
-  return ' ';
+  if (line.find(';') != std::string_view::npos) return ';';
+  if (line.find(',') == std::string_view::npos) return ' ';
+  const Fields fields = split(line, ',');
+  const bool is_decimal = std::any_of(fields.begin(), fields.end(), [](std::string_view field) {
+    double value;
+    const Fields words = split(field, ' ');
+    return words.size() > 1 && parse_number(words[0], value);
+  });
+  return is_decimal ? ' ' : ',';
 }
 
 Fields split(std::string_view line, char separator) {
@@ -34,6 +42,10 @@ Fields split(std::string_view line, char separator) {
 std::string_view without_blanks(std::string_view line) {
   const std::size_t begin = std::min(line.find_first_not_of(" \t\r\v\f"), line.size());
   return line.substr(begin);
+}
+
+std::string_view without_end(std::string_view line) {
+  return line.substr(0, line.find_last_not_of(" \t\r\v\f") + 1);
 }
 
 bool is_comment(std::string_view line) {
@@ -64,6 +76,14 @@ std::vector<std::string> default_names(std::size_t count) {
   std::vector<std::string> names = {"x", "y", "z"};
   while (names.size() < count) names.push_back("column_" + std::to_string(names.size() + 1));
   return names;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+  return text + (names.size() > kMost ? ", ..." : "");
 }
 
 bool has_position(const std::vector<std::string>& names) {
@@ -120,13 +140,14 @@ class TextReader final : public ScanReader {
     }
     set_columns(find_names(preamble, first, has_header, options));
     if (!has_header) pending_ = preamble.first;
-    expected_rows_ = preamble.count;
+    block_rows_ = preamble.count;
   }
 
   std::string format() const override { return "text"; }
   const RowLayout& layout() const override { return layout_; }
 
-  std::optional<std::uint64_t> expected_rows() const override { return expected_rows_; }
+  // A file of counted rows may have more such blocks behind the first.
+  std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
@@ -141,11 +162,11 @@ class TextReader final : public ScanReader {
       const auto line = in_.next_line();
       if (!line) break;
       const std::string_view text = without_blanks(*line);
-      if (text.empty() || is_comment(text)) continue;
+      if (text.empty() || is_comment(text) || begins_block(text)) continue;
       add_row(text, batch);
     }
     batch.bytes.resize(batch.count * layout_.stride);
-    if (batch.count == 0 && expected_rows_ && rows_ < *expected_rows_)
+    if (batch.count == 0 && block_rows_ && rows_ < *block_rows_)
       fail_number_of_rows("the file ends here with fewer");
     return batch.count > 0;
   }
@@ -154,14 +175,32 @@ class TextReader final : public ScanReader {
   std::vector<std::string> find_names(const Preamble& preamble, const Fields& first, bool has_header,
                                       const ReadOptions& options) const {
     const Fields given = split(options.columns, ' ');
-    if (!given.empty()) return column_names(given);
-    if (has_header) return column_names(first);
+    const bool is_mapping = options.columns.find('=') != std::string::npos;
+    if (!given.empty() && !is_mapping) return column_names(given);
+    if (has_header) return is_mapping ? mapped_names(column_names(first), given) : column_names(first);
+    if (is_mapping)
+      in_.fail_at_line(in_.line(), "no header line; names of columns can be given only in their order");
     const auto in_comment = column_names(split(preamble.comment, find_separator(preamble.comment)));
     if (in_comment.size() == first.size() && has_position(in_comment)) return in_comment;
     if (!first.empty() && first.size() < 3) {
       in_.fail_at_line(in_.line(), std::to_string(first.size()) + " values; at least x y z are needed");
     }
     return default_names(first.size());
+  }
+
+  // Names from a header, some of them replaced: "x=Easting" makes the column Easting x.
+  std::vector<std::string> mapped_names(std::vector<std::string> names, const Fields& given) const {
+    for (const std::string_view word : given) {
+      const std::size_t equals = word.find('=');
+      const std::string from(equals == word.npos ? std::string_view() : word.substr(equals + 1));
+      const auto found = std::find(names.begin(), names.end(), from);
+      if (from.empty() || found == names.end()) {
+        in_.fail_at_line(in_.line(),
+                         "no column for " + in_quotes(word) + "; the columns are " + joined(names));
+      }
+      *found = column_name(word.substr(0, equals), 0);
+    }
+    return names;
   }
 
   void set_columns(const std::vector<std::string>& names) {
@@ -174,15 +213,25 @@ class TextReader final : public ScanReader {
       columns.emplace_back(name, Scalar::kFloat64);
     }
     if (!has_position(names)) {
-      in_.fail_at_line(
-          in_.line(),
-          "no columns named x, y and z; a header line or the option for columns must name all three");
+      in_.fail_at_line(in_.line(), "no columns named x, y and z, but " + joined(names) +
+                                       "; --columns x=... y=... z=... says which they are");
     }
     layout_ = packed_layout(columns);
   }
 
+  // In a file of counted rows: a bare count behind the rows of a block. Exports of several stations have
+  // these.
+  bool begins_block(std::string_view line) {
+    std::uint64_t count = 0;
+    if (rows_ != block_rows_ || !parse_number(without_end(line), count))
+      return false;
+    block_rows_ = count;
+    rows_ = 0;
+    return true;
+  }
+
   void add_row(std::string_view row, RowBatch& batch) {
-    if (rows_ == expected_rows_) fail_number_of_rows("more");
+    if (rows_ == block_rows_) fail_number_of_rows("more");
     parse_row(row, batch.bytes.data() + batch.count * layout_.stride);
     ++batch.count;
     ++rows_;
@@ -193,7 +242,8 @@ class TextReader final : public ScanReader {
     for (const Property& property : layout_.properties) {
       if (!next_field(rest, separator_, field)) fail_number_of_values("fewer");
       double value;
-      if (!parse_number(field, value)) in_.fail_at_line(in_.line(), in_quotes(field) + " is not a number");
+      if (!parse_number(field, value) && !parse_foreign_number(field, value))
+        in_.fail_at_line(in_.line(), in_quotes(field) + " is not a number");
       std::memcpy(to + property.offset, &value, sizeof(value));
     }
     if (next_field(rest, separator_, field)) fail_number_of_values("more");
@@ -206,16 +256,16 @@ class TextReader final : public ScanReader {
   }
 
   [[noreturn]] void fail_number_of_rows(const std::string& comparison) const {
-    in_.fail_at_line(in_.line(), comparison + " rows than the " + std::to_string(*expected_rows_) +
-                                     " that a line before them tells");
+    in_.fail_at_line(in_.line(), comparison + " rows than the " + std::to_string(*block_rows_) +
+                                     " that a line before them declares");
   }
 
   InputFile in_;
   char separator_ = ' ';
   RowLayout layout_;
-  std::optional<std::uint64_t> expected_rows_;
-  std::uint64_t rows_ = 0;
-  std::string pending_;  // the first row, read to find the columns
+  std::optional<std::uint64_t> block_rows_;  // of the current block, where its rows are counted
+  std::uint64_t rows_ = 0;                   // of it so far
+  std::string pending_;                      // the first row, read to find the columns
 };
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
 #include "io/temporary_folder.hpp"
+#include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/value_options.hpp"
@@ -54,7 +56,10 @@ void require(const CLI::App& command, const std::string& option) {
 std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  FileScan scan(arguments.scans, {.columns = config.input.columns});
+  const ReadOptions options{.columns = config.input.columns};
+  const std::vector<fs::path> files = expand_inputs(arguments.scans, options);
+  for (const std::string& warning : repeated_files(files)) spdlog::warn("{}", warning);
+  FileScan scan(files, options);
 
   const MadeFolder out_folder(arguments.out);
   const fs::path& out = out_folder.path();
@@ -73,9 +78,11 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   progress->begin("write", 0);
   write_results(*detection, scan, config, out, overwrite);
   progress->end();
+  for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
+    spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
-  std::string summary = print_summary(*detection, arguments.scans,
+  std::string summary = print_summary(*detection, files,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()});
   for (const fs::path& file : result_files(config, out))
@@ -107,8 +114,10 @@ void add_detect_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("detect", "Find the holes of a scan and write them to a folder");
   // Its life ends with the callback's, the app's own.
   const auto arguments = std::make_shared<DetectArguments>(*command);
-  command->add_option("SCAN", arguments->scans, "Scan files (PLY or text); several are one registered scan")
-      ->type_name("FILE");
+  command
+      ->add_option("SCAN", arguments->scans,
+                   "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      ->type_name("SCAN");
   command->add_option("--out", arguments->out, "Folder for the results; made if missing")->type_name("DIR");
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");

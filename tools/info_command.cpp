@@ -5,6 +5,7 @@
 #include "io/file_scan.hpp"
 #include "io/results.hpp"
 #include "io/temporary_folder.hpp"
+#include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
@@ -176,9 +177,10 @@ void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
 void run_info(const InfoArguments& arguments) {
   const Config config = arguments.parameters.read().config;
   const ReadOptions options{.columns = config.input.columns};
-  FileScan scan(arguments.scans, options);
+  const std::vector<fs::path> inputs = expand_inputs(arguments.scans, options);
+  FileScan scan(inputs, options);
   std::vector<FileInfo> files;
-  for (const fs::path& file : arguments.scans) files.push_back(read_file_info(file, options));
+  for (const fs::path& file : inputs) files.push_back(read_file_info(file, options));
   const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
     print_json(files, run);
@@ -193,8 +195,10 @@ void add_info_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("info", "Show what scan files hold and what a run on them would take");
   const auto arguments = std::make_shared<InfoArguments>(*command);
-  command->add_option("SCAN", arguments->scans, "Scan files (PLY or text); several are one registered scan")
-      ->type_name("FILE")
+  command
+      ->add_option("SCAN", arguments->scans,
+                   "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      ->type_name("SCAN")
       ->required();
   command->add_flag("--json", arguments->json, "Print it as JSON");
   command->callback([arguments] { run_info(*arguments); });

@@ -24,7 +24,7 @@ class TaskArena {
   // The same with bounded memory: body i needs `needs[i]` bytes while it runs; bodies are started in
   // ascending order and those running together never need more than `budget`, save one alone that does.
   void for_each_within_budget(std::span<const std::uint64_t> needs, std::uint64_t budget,
-                       const std::function<void(std::size_t)>& body) const;
+                              const std::function<void(std::size_t)>& body) const;
 
   // What `produce` puts into a slot is changed by `transform`, several slots at a time, and taken by
   // `consume` in the order produced; a slot is filled again only after that. produce: false at the end.
@@ -38,5 +38,10 @@ class TaskArena {
   struct Arena;
   std::unique_ptr<Arena> arena_;
 };
+
+// Of the arena that the calling thread works in, for code that is called by a body and knows no arena.
+std::size_t threads_here();
+// As `for_each`, in that arena.
+void for_each_here(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace lacuna

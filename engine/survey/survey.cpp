@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <sstream>
 #include <utility>
 
 namespace lacuna {
@@ -93,6 +94,22 @@ std::uint64_t few_points(std::uint64_t points) {
   return std::min<std::uint64_t>(256, points / 1024);
 }
 
+// Squared distances between points within it do not overflow.
+constexpr double kFarthest = 1e153;
+
+bool lies_beyond(const Eigen::Vector3d& point) {
+  return finite(point) && point.cwiseAbs().maxCoeff() > kFarthest;
+}
+
+void refuse_beyond(const PointBatch& batch) {
+  const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), lies_beyond);
+  if (found == batch.positions.end()) return;
+  std::ostringstream message;
+  message << "point " << value(batch.id(static_cast<std::size_t>(found - batch.positions.begin())))
+          << " lies at " << found->transpose() << "; coordinates must be within 1e153";
+  throw Error(message.str());
+}
+
 }  // namespace
 
 Precision SurveyedScan::precision() const {
@@ -122,6 +139,8 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
       ++counts.runs.back().points;
     }
   }
+  if (!counts.bounds.isEmpty() && (lies_beyond(counts.bounds.min()) || lies_beyond(counts.bounds.max())))
+    refuse_beyond(batch);
   return counts;
 }
 
@@ -232,10 +251,6 @@ SurveyedScan Survey::finish() {
   const std::uint64_t few = few_points(finite_points);
   while (counts_.standard_bytes(few) + counts_.cells() * kBytesPerCell > memory_ && can_merge())
     take(counts_.merged());
-  if (finite_points > 0 && !std::isfinite(scan_.bounds.diagonal().squaredNorm())) {
-    throw Error("the scan spans " + std::to_string(scan_.bounds.diagonal().norm()) +
-                ": squared distances between its points overflow; coordinates must lie within 1e153");
-  }
   scan_.cells = counts_.counted_cells(few);
   for (CountedCell& cell : scan_.cells) cell.is_far |= scan_.grid.is_endless(cell.coord);
   return std::move(scan_);

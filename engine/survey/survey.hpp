@@ -36,6 +36,7 @@ struct CellCounts {
   std::uint64_t ids = 0;
   bool is_single = true;
 };
+// Throws `Error` where a point is so far away that squared distances could overflow.
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
 // Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge,
@@ -55,7 +56,6 @@ class Survey {
   bool is_sized() const { return sized_; }
   CellGrid finest() const { return {.finest = scan_.grid.finest, .origin = scan_.grid.origin}; }
   void add(const CellCounts& counts);
-  // Throws `Error` where squared distances between points would overflow.
   SurveyedScan finish();
 
   static constexpr std::uint64_t kPointsPerCell = 16;

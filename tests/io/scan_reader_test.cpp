@@ -41,8 +41,20 @@ TEST_CASE("a format is known by its first bytes, not by its name", "[io]") {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
   CHECK(read_table(folder.write("a.xyz", ply)).rows.empty());
-  CHECK(read_error(folder.write("a.las", std::string("LASF\0\0\1\2", 8)))
-            .find("unknown format; allowed are PLY") != std::string::npos);
+  const std::string unknown = read_error(folder.write("a.las", std::string("\x7f\1\0\0\1\2", 6)));
+  CHECK(unknown.find("unknown format; PLY, LAS") != std::string::npos);
+}
+
+TEST_CASE("a format that is known but not read is named, with a way out", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& bytes) { return read_error(folder.write("a.bin", bytes)); };
+  CHECK_THAT(error("ASTM-E57\1\0\0\0"),
+             Catch::Matchers::Contains("byte 0: this is E57, which is not read; CloudCompare"));
+  CHECK_THAT(error("\x1f\x8b\x08"),
+             Catch::Matchers::Contains("packed by gzip") && Catch::Matchers::Contains("unpack it first"));
+  CHECK_THAT(error("# vtk DataFile Version 3.0\n"), Catch::Matchers::Contains("VTK"));
+  CHECK_THAT(error("version https://git-lfs.github.com/spec/v1\noid sha256:1\n"),
+             Catch::Matchers::Contains("git lfs pull"));
 }
 
 }  // namespace lacuna::test

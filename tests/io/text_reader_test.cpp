@@ -60,6 +60,46 @@ TEST_CASE("a bare count on the first line is what the rows must come to", "[io]"
             .find("line 3: more rows than the 1 that") != std::string::npos);
 }
 
+TEST_CASE("several counted blocks are one scan", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.pts", "2\n1 2 3\n4 5 6\n1 \r\n7 8 9\n")).rows ==
+        Rows{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
+  CHECK(read_error(folder.write("a.pts", "1\n1 2 3\n2\n4 5 6\n"))
+            .find("line 4: the file ends here with fewer rows than the 2") != std::string::npos);
+}
+
+TEST_CASE("decimal commas, exponents of Fortran and what is not a number for Microsoft are numbers", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.txt", "1,5 2,25 3\n4,5 -5 6,0\n")).rows ==
+        Rows{{1.5, 2.25, 3}, {4.5, -5, 6}});
+  CHECK(read_table(folder.write("a.txt", "x;y;z\n1,5;2,25;3\n")).rows == Rows{{1.5, 2.25, 3}});
+  const Table odd = read_table(folder.write("a.txt", "1.0D+02 2.5d-1 -1.#IND\n1.#QNAN 1.#INF -1.#INF00\n"));
+  CHECK(odd.rows[0][0] == 100);
+  CHECK(odd.rows[0][1] == 0.25);
+  CHECK(std::isnan(odd.rows[0][2]));
+  CHECK(std::isnan(odd.rows[1][0]));
+  CHECK(odd.rows[1][1] == std::numeric_limits<double>::infinity());
+  CHECK(odd.rows[1][2] == -std::numeric_limits<double>::infinity());
+  for (const char* wrong : {"1.#X 2 3\n", "1 2 3,4,5\n", "1 2 1D2D3\n"})
+    CHECK(read_error(folder.write("a.txt", wrong)) != "");
+}
+
+TEST_CASE("columns of a header may be given other names", "[io]") {
+  const ScratchFolder folder;
+  const std::string text = "Northing,Easting,Height,I\n1,2,3,4\n";
+  const Table table =
+      read_table(folder.write("a.csv", text), 10, {.columns = "x=Easting y=Northing z=Height"});
+  CHECK(table.names == std::vector<std::string>{"y", "x", "z", "I"});
+  CHECK(table.rows == Rows{{1, 2, 3, 4}});
+  const auto error = [&](const std::string& columns) {
+    return read_error(folder.write("a.csv", text), {.columns = columns});
+  };
+  CHECK(error("").find("no columns named x, y and z, but 'Northing', 'Easting', 'Height', 'I'; --columns "
+                       "x=... y=... z=...") != std::string::npos);
+  CHECK(error("x=East y=Northing z=Height")
+            .find("no column for 'x=East'; the columns are 'Northing', 'Easting'") != std::string::npos);
+}
+
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
   const ScratchFolder folder;
   CHECK(read_table(folder.write("a.csv", "x,y,z\n")).rows.empty());

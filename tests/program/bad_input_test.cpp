@@ -129,6 +129,26 @@ TEST_CASE("a header alone is a scan without points: results without loops") {
   CHECK(run_program({"info", scratch.write("none.ply", header("0"))}).exit_code == 0);
 }
 
+TEST_CASE("what is odd about a scan is a warning that names it, and the run goes on") {
+  const ScratchFolder scratch;
+  const auto warnings = [&](std::vector<std::string> scans) {
+    scans.insert(scans.begin(), "detect");
+    scans.insert(scans.end(), {"--out", (scratch / "out").string(), "--quiet"});
+    const ProgramResult result = run_program(scans);
+    CHECK(result.exit_code == 0);
+    return result.err;
+  };
+  const std::string even = scratch.write("even.ply", binary_ply(plane(20)));
+  CHECK(warnings({even}).empty());
+  CHECK_THAT(warnings({even, (scratch.path() / "." / "even.ply").string()}),
+             Catch::Matchers::Contains("even.ply: given more than once"));
+  CHECK_THAT(warnings({scratch.write("few.txt", "0 0 0\n1 0 0\n0 1 0\n")}),
+             Catch::Matchers::Contains("3 different points; each of them has fewer than k = 15 neighbours"));
+  const std::string utm =
+      scratch.write("utm.ply", binary_ply(plane(40).scaled(0.5).translated({500'000, 5'400'000, 300})));
+  CHECK_THAT(warnings({utm}), Catch::Matchers::Contains("steps of up to 0.5 here"));
+}
+
 TEST_CASE("few points, equal points, collinear ones and unusable ones have results") {
   const ScratchFolder scratch;
   const double nan = std::nan("");
@@ -162,6 +182,8 @@ TEST_CASE("points whose squared distances overflow or vanish end the program wit
   const ScratchFolder scratch;
   const fs::path out = scratch / "out";
   check_failure(detect_quietly(scratch.write("far.txt", "0 0 0\n1 0 0\n1e200 0 0\n"), out), "1e153");
+  check_failure(detect_quietly(scratch.write("far.txt", "0 0 0\n1 0 0\n1e200 0 0\n"), out),
+                "point 2 lies at 1e+200 ");
   check_failure(detect_quietly(scratch.write("near.txt", "0 0 0\n1e-200 0 0\n1 0 0\n"), out), "underflow");
   CHECK_FALSE(fs::exists(out));
 }

@@ -1,0 +1,42 @@
+// The public header block of a LAS file, versions 1.0 to 1.4, and what its variable length records say of the
+// points (ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7).
+#pragma once
+
+#include "io/input_file.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// A descriptor of the record "Extra Bytes": what a few more bytes of each point are.
+struct LasExtraBytes {
+  std::string name;
+  std::uint8_t type;     // 1 to 10: one value; 11 to 30: two or three of these; 0: bytes without a type
+  std::uint8_t options;  // of type 0 the number of bytes, else which of the following count
+  double scale, offset;  // value = stored * scale + offset
+};
+
+struct LasHeader {
+  int minor = 0;         // of version 1.x
+  int point_format = 0;  // 0 to 10
+  bool is_compressed = false;
+  std::uint32_t points_at = 0;     // byte of the first point
+  std::uint16_t record_bytes = 0;  // of a point
+  std::uint64_t points = 0;
+  std::array<double, 3> scale{}, offset{};
+  std::vector<LasExtraBytes> extra_bytes;
+  std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty: none
+};
+
+// Bytes of a point in this format, without extra bytes.
+std::size_t las_point_bytes(int point_format);
+
+// Reads up to `points_at`. Throws `Error` where the header contradicts itself or the file.
+LasHeader read_las_header(InputFile& in);
+
+}  // namespace lacuna

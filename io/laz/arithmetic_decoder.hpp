@@ -1,0 +1,109 @@
+// The arithmetic decoder (Said, section 2.3 and appendix: 32 bits, renormalised by whole bytes).
+#pragma once
+
+#include "io/laz/laz.hpp"
+#include "io/laz/symbol_model.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace lacuna::laz {
+
+// Decodes from `bytes`, which outlive it. An encoder ends its data such that a decoder reads exactly all
+// bytes; so each function throws `Corrupt` at the end of the bytes. Between calls value_ < length_ and
+// length_ >= kMinLength hold, whatever the bytes are.
+class ArithmeticDecoder {
+ public:
+  explicit ArithmeticDecoder(std::span<const std::byte> bytes)
+      : next_(bytes.data()), end_(bytes.data() + bytes.size()) {
+    for (int i = 0; i < 4; ++i) value_ = value_ << 8 | next_byte();
+    if (value_ == length_) throw Corrupt("the compressed points begin with bytes that no encoder writes");
+  }
+
+  template <unsigned kCapacity>
+  unsigned symbol(SymbolModel<kCapacity>& model) {
+    const std::uint32_t unit = length_ >> SymbolModel<kCapacity>::kShareBits;
+    unsigned low, high;
+    if constexpr (SymbolModel<kCapacity>::kHasTable) {
+      const std::uint32_t place = value_ / unit;
+      const auto bracket = model.bracket(place);
+      low = bracket.low;
+      high = bracket.high + 1;
+      while (high > low + 1) {
+        const unsigned middle = (low + high) / 2;
+        (model.start(middle) > place ? high : low) = middle;
+      }
+    } else {  // few symbols: products are faster than a division
+      low = 0;
+      high = model.symbols();
+      while (high > low + 1) {
+        const unsigned middle = (low + high) / 2;
+        (model.start(middle) * unit > value_ ? high : low) = middle;
+      }
+    }
+    const std::uint32_t start = model.start(low) * unit;
+    length_ = (low + 1 < model.symbols() ? model.start(low + 1) * unit : length_) - start;
+    value_ -= start;
+    renormalise();
+    model.count(low);
+    return low;
+  }
+
+  bool bit(BitModel& model) {
+    const std::uint32_t zero = model.share_of_zero() * (length_ >> BitModel::kShareBits);
+    const bool one = value_ >= zero;
+    if (one) {
+      value_ -= zero;
+      length_ -= zero;
+    } else {
+      length_ = zero;
+    }
+    renormalise();
+    model.count(one);
+    return one;
+  }
+
+  // `count` bits without a model, 1 to 32.
+  std::uint32_t bits(unsigned count) {
+    if (count <= 19) return few_bits(count);
+    const std::uint32_t low = few_bits(16);
+    return few_bits(count - 16) << 16 | low;
+  }
+
+  std::uint64_t bits64() {
+    const std::uint64_t low = bits(32);
+    return std::uint64_t{bits(32)} << 32 | low;
+  }
+
+ private:
+  static constexpr std::uint32_t kMinLength = 1u << 24;
+
+  std::uint32_t few_bits(unsigned count) {
+    length_ >>= count;
+    const std::uint32_t bits = value_ / length_;
+    if (bits >> count) throw Corrupt("the compressed points are damaged");
+    value_ -= bits * length_;
+    renormalise();
+    return bits;
+  }
+
+  void renormalise() {
+    while (length_ < kMinLength) {
+      value_ = value_ << 8 | next_byte();
+      length_ <<= 8;
+    }
+  }
+
+  std::uint32_t next_byte() {
+    if (next_ == end_) throw Corrupt("the compressed points end too early");
+    return std::to_integer<std::uint32_t>(*next_++);
+  }
+
+  const std::byte* next_;
+  const std::byte* end_;
+  std::uint32_t value_ = 0;
+  std::uint32_t length_ = 0xffffffff;
+};
+
+}  // namespace lacuna::laz

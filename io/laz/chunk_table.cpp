@@ -1,0 +1,82 @@
+// The table of where chunks begin (LAZ, "Chunk table").
+#include "io/laz/integer_decoder.hpp"
+#include "io/laz/laz.hpp"
+#include "io/laz/little_endian.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace lacuna::laz {
+namespace {
+
+// Version and number of chunks, 4 bytes each; then the chunks' sizes, compressed.
+constexpr std::size_t kHeaderBytes = 8;
+constexpr unsigned kPointsContext = 0, kBytesContext = 1;
+
+// No encoder gets more points into a byte: each point takes at least the symbol that says what changed, of 64
+// symbols or more with at least one count each of at most 2^15, which is 0.0027 bits.
+constexpr std::uint64_t kMostPointsInAByte = 4096;
+
+std::uint32_t chunk_count(std::span<const std::byte> table) {
+  if (table.size() < kHeaderBytes) throw Corrupt("the chunk table is cut");
+  const auto version = load<std::uint32_t>(table.data());
+  if (version != 0) {
+    throw Corrupt("the chunk table has version " + std::to_string(version) +
+                  ", not 0: its offset may be wrong");
+  }
+  return load<std::uint32_t>(table.data() + 4);
+}
+
+}  // namespace
+
+std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes) {
+  // A number of 32 bits takes at most 15 bits for its k, 15 for its first bits and 23 for the others; with
+  // what an encoder adds at the end, 8 bytes for each number are enough.
+  return kHeaderBytes + 16 + 2 * 8 * std::uint64_t{chunk_count(first_8_bytes)};
+}
+
+std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::byte> table,
+                                    std::uint64_t first_chunk, std::uint64_t table_offset,
+                                    std::uint64_t points) {
+  const std::uint64_t count = chunk_count(table);
+  if (table_offset < first_chunk) throw Corrupt("the chunk table lies before the first chunk");
+  // Each chunk has a point at least, and the first one is not compressed.
+  const std::uint64_t most = std::min((table_offset - first_chunk) / layout.record_bytes(), points);
+  if (count > most) {
+    throw Corrupt("the chunk table has " + std::to_string(count) + " chunks, more than the " +
+                  std::to_string(most) + " that the file can hold");
+  }
+
+  std::vector<Chunk> chunks;
+  if (count > 0) {
+    ArithmeticDecoder decoder(table.subspan(kHeaderBytes));
+    const auto numbers = std::make_unique<IntegerDecoder<32, 2>>();
+    const bool variable = layout.chunk_points == kVariableChunks;
+    std::uint64_t offset = first_chunk, left = points;
+    std::uint32_t chunk_points = 0, bytes = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (variable) chunk_points = numbers->decode(decoder, chunk_points, kPointsContext);
+      bytes = numbers->decode(decoder, bytes, kBytesContext);
+      const std::uint64_t has = variable ? chunk_points : std::min<std::uint64_t>(layout.chunk_points, left);
+      const std::string chunk = "chunk " + std::to_string(i + 1) + " of " + std::to_string(count);
+      if (bytes > table_offset - offset) throw Corrupt(chunk + " reaches beyond the chunk table");
+      if (has == 0 || has > left) throw Corrupt(chunk + " does not fit the number of points of the file");
+      if (bytes < layout.record_bytes() || has > kMostPointsInAByte * bytes) {
+        throw Corrupt(chunk + " has " + std::to_string(has) + " points in only " + std::to_string(bytes) +
+                      " bytes");
+      }
+      chunks.push_back({offset, bytes, has});
+      offset += bytes;
+      left -= has;
+    }
+    if (left == 0) return chunks;
+  }
+  if (points == 0) return chunks;
+  std::uint64_t held = 0;
+  for (const Chunk& chunk : chunks) held += chunk.points;
+  throw Corrupt("the chunks have " + std::to_string(held) + " points, the file " + std::to_string(points));
+}
+
+}  // namespace lacuna::laz

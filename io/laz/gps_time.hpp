@@ -1,0 +1,125 @@
+// GPS times of GPSTIME11 version 2 and of POINT14 (LAZ, "GPSTIME11" and "POINT14, GPS time layer").
+#pragma once
+
+#include "io/laz/integer_decoder.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace lacuna::laz {
+
+// The two items code the same way, but only GPSTIME11 codes times that are the last point's: POINT14 knows
+// that from another layer.
+enum class GpsTimeCodes { kGpsTime11, kPoint14 };
+
+// Bits of double values, predicted as integers from up to four interleaved sequences of times, such as of
+// several flight lines. In a sequence a difference is often a multiple of the last one.
+template <GpsTimeCodes kCodes>
+class GpsTimeDecoder {
+ public:
+  explicit GpsTimeDecoder(std::uint64_t first) { times_[0] = first; }
+
+  // The next time, as the bits of a double.
+  std::uint64_t decode(ArithmeticDecoder& decoder) {
+    // An encoder changes to a sequence only to go on with that one.
+    for (int changes = 0; changes < 4; ++changes) {
+      if (differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder)) return times_[current_];
+    }
+    throw Corrupt("the compressed GPS times are damaged");
+  }
+
+ private:
+  static constexpr bool kHasUnchanged = kCodes == GpsTimeCodes::kGpsTime11;
+
+  // Symbols of a sequence without a difference.
+  static constexpr unsigned kFirstDifference = kHasUnchanged ? 1 : 0;
+  static constexpr unsigned kFirstFull = kFirstDifference + 1;
+  static constexpr unsigned kFirstSymbols = kFirstFull + 4;
+  // Symbols of one with a difference: factors 0 to 500, then -1 to -10, then these.
+  static constexpr unsigned kLargestFactor = 500, kSmallestFactor = 510;
+  static constexpr unsigned kUnchanged = kSmallestFactor + 1;
+  static constexpr unsigned kFull = kUnchanged + (kHasUnchanged ? 1 : 0);
+  static constexpr unsigned kSymbols = kFull + 4;
+
+  // Contexts of the integers.
+  static constexpr unsigned kFirst = 0, kSame = 1, kFewTimes = 2, kManyTimes = 3, kMostTimes = 4,
+                            kNegative = 5, kMostNegative = 6, kZero = 7, kHighHalf = 8;
+
+  // Both return whether the time is known, and not only its sequence.
+  bool decode_first(ArithmeticDecoder& decoder) {
+    const unsigned symbol = decoder.symbol(first_);
+    if (symbol > kFirstFull) return change_sequence(symbol - kFirstFull);
+    if (symbol == kFirstFull) {
+      decode_full(decoder);
+    } else if (symbol == kFirstDifference) {
+      differences_[current_] = integers_.decode_signed(decoder, 0, kFirst);
+      add(differences_[current_]);
+      extremes_[current_] = 0;
+    }
+    return true;
+  }
+
+  bool decode_next(ArithmeticDecoder& decoder) {
+    const unsigned symbol = decoder.symbol(next_);
+    if (symbol > kFull) return change_sequence(symbol - kFull);
+    if (symbol == kFull) {
+      decode_full(decoder);
+    } else if (symbol <= kSmallestFactor) {
+      const bool negative = symbol > kLargestFactor;
+      const std::uint32_t factor = negative ? 0u - (symbol - kLargestFactor) : symbol;
+      const std::uint32_t prediction = factor * static_cast<std::uint32_t>(differences_[current_]);
+      const auto difference =
+          static_cast<std::int32_t>(integers_.decode(decoder, prediction, factor_context(symbol)));
+      add(difference);
+      if (symbol == 1) {
+        extremes_[current_] = 0;
+      } else if (symbol == 0 || symbol == kLargestFactor || symbol == kSmallestFactor) {
+        // The fourth in succession that does not fit the last difference well: it becomes the last one.
+        if (++extremes_[current_] > 3) {
+          differences_[current_] = difference;
+          extremes_[current_] = 0;
+        }
+      }
+    }
+    return true;
+  }
+
+  static unsigned factor_context(unsigned symbol) {
+    if (symbol == 0) return kZero;
+    if (symbol == 1) return kSame;
+    if (symbol < 10) return kFewTimes;
+    if (symbol < kLargestFactor) return kManyTimes;
+    if (symbol == kLargestFactor) return kMostTimes;
+    return symbol < kSmallestFactor ? kNegative : kMostNegative;
+  }
+
+  bool change_sequence(unsigned by) {
+    current_ = (current_ + by) % 4;
+    return false;
+  }
+
+  void add(std::int32_t difference) {
+    times_[current_] += static_cast<std::uint64_t>(std::int64_t{difference});
+  }
+
+  void decode_full(ArithmeticDecoder& decoder) {
+    const auto last_high = static_cast<std::uint32_t>(times_[current_] >> 32);
+    const std::uint64_t high = integers_.decode(decoder, last_high, kHighHalf);
+    newest_ = (newest_ + 1) % 4;
+    current_ = newest_;
+    times_[current_] = high << 32 | decoder.bits(32);
+    differences_[current_] = 0;
+    extremes_[current_] = 0;
+  }
+
+  std::array<std::uint64_t, 4> times_{};
+  std::array<std::int32_t, 4> differences_{};
+  std::array<int, 4> extremes_{};
+  unsigned current_ = 0, newest_ = 0;
+
+  SymbolModel<kFirstSymbols> first_;
+  SymbolModel<kSymbols> next_;
+  IntegerDecoder<32, 9> integers_;
+};
+
+}  // namespace lacuna::laz

@@ -1,0 +1,122 @@
+#include "io/laz/layered.hpp"
+
+#include "io/laz/channel_values.hpp"
+#include "io/laz/point14.hpp"
+#include "io/laz/rgb.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace lacuna::laz {
+namespace {
+
+// RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
+class Colour {
+ public:
+  Colour(bool has_nir, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
+      : has_nir_(has_nir), channels_(rule, channel, values(has_nir, first), Models()) {
+    rgb_ = layers.next();
+    if (has_nir_) nir_ = layers.next();
+  }
+
+  void decode(unsigned channel, bool changed_channel, std::byte* item) {
+    const auto [last, models] = channels_.choose(channel, changed_channel);
+    if (rgb_) last.rgb = models.rgb.decode(*rgb_, last.rgb);
+    if (nir_) last.nir = models.nir.decode(*nir_, last.nir);
+    std::memcpy(item, &last, bytes(has_nir_));
+  }
+
+ private:
+  struct Values {
+    Rgb rgb;
+    std::uint16_t nir;
+  };
+  struct Models {
+    RgbModels rgb;
+    NirModels nir;
+  };
+  static std::size_t bytes(bool has_nir) { return has_nir ? sizeof(Values) : sizeof(Rgb); }
+  static Values values(bool has_nir, const std::byte* item) {
+    Values values{};
+    std::memcpy(&values, item, bytes(has_nir));
+    return values;
+  }
+
+  bool has_nir_;
+  Layer rgb_, nir_;
+  ChannelValues<Values, Models> channels_;
+};
+
+// BYTE14: a layer for each byte, of differences to that of the last point (LAZ, "BYTE14").
+class ExtraBytes {
+ public:
+  ExtraBytes(std::size_t count, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
+      : channels_(rule, channel, std::vector<std::byte>(first, first + count),
+                  std::vector<SymbolModel<256>>(count)) {
+    for (std::size_t i = 0; i < count; ++i) layers_.push_back(layers.next());
+  }
+
+  void decode(unsigned channel, bool changed_channel, std::byte* item) {
+    const auto [last, models] = channels_.choose(channel, changed_channel);
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      if (layers_[i]) {
+        last[i] = static_cast<std::byte>(std::to_integer<unsigned>(last[i]) + layers_[i]->symbol(models[i]));
+      }
+    }
+    std::copy(last.begin(), last.end(), item);
+  }
+
+ private:
+  std::vector<Layer> layers_;
+  ChannelValues<std::vector<std::byte>, std::vector<SymbolModel<256>>> channels_;
+};
+
+std::size_t layer_count(const Layout& layout) {
+  std::size_t count = Point14::kLayers;
+  for (const Item& item : layout.items) {
+    if (item.type == item_type::kRgb14) count += 1;
+    if (item.type == item_type::kRgbNir14) count += 2;
+    if (item.type == item_type::kByte14) count += item.size;
+  }
+  return count;
+}
+
+}  // namespace
+
+void decode_layered(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+                    std::span<std::byte> records) {
+  // The first point is not compressed.
+  const std::size_t record_bytes = layout.record_bytes();
+  if (chunk.size() < record_bytes)
+    throw Corrupt("a chunk of compressed points is shorter than its first point");
+  std::copy_n(chunk.begin(), record_bytes, records.begin());
+  if (points == 1) return;
+
+  const std::byte* first = records.data();
+  Layers layers(chunk.subspan(record_bytes), layer_count(layout));
+  const auto point = std::make_unique<Point14>(first, layers);
+  const ChannelRule rule = layout.items[0].version == 3 ? ChannelRule::kVersion3 : ChannelRule::kVersion4;
+  std::unique_ptr<Colour> colour;
+  std::unique_ptr<ExtraBytes> extra_bytes;
+  std::size_t at = 0, colour_at = 0, extra_bytes_at = 0;
+  for (const Item& item : layout.items) {
+    if (item.type == item_type::kRgb14 || item.type == item_type::kRgbNir14) {
+      const bool has_nir = item.type == item_type::kRgbNir14;
+      colour = std::make_unique<Colour>(has_nir, rule, point->channel(), first + at, layers);
+      colour_at = at;
+    } else if (item.type == item_type::kByte14) {
+      extra_bytes = std::make_unique<ExtraBytes>(item.size, rule, point->channel(), first + at, layers);
+      extra_bytes_at = at;
+    }
+    at += item.size;
+  }
+
+  for (std::size_t record = record_bytes; record < records.size(); record += record_bytes) {
+    std::byte* to = records.data() + record;
+    point->decode(to);
+    if (colour) colour->decode(point->channel(), point->changed_channel(), to + colour_at);
+    if (extra_bytes) extra_bytes->decode(point->channel(), point->changed_channel(), to + extra_bytes_at);
+  }
+}
+
+}  // namespace lacuna::laz

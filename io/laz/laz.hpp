@@ -1,0 +1,100 @@
+// Decompresses the points of LAZ files: pure functions over bytes in memory, no file access.
+//
+// The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
+// Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
+// A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
+//
+// Where the points of a LAZ file are, from the LAS header's `offset to point data`, P:
+//   compressor 2 and 3   At P the offset of the chunk table, 8 bytes, signed. The first chunk begins at P +
+//   8, the
+//                        next one directly behind it. An offset of -1 (or another that is not behind P) is of
+//                        a writer that could not seek: the file's last 8 bytes hold the offset then.
+//   compressor 1         No offset and no table: one chunk from P on with all points of the file, up to the
+//   first
+//                        extended variable length record or the end of the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace lacuna::laz {
+
+// What is wrong with compressed data, one line; the caller adds file and place.
+class Corrupt : public std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+// Part of a point record that is compressed on its own (LAZ, "LASzip VLR").
+struct Item {
+  std::uint16_t type;
+  std::uint16_t size;  // bytes
+  std::uint16_t version;
+};
+
+namespace item_type {
+inline constexpr std::uint16_t kByte = 0;
+inline constexpr std::uint16_t kPoint10 = 6;
+inline constexpr std::uint16_t kGpsTime11 = 7;
+inline constexpr std::uint16_t kRgb12 = 8;
+inline constexpr std::uint16_t kWavepacket13 = 9;
+inline constexpr std::uint16_t kPoint14 = 10;
+inline constexpr std::uint16_t kRgb14 = 11;
+inline constexpr std::uint16_t kRgbNir14 = 12;
+inline constexpr std::uint16_t kWavepacket14 = 13;
+inline constexpr std::uint16_t kByte14 = 14;
+}  // namespace item_type
+
+namespace compressor {
+inline constexpr std::uint16_t kPointwise = 1;
+inline constexpr std::uint16_t kPointwiseChunked = 2;
+inline constexpr std::uint16_t kLayeredChunked = 3;
+}  // namespace compressor
+
+inline constexpr std::uint32_t kVariableChunks = 0xffffffff;
+
+// How the records of a file are compressed.
+struct Layout {
+  std::uint16_t compressor;
+  std::uint32_t chunk_points;  // kVariableChunks: the chunk table has each chunk's number of points
+  std::vector<Item> items;     // in the order of their bytes in a record
+
+  std::size_t record_bytes() const;
+};
+
+// Of the data of the variable length record with user id "laszip encoded" and record id 22204. Supports
+// POINT10, GPSTIME11, RGB12 and BYTE of version 1 and 2 (point formats 0 to 3), and POINT14, RGB14, RGBNIR14
+// and BYTE14 of version 3 and 4 (point formats 6 to 8). Throws `Corrupt`, with the item's name where that is
+// not supported.
+Layout parse_layout(std::span<const std::byte> record);
+
+struct Chunk {
+  std::uint64_t offset;  // in the file, bytes
+  std::uint64_t bytes;
+  std::uint64_t points;
+};
+
+// The chunks in the order of the file; their points add up to `points`, the number of points of the file.
+// `table` are the file's bytes from `table_offset` on, up to the end of the table or any later byte, at most
+// chunk_table_bytes(). `first_chunk` is the offset of the first chunk. Memory is at most that of one Chunk
+// for each record_bytes() between the two offsets. Throws `Corrupt` where the table is cut or does not fit
+// the file.
+std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::byte> table,
+                                    std::uint64_t first_chunk, std::uint64_t table_offset,
+                                    std::uint64_t points);
+
+// A bound on the bytes of a table, from its first 8 bytes: how much of the file to hand to
+// read_chunk_table().
+std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
+
+// Decompresses the `points` records of a chunk, record_bytes() each, as they are in an uncompressed LAS file.
+// `records` holds exactly these. Thread-safe. Throws `Corrupt` where the chunk is cut or cannot be right;
+// never reads beyond `chunk`. Changed bytes inside a chunk are not always noticed: the format has no
+// checksum. Memory: below 4 MB for point formats 0 to 3, below 12 MB for 6 to 8, and 2 KB for each extra byte
+// and channel.
+void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+                  std::span<std::byte> records);
+
+}  // namespace lacuna::laz

@@ -1,0 +1,52 @@
+// POINT10, version 2: the 20 bytes that point formats 0 to 3 begin with (LAZ, "POINT10").
+#pragma once
+
+#include "io/laz/contexts.hpp"
+#include "io/laz/integer_decoder.hpp"
+#include "io/laz/streaming_median.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace lacuna::laz {
+
+class Point10 {
+ public:
+  static constexpr std::size_t kBytes = 20;
+
+  // `first`: the chunk's first point, which is not compressed.
+  explicit Point10(const std::byte* first);
+
+  // Writes the next point.
+  void decode(ArithmeticDecoder& decoder, std::byte* item);
+
+ private:
+  struct Fields {
+    std::int32_t x, y, z;
+    std::uint16_t intensity;
+    std::uint8_t returns;  // return number, number of returns, scan direction and edge of flight line
+    std::uint8_t classification;
+    std::uint8_t scan_angle;
+    std::uint8_t user_data;
+    std::uint16_t point_source;
+  };
+  static_assert(sizeof(Fields) == kBytes);
+
+  Fields last_;
+  std::array<std::uint16_t, 16> last_intensities_{};       // by context of return numbers
+  std::array<StreamingMedian, 16> x_medians_, y_medians_;  // by context of return numbers
+  std::array<std::int32_t, 8> last_heights_{};             // by return level
+
+  SymbolModel<64> changed_;
+  ModelByValue<256, 256> returns_;
+  IntegerDecoder<16, 4> intensity_;
+  ModelByValue<256, 256> classification_;
+  std::array<SymbolModel<256>, 2> scan_angle_;
+  ModelByValue<256, 256> user_data_;
+  IntegerDecoder<16> point_source_;
+  IntegerDecoder<32, 2> dx_;
+  IntegerDecoder<32, 22> dy_;
+  IntegerDecoder<32, 20> z_;
+};
+
+}  // namespace lacuna::laz

@@ -1,0 +1,124 @@
+#include "io/laz/pointwise.hpp"
+
+#include "io/laz/gps_time.hpp"
+#include "io/laz/little_endian.hpp"
+#include "io/laz/point10.hpp"
+#include "io/laz/rgb.hpp"
+#include "io/laz/version1.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace lacuna::laz {
+namespace {
+
+// GPSTIME11, version 2.
+class GpsTime11 {
+ public:
+  explicit GpsTime11(const std::byte* first) : decoder_(load<std::uint64_t>(first)) {}
+  void decode(ArithmeticDecoder& decoder, std::byte* item) { store(item, decoder_.decode(decoder)); }
+
+ private:
+  GpsTimeDecoder<GpsTimeCodes::kGpsTime11> decoder_;
+};
+
+// RGB12, version 2.
+class Rgb12 {
+ public:
+  explicit Rgb12(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
+  void decode(ArithmeticDecoder& decoder, std::byte* item) {
+    last_ = models_.decode(decoder, last_);
+    std::memcpy(item, &last_, sizeof last_);
+  }
+
+ private:
+  Rgb last_;
+  RgbModels models_;
+};
+
+// BYTE, version 2 (LAZ, "BYTE"): the difference of each byte to that of the last point.
+class ExtraBytes {
+ public:
+  ExtraBytes(const std::byte* first, std::size_t count) : last_(first, first + count), models_(count) {}
+  void decode(ArithmeticDecoder& decoder, std::byte* item) {
+    for (std::size_t i = 0; i < last_.size(); ++i) {
+      last_[i] = static_cast<std::byte>(std::to_integer<unsigned>(last_[i]) + decoder.symbol(models_[i]));
+    }
+    std::copy(last_.begin(), last_.end(), item);
+  }
+
+ private:
+  std::vector<std::byte> last_;
+  std::vector<SymbolModel<256>> models_;
+};
+
+// The items of a record; those that the layout does not have are null. The order is that of parse_layout().
+template <class P, class G, class C, class E>
+struct Items {
+  std::unique_ptr<P> point;
+  std::unique_ptr<G> gps_time;
+  std::unique_ptr<C> rgb;
+  std::unique_ptr<E> extra_bytes;
+  std::size_t gps_time_at = 0, rgb_at = 0, extra_bytes_at = 0;
+
+  Items(const Layout& layout, const std::byte* first) {
+    std::size_t at = 0;
+    for (const Item& item : layout.items) {
+      switch (item.type) {
+        case item_type::kPoint10:
+          point = std::make_unique<P>(first + at);
+          break;
+        case item_type::kGpsTime11:
+          gps_time = std::make_unique<G>(first + at);
+          gps_time_at = at;
+          break;
+        case item_type::kRgb12:
+          rgb = std::make_unique<C>(first + at);
+          rgb_at = at;
+          break;
+        default:
+          extra_bytes = std::make_unique<E>(first + at, item.size);
+          extra_bytes_at = at;
+      }
+      at += item.size;
+    }
+  }
+
+  void decode(ArithmeticDecoder& decoder, std::byte* record) {
+    point->decode(decoder, record);
+    if (gps_time) gps_time->decode(decoder, record + gps_time_at);
+    if (rgb) rgb->decode(decoder, record + rgb_at);
+    if (extra_bytes) extra_bytes->decode(decoder, record + extra_bytes_at);
+  }
+};
+
+template <class Items>
+void decode_rest(const Layout& layout, std::span<const std::byte> compressed, std::span<std::byte> records) {
+  const std::size_t record_bytes = layout.record_bytes();
+  Items items(layout, records.data());
+  ArithmeticDecoder decoder(compressed);
+  for (std::size_t at = record_bytes; at < records.size(); at += record_bytes) {
+    items.decode(decoder, records.data() + at);
+  }
+}
+
+}  // namespace
+
+void decode_pointwise(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+                      std::span<std::byte> records) {
+  // The first point is not compressed.
+  const std::size_t record_bytes = layout.record_bytes();
+  if (chunk.size() < record_bytes)
+    throw Corrupt("a chunk of compressed points is shorter than its first point");
+  std::copy_n(chunk.begin(), record_bytes, records.begin());
+  if (points == 1) return;
+  const auto compressed = chunk.subspan(record_bytes);
+  if (layout.items[0].version == 1) {
+    decode_rest<Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>>(
+        layout, compressed, records);
+  } else {
+    decode_rest<Items<Point10, GpsTime11, Rgb12, ExtraBytes>>(layout, compressed, records);
+  }
+}
+
+}  // namespace lacuna::laz

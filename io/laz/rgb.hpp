@@ -1,0 +1,33 @@
+// RGB12 version 2 and RGB14, NIR of RGBNIR14: colours of 16 bits (LAZ, "RGB12", "RGB14", "RGBNIR14").
+#pragma once
+
+#include "io/laz/arithmetic_decoder.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace lacuna::laz {
+
+using Rgb = std::array<std::uint16_t, 3>;
+
+// Codes the bytes of a colour that differ from the last colour's; green and blue as difference to what red's,
+// and then green's, difference predicts.
+class RgbModels {
+ public:
+  Rgb decode(ArithmeticDecoder& decoder, const Rgb& last);
+
+ private:
+  SymbolModel<128> changed_;
+  std::array<SymbolModel<256>, 6> bytes_;  // low and high of red, green and blue
+};
+
+class NirModels {
+ public:
+  std::uint16_t decode(ArithmeticDecoder& decoder, std::uint16_t last);
+
+ private:
+  SymbolModel<4> changed_;
+  std::array<SymbolModel<256>, 2> bytes_;  // low and high
+};
+
+}  // namespace lacuna::laz

@@ -1,0 +1,389 @@
+#include "io/laz/laz.hpp"
+
+#include "io/laz/little_endian.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/laz_encoder.hpp"
+#include "tests/support/skip.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using laz::Chunk;
+using laz::Corrupt;
+using laz::Layout;
+
+struct Case {
+  int point_format;
+  std::uint16_t extra_bytes, version;
+};
+const Case kCases[] = {{0, 0, 2}, {1, 0, 2}, {2, 0, 2}, {3, 0, 2}, {1, 2, 2}, {3, 5, 2}, {6, 0, 3}, {7, 0, 3},
+                       {8, 0, 3}, {6, 3, 3}, {7, 1, 3}, {8, 2, 3}, {6, 2, 4}, {7, 2, 4}, {8, 1, 4}};
+
+std::string name(const Case& c) {
+  return "point format " + std::to_string(c.point_format) + ", version " + std::to_string(c.version) + ", " +
+         std::to_string(c.extra_bytes) + " extra bytes";
+}
+
+Layout layout_of(const Case& c, std::uint32_t chunk_points = laz::kVariableChunks) {
+  return laz_layout(c.point_format, c.extra_bytes, chunk_points, c.version);
+}
+
+using Random = std::mt19937;
+
+unsigned below(Random& random, unsigned end) {
+  return static_cast<unsigned>(random() % end);
+}
+
+void put_time(Random& random, std::byte* at, std::uint64_t& time) {
+  // Steps like those of pulses, now and then a longer one, another flight line or a leap.
+  const unsigned kind = below(random, 40);
+  if (kind < 12) return laz::store(at, time);
+  if (kind < 30) time += 1000 * (1 + below(random, 3));
+  if (kind == 30) time += 1000 * below(random, 700);
+  if (kind == 31) time -= 1000 * below(random, 20);
+  if (kind == 32) time += std::uint64_t{1} << 40;
+  if (kind == 33) time -= std::uint64_t{1} << 40;
+  if (kind == 34) time += random();
+  laz::store(at, time);
+}
+
+// Points along scan lines, with several returns, four scanner channels and colours that are alike.
+LazBytes plausible_records(const Layout& layout, std::size_t points, Random& random) {
+  const std::size_t size = layout.record_bytes();
+  const bool layered = layout.compressor == laz::compressor::kLayeredChunked;
+  LazBytes records(points * size);
+  std::uint64_t time = 0x41d0000000000000;
+  std::int32_t x = 500000, y = -200000, z = 1000;
+  unsigned channel = below(random, 4), r = 1, n = 1;
+  for (std::size_t i = 0; i < points; ++i) {
+    std::byte* at = records.data() + i * size;
+    const auto byte = [&](std::size_t index, unsigned value) { at[index] = static_cast<std::byte>(value); };
+    if (i > 0) std::copy_n(at - size, size, at);
+    x += static_cast<std::int32_t>(below(random, 200)) - 50;
+    y += static_cast<std::int32_t>(below(random, 20)) - 10;
+    z += static_cast<std::int32_t>(below(random, 50)) - 25;
+    if (below(random, 60) == 0) x -= 100000;
+    laz::store(at, x);
+    laz::store(at + 4, y);
+    laz::store(at + 8, z);
+    if (below(random, 3)) laz::store(at + 12, static_cast<std::uint16_t>(below(random, 300)));
+    if (++r > n) n = 1 + below(random, layered ? 15 : 5), r = 1;
+    std::size_t end;
+    if (layered) {
+      if (below(random, 10) == 0) channel = below(random, 4);
+      byte(14, r | n << 4);
+      byte(15, below(random, 8) | channel << 4 | below(random, 4) << 6);
+      byte(16, below(random, 4));
+      if (below(random, 8) == 0) byte(17, below(random, 256));
+      if (below(random, 8) == 0) laz::store(at + 18, static_cast<std::int16_t>(below(random, 6000) - 3000));
+      if (below(random, 20) == 0) laz::store(at + 20, static_cast<std::uint16_t>(below(random, 5)));
+      put_time(random, at + 22, time);
+      end = 30;
+    } else {
+      byte(14, r | n << 3 | below(random, 4) << 6);
+      byte(15, below(random, 4));
+      byte(16, below(random, 40) - 20);
+      if (below(random, 8) == 0) byte(17, below(random, 256));
+      if (below(random, 20) == 0) laz::store(at + 18, static_cast<std::uint16_t>(below(random, 5)));
+      end = 20;
+    }
+    for (const laz::Item& item : layout.items) {
+      if (item.type == laz::item_type::kGpsTime11) put_time(random, at + 20, time), end += 8;
+    }
+    for (; end < size; ++end) {
+      if (below(random, 3) == 0) byte(end, std::to_integer<unsigned>(at[end]) + below(random, 9));
+    }
+  }
+  return records;
+}
+
+LazBytes random_records(const Layout& layout, std::size_t points, Random& random) {
+  LazBytes records(points * layout.record_bytes());
+  for (std::byte& byte : records) byte = static_cast<std::byte>(random());
+  return records;
+}
+
+LazBytes decoded(const Layout& layout, const LazBytes& chunk, std::uint64_t points) {
+  LazBytes records(points * layout.record_bytes());
+  laz::decode_chunk(layout, chunk, points, records);
+  return records;
+}
+
+std::string message(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Corrupt& error) {
+    return error.what();
+  }
+  return "";
+}
+
+LazBytes bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  LazBytes bytes(text.size());
+  std::transform(text.begin(), text.end(), bytes.begin(), [](char c) { return static_cast<std::byte>(c); });
+  return bytes;
+}
+
+template <class T>
+T number(const LazBytes& bytes, std::uint64_t at) {
+  return laz::load<T>(&bytes.at(at));
+}
+
+// All records of a LAZ file, by the header of LAS 1.2.
+LazBytes records_of_file(const LazBytes& file) {
+  const std::uint64_t points = number<std::uint32_t>(file, 107), data = number<std::uint32_t>(file, 96);
+  std::uint64_t at = number<std::uint16_t>(file, 94);
+  Layout layout{};
+  for (unsigned record = number<std::uint32_t>(file, 100); record > 0; --record) {
+    const auto id = number<std::uint16_t>(file, at + 18), length = number<std::uint16_t>(file, at + 20);
+    if (id == 22204) layout = laz::parse_layout(std::span(file).subspan(at + 54, length));
+    at += 54 + length;
+  }
+  const std::uint64_t table = number<std::uint64_t>(file, data);
+  LazBytes records;
+  for (const Chunk& chunk :
+       laz::read_chunk_table(layout, std::span(file).subspan(table), data + 8, table, points)) {
+    const std::size_t before = records.size();
+    records.resize(before + chunk.points * layout.record_bytes());
+    laz::decode_chunk(layout, std::span(file).subspan(chunk.offset, chunk.bytes), chunk.points,
+                      std::span(records).subspan(before));
+  }
+  return records;
+}
+
+}  // namespace
+
+TEST_CASE("files that LASzip wrote have the records of their uncompressed twins", "[laz]") {
+  const std::filesystem::path folder = "/work/shared/data/las";
+  for (const std::string file : {"simple", "autzen_trim"}) {
+    if (!std::filesystem::exists(folder / (file + ".laz")))
+      return skip((folder / file).string() + " is absent");
+    const LazBytes twin = bytes_of(folder / (file + ".las"));
+    const LazBytes records = records_of_file(bytes_of(folder / (file + ".laz")));
+    const std::uint32_t data = number<std::uint32_t>(twin, 96);
+    INFO(file);
+    REQUIRE(records.size() ==
+            number<std::uint32_t>(twin, 107) * std::size_t{number<std::uint16_t>(twin, 105)});
+    CHECK(std::equal(records.begin(), records.end(), twin.begin() + data));
+  }
+}
+
+TEST_CASE("records are the same after compression and decompression", "[laz]") {
+  Random random(1);
+  for (const Case& c : kCases) {
+    INFO(name(c));
+    const Layout layout = layout_of(c);
+    for (const std::size_t points : {1, 2, 3, 50, 5000}) {
+      const LazBytes plausible = plausible_records(layout, points, random);
+      CHECK(decoded(layout, laz_chunk(layout, plausible), points) == plausible);
+      const LazBytes any = random_records(layout, std::min<std::size_t>(points, 1000), random);
+      CHECK(decoded(layout, laz_chunk(layout, any), std::min<std::size_t>(points, 1000)) == any);
+    }
+  }
+}
+
+TEST_CASE("points that are all the same, and the largest steps, are decompressed", "[laz]") {
+  Random random(2);
+  for (const Case& c : kCases) {
+    INFO(name(c));
+    const Layout layout = layout_of(c);
+    const std::size_t size = layout.record_bytes();
+    const LazBytes one = random_records(layout, 1, random);
+    LazBytes records;
+    for (int i = 0; i < 300; ++i) records.insert(records.end(), one.begin(), one.end());
+    CHECK(decoded(layout, laz_chunk(layout, records), 300) == records);
+    for (std::size_t i = 0; i < 300; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int32_t values[] = {0, std::numeric_limits<std::int32_t>::min(),
+                                       std::numeric_limits<std::int32_t>::max()};
+        laz::store(&records[i * size + axis * 4], values[below(random, 3)]);
+      }
+    }
+    CHECK(decoded(layout, laz_chunk(layout, records), 300) == records);
+  }
+}
+
+TEST_CASE("chunks of fixed and of variable size are found and decompressed", "[laz]") {
+  Random random(3);
+  const std::vector<std::uint64_t> fixed = {100, 100, 100, 1}, variable = {7, 1, 300, 2, 1, 40};
+  for (const Case& c : kCases) {
+    for (const bool varies : {false, true}) {
+      INFO(name(c) << ", chunks of " << (varies ? "variable" : "fixed") << " size");
+      const Layout layout = layout_of(c, varies ? laz::kVariableChunks : 100);
+      const auto& chunks = varies ? variable : fixed;
+      const std::uint64_t points = std::accumulate(chunks.begin(), chunks.end(), std::uint64_t{0});
+      const LazBytes records = plausible_records(layout, points, random);
+      const std::uint64_t data = 1000;
+      LazBytes file(data);
+      const LazBytes point_data = laz_point_data(layout, records, chunks, data);
+      file.insert(file.end(), point_data.begin(), point_data.end());
+      const std::uint64_t table = number<std::uint64_t>(file, data);
+      const auto table_bytes = std::span(file).subspan(table);
+      CHECK(laz::chunk_table_bytes(table_bytes.first(8)) >= table_bytes.size());
+
+      LazBytes found;
+      std::size_t i = 0;
+      for (const Chunk& chunk : laz::read_chunk_table(layout, table_bytes, data + 8, table, points)) {
+        CHECK(chunk.points == chunks.at(i++));
+        LazBytes part(file.begin() + static_cast<std::ptrdiff_t>(chunk.offset),
+                      file.begin() + static_cast<std::ptrdiff_t>(chunk.offset + chunk.bytes));
+        part = decoded(layout, part, chunk.points);
+        found.insert(found.end(), part.begin(), part.end());
+      }
+      CHECK(found == records);
+    }
+  }
+}
+
+TEST_CASE("a chunk that is cut at any byte is an error", "[laz]") {
+  Random random(4);
+  for (const Case& c : kCases) {
+    INFO(name(c));
+    const Layout layout = layout_of(c);
+    LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
+    while (!chunk.empty()) {
+      chunk.pop_back();
+      INFO("cut to " << chunk.size() << " bytes");
+      CHECK_THROWS_AS(decoded(layout, chunk, 40), Corrupt);
+    }
+  }
+}
+
+TEST_CASE("a chunk with changed bytes gives records or an error", "[laz]") {
+  Random random(5);
+  std::size_t errors = 0;
+  for (const Case& c : kCases) {
+    const Layout layout = layout_of(c);
+    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
+    for (std::uint64_t i = 0; i < draws(400); ++i) {
+      LazBytes changed = chunk;
+      for (unsigned changes = 1 + below(random, 3); changes > 0; --changes) {
+        const unsigned at = layout.record_bytes() + below(random, changed.size() - layout.record_bytes());
+        changed[at] = below(random, 3) ? static_cast<std::byte>(random()) : std::byte{0xff};
+      }
+      // More points than there are must end, too.
+      errors += message([&] { decoded(layout, changed, below(random, 2) ? 40 : 4000); }) != "";
+    }
+  }
+  CHECK(errors > 0);
+}
+
+TEST_CASE("a chunk with changed sizes of layers gives records or an error", "[laz]") {
+  Random random(6);
+  for (const Case& c : kCases) {
+    if (c.version < 3) continue;
+    const Layout layout = layout_of(c);
+    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
+    for (std::size_t layer = 0; layer < 9; ++layer) {
+      for (const std::uint32_t size : {0u, 1u, 3u, 4u, 100000u, 0xffffffffu}) {
+        LazBytes changed = chunk;
+        laz::store(&changed[layout.record_bytes() + 4 + layer * 4], size);
+        const std::string error = message([&] { decoded(layout, changed, 40); });
+        INFO(name(c) << ", layer " << layer << " of " << size << " bytes: " << error);
+        if (size >= 100000 || (layer == 0 && size == 0)) CHECK(error != "");
+      }
+    }
+  }
+}
+
+TEST_CASE("the layout of compressed points is read from its record", "[laz]") {
+  for (const Case& c : kCases) {
+    const Layout layout = layout_of(c, 50000);
+    const LazBytes record = laz_record(layout);
+    const Layout read = laz::parse_layout(record);
+    CHECK(read.compressor == layout.compressor);
+    CHECK(read.chunk_points == 50000);
+    CHECK(read.record_bytes() == layout.record_bytes());
+    CHECK(read.items.size() == layout.items.size());
+    for (std::size_t length = 0; length < record.size(); ++length) {
+      CHECK_THROWS_AS(laz::parse_layout(std::span(record).first(length)), Corrupt);
+    }
+  }
+}
+
+TEST_CASE("layouts that are not supported are errors that name the reason", "[laz]") {
+  using namespace laz::item_type;
+  const auto error_of = [](const Layout& layout) {
+    return message([&] { laz::parse_layout(laz_record(layout)); });
+  };
+  const auto with = [](std::uint16_t compressor, std::vector<laz::Item> items) {
+    return Layout{compressor, 50000, std::move(items)};
+  };
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}})) == "");
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kGpsTime11, 8, 2}, {kWavepacket13, 29, 1}})) ==
+        "item WAVEPACKET13 of version 1 and 29 bytes is not supported (point formats 0 to 3 and 6 to 8 are)");
+  CHECK(error_of(with(3, {{kPoint14, 30, 5}})) ==
+        "item POINT14 of version 5 and 30 bytes is not supported (version 3 and 4 are)");
+  CHECK(error_of(with(2, {{kPoint14, 30, 3}})) ==
+        "item POINT14 of version 3 and 30 bytes does not belong to the compressor of the file");
+  CHECK(error_of(with(2, {{kPoint10, 21, 2}})) == "item POINT10 of version 2 and 21 bytes has a wrong size");
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kByte, 0, 2}})) ==
+        "item BYTE of version 2 and 0 bytes has a wrong size");
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kRgb12, 6, 1}})) ==
+        "item RGB12 of version 1 and 6 bytes has not the version of the items before");
+  for (const auto& items :
+       std::vector<std::vector<laz::Item>>{{{kGpsTime11, 8, 2}, {kPoint10, 20, 2}},
+                                           {{kPoint10, 20, 2}, {kPoint10, 20, 2}},
+                                           {{kPoint10, 20, 2}, {kRgb12, 6, 2}, {kGpsTime11, 8, 2}}}) {
+    CHECK(error_of(with(2, items)).find("is in a wrong place") != std::string::npos);
+  }
+  CHECK(error_of(with(3, {{kPoint14, 30, 3}, {kRgb14, 6, 3}, {kRgbNir14, 8, 3}})) ==
+        "item RGBNIR14 of version 3 and 8 bytes is in a wrong place");
+  CHECK(error_of(with(2, {{99, 20, 2}})) == "item type 99 of the compressed points is not known");
+  CHECK(error_of(with(0, {{kPoint10, 20, 2}})) == "compressor 0 is not supported (1, 2 and 3 are)");
+  CHECK(error_of(with(4, {{kPoint10, 20, 2}})) == "compressor 4 is not supported (1, 2 and 3 are)");
+  CHECK(error_of(Layout{2, 0, {{kPoint10, 20, 2}}}) == "chunks of compressed points have 0 points each");
+  CHECK(error_of(with(2, {})).find("does not hold its 0 items") != std::string::npos);
+}
+
+TEST_CASE("chunk tables that do not fit the file are errors", "[laz]") {
+  const Layout layout = laz_layout(0, 0, laz::kVariableChunks, 2);
+  const std::vector<Chunk> chunks = {{0, 500, 20}, {0, 400, 30}, {0, 20, 1}};
+  const LazBytes table = laz_chunk_table(layout, chunks);
+  const auto read = [&](const LazBytes& bytes, std::uint64_t first, std::uint64_t offset,
+                        std::uint64_t points) {
+    return message([&] { laz::read_chunk_table(layout, bytes, first, offset, points); });
+  };
+  CHECK(read(table, 100, 1020, 51) == "");
+  CHECK(read(table, 100, 1019, 51) == "chunk 3 of 3 reaches beyond the chunk table");
+  CHECK(read(table, 100, 99, 51) == "the chunk table lies before the first chunk");
+  CHECK(read(table, 100, 159, 51) == "the chunk table has 3 chunks, more than the 2 that the file can hold");
+  CHECK(read(table, 100, 1020, 52) == "the chunks have 51 points, the file 52");
+  CHECK(read(table, 100, 1020, 50) == "chunk 3 of 3 does not fit the number of points of the file");
+  CHECK(read(laz_chunk_table(layout, std::vector<Chunk>{{0, 19, 1}}), 100, 1020, 1) ==
+        "chunk 1 of 1 has 1 points in only 19 bytes");
+  CHECK(read(laz_chunk_table(layout, std::vector<Chunk>{{0, 20, 4000000}}), 100, 1020, 4000000) ==
+        "chunk 1 of 1 has 4000000 points in only 20 bytes");
+  CHECK(read(laz_chunk_table(layout, {}), 100, 100, 0) == "");
+  CHECK(read(laz_chunk_table(layout, {}), 100, 100, 1) == "the chunks have 0 points, the file 1");
+  for (std::size_t length = 0; length < table.size(); ++length) {
+    INFO("cut to " << length << " bytes");
+    CHECK(read(LazBytes(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(length)), 100, 1020, 51) !=
+          "");
+  }
+  LazBytes many = table;
+  laz::store(&many[4], 0xffffffffu);
+  CHECK(read(many, 100, std::uint64_t{1} << 60, std::uint64_t{1} << 60) ==
+        "the compressed points end too early");
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    LazBytes changed = table;
+    changed[8 + below(random, static_cast<unsigned>(table.size() - 8))] = static_cast<std::byte>(random());
+    read(changed, 100, 1020, 51);
+  }
+}
+
+}  // namespace lacuna::test

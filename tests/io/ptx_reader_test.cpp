@@ -1,0 +1,67 @@
+#include "tests/io/io_support.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Catch::Matchers::Contains;
+
+// Turned by a quarter about z, and moved.
+const std::string kPose = "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
+const std::string kStill = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+
+TEST_CASE("rays of PTX have the pose of their block, and those without a return no coordinates", "[io]") {
+  const ScratchFolder folder;
+  const std::string ptx =
+      "2\n1\n" + kPose + "1 2 3 0.5\n0 0 0 0.25\n" + "1\r\n2\r\n" + kStill + "4 5 6 1\n\n7 8 9 0\n";
+  const Table table = read_table(folder.write("a.xyz", ptx));
+  CHECK(table.names == std::vector<std::string>{"x", "y", "z", "intensity", "scan"});
+  REQUIRE(table.rows.size() == 4);
+  CHECK(table.rows[0] == std::vector<double>{8, 21, 33, 0.5, 0});
+  CHECK(std::isnan(table.rows[1][0]));
+  CHECK(table.rows[1][3] == 0.25);
+  CHECK(table.rows[2] == std::vector<double>{4, 5, 6, 1, 1});
+  CHECK(table.rows[3] == std::vector<double>{7, 8, 9, 0, 1});
+}
+
+TEST_CASE("colours of PTX are kept", "[io]") {
+  const ScratchFolder folder;
+  const Table table =
+      read_table(folder.write("a.ptx", "1\n2\n" + kStill + "1 2 3 0.5 255 0 300\n4 5 6 0.5 1 2 3\n"), 1);
+  CHECK(table.names.size() == 8);
+  CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 0.5, 255, 0, 255, 0});
+  CHECK(table.rows[1] == std::vector<double>{4, 5, 6, 0.5, 1, 2, 3, 0});
+}
+
+TEST_CASE("an empty grid of PTX is no point, and another block may follow", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.ptx", "0\n5\n" + kStill)).rows.empty());
+  CHECK(read_table(folder.write("a.ptx", "0\n5\n" + kStill + "1\n1\n" + kStill + "1 2 3 4\n")).rows.size() ==
+        1);
+}
+
+TEST_CASE("what is wrong in PTX is said with its line, and any cut is an error or a shorter scan", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text) { return read_error(folder.write("a.ptx", text)); };
+  CHECK_THAT(error("2\n1\n" + kStill + "1 2 3 4\n"), Contains("line 12: the file ends here, too early"));
+  CHECK_THAT(error("1\n1\n" + kStill + "1 2 3\n"), Contains("line 11: a ray needs"));
+  CHECK_THAT(error("2\n1\n" + kStill + "1 2 3 4\n1 2 3 4 5 6 7\n"),
+             Contains("line 12: a ray needs 4 numbers"));
+  CHECK_THAT(error("1\n1\n0 0 0\n1 0\n" + kStill), Contains("line 4: a pose needs 3 numbers"));
+  CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4\nhello\n"), Contains("line 12: 'hello' is no number"));
+  CHECK_THAT(error("9999999999999\n9999999999999\n" + kStill), Contains("a grid of"));
+  const std::string whole = "2\n1\n" + kPose + "1 2 3 0.5\n0 0 0 0.25\n1\n1\n" + kStill + "4 5 6 1\n";
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto file = folder.write("a.ptx", whole.substr(0, length));
+    const std::string said = read_error(file);
+    CHECK(said.find('\n') == std::string::npos);
+    if (said.empty()) CHECK(read_table(file).rows.size() <= 3);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna::test

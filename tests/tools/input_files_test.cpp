@@ -1,0 +1,52 @@
+#include "tools/input_files.hpp"
+
+#include "engine/run/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+TEST_CASE("a folder stands for its scans by name, a list for the files in it, all else for itself") {
+  const test::ScratchFolder scratch;
+  fs::create_directories(scratch / "in" / "deeper");
+  const fs::path in = scratch / "in";
+  const std::string rows = "1 2 3\n4 5 6\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
+  const auto b = scratch.write("in/b.xyz", rows), a = scratch.write("in/a.ply", ply);
+  const auto broken = scratch.write("in/c.ply", "ply\nbroken\n");
+  scratch.write("in/.hidden.xyz", rows);
+  scratch.write("in/README.txt", "These are scans.\n");
+  scratch.write("in/photo.jpg", std::string("\xff\xd8\xff\0\0", 5));
+  scratch.write("in/empty.xyz", "");
+  scratch.write("in/deeper/d.xyz", rows);
+  // A broken file of a format that is read is an error later, not passed over.
+  CHECK(expand_inputs({in}, {}) == Paths{a, b, broken});
+  CHECK(expand_inputs({b, in / "deeper", "missing.ply"}, {}) ==
+        Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
+
+  const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
+  CHECK(expand_inputs({"@" + std::string(list)}, {}) ==
+        Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
+}
+
+TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {
+  const test::ScratchFolder scratch;
+  fs::create_directory(scratch / "none");
+  CHECK_THROWS_WITH(expand_inputs({scratch / "none"}, {}),
+                    Catch::Matchers::Contains("none: no scan file in this folder"));
+  const auto list = scratch.write("list.txt", "# nothing\n");
+  CHECK_THROWS_WITH(expand_inputs({"@" + std::string(list)}, {}), Catch::Matchers::Contains("names no file"));
+  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}, {}),
+                    Catch::Matchers::Contains("missing.txt: cannot be opened"));
+}
+
+}  // namespace
+}  // namespace lacuna
