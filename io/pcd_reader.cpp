@@ -2,16 +2,14 @@
 
 #include "io/line_words.hpp"
 #include "io/lzf.hpp"
+#include "io/pcd_fields.hpp"
 #include "io/pcd_header.hpp"
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
 #include <cstring>
-#include <set>
 #include <utility>
 
 namespace lacuna {
@@ -19,115 +17,6 @@ namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr std::size_t kMostColumns = 256;  // of a compressed file: each takes a stream
-
-// Calls `visit(T{})` with the C++ type of the field's values.
-template <class Visit>
-void with_type(const PcdField& field, const Visit& visit) {
-  if (field.type == 'F') return field.size == 4 ? visit(float{}) : visit(double{});
-  const bool is_signed = field.type == 'I';
-  switch (field.size) {
-    case 1:
-      return is_signed ? visit(std::int8_t{}) : visit(std::uint8_t{});
-    case 2:
-      return is_signed ? visit(std::int16_t{}) : visit(std::uint16_t{});
-    case 4:
-      return is_signed ? visit(std::int32_t{}) : visit(std::uint32_t{});
-    default:
-      return is_signed ? visit(std::int64_t{}) : visit(std::uint64_t{});
-  }
-}
-
-// The type of its properties.
-Scalar scalar_of(const PcdField& field) {
-  if (field.size == 8) return Scalar::kFloat64;
-  if (field.type == 'F') return Scalar::kFloat32;
-  constexpr std::array kSigned = {Scalar::kInt8, Scalar::kInt16, Scalar::kInt32};
-  constexpr std::array kUnsigned = {Scalar::kUint8, Scalar::kUint16, Scalar::kUint32};
-  const std::size_t rank = std::countr_zero(field.size);
-  return field.type == 'I' ? kSigned[rank] : kUnsigned[rank];
-}
-
-// Colours as bytes of one value: blue is the lowest, alpha the highest.
-bool is_packed_colour(const PcdField& field) {
-  return (field.name == "rgb" || field.name == "rgba") && field.size == 4 && field.count == 1;
-}
-
-std::string name_of(const PcdField& field) {
-  for (const auto& [given, name] :
-       {std::pair{"normal_x", "nx"}, std::pair{"normal_y", "ny"}, std::pair{"normal_z", "nz"}}) {
-    if (field.name == given) return name;
-  }
-  return property_name(field.name);
-}
-
-RowLayout layout_of(const InputFile& in, const PcdHeader& header) {
-  std::vector<std::pair<std::string, Scalar>> properties;
-  for (const PcdField& field : header.fields) {
-    if (field.is_padding()) continue;
-    if (is_packed_colour(field)) {
-      for (const char* name : {"red", "green", "blue"}) properties.emplace_back(name, Scalar::kUint8);
-      if (field.name == "rgba") properties.emplace_back("alpha", Scalar::kUint8);
-    } else if (field.count == 1) {
-      properties.emplace_back(name_of(field), scalar_of(field));
-    } else {
-      for (std::size_t i = 0; i < field.count; ++i) {
-        properties.emplace_back(name_of(field) + '_' + std::to_string(i), scalar_of(field));
-      }
-    }
-  }
-  std::set<std::string_view> names;
-  for (const auto& [name, type] : properties) {
-    if (!names.insert(name).second) {
-      in.fail_at_line(in.line(), "two fields have the name " + in_quotes(name) + "; names must differ");
-    }
-  }
-  for (const char* name : {"x", "y", "z"}) {
-    if (!names.contains(name)) {
-      in.fail_at_line(in.line(),
-                      "no field " + in_quotes(name) + " with one value a point; x, y and z are needed");
-    }
-  }
-  return packed_layout(properties);
-}
-
-// One field of `count` rows, from rows as they are in the file to rows of properties.
-void convert(const PcdField& field, ConstColumn from, std::byte* to, std::size_t to_stride,
-             std::size_t count) {
-  if (is_packed_colour(field)) {
-    const std::size_t channels = field.name == "rgba" ? 4 : 3;
-    constexpr std::array kShift = {16, 8, 0, 24};  // red, green, blue, alpha
-    for (std::size_t row = 0; row < count; ++row) {
-      std::uint32_t packed;
-      std::memcpy(&packed, from.data + row * from.stride, sizeof packed);
-      for (std::size_t i = 0; i < channels; ++i) {
-        to[row * to_stride + i] = static_cast<std::byte>(packed >> kShift[i]);
-      }
-    }
-    return;
-  }
-  const std::size_t to_size = size_of(scalar_of(field));
-  for (std::size_t i = 0; i < field.count; ++i) {
-    const std::byte* values = from.data + i * field.size;
-    if (field.size == 8 && field.type != 'F') {
-      with_type(field, [&](auto value) {
-        for (std::size_t row = 0; row < count; ++row) {
-          std::memcpy(&value, values + row * from.stride, sizeof value);
-          const double wide = static_cast<double>(value);
-          std::memcpy(to + i * to_size + row * to_stride, &wide, sizeof wide);
-        }
-      });
-    } else {
-      copy_column({.data = values, .stride = from.stride, .type = scalar_of(field)},
-                  {.data = to + i * to_size, .stride = to_stride, .type = scalar_of(field)}, count);
-    }
-  }
-}
-
-std::size_t converted_bytes(const PcdField& field) {
-  if (field.is_padding()) return 0;
-  if (is_packed_colour(field)) return field.name == "rgba" ? 4 : 3;
-  return size_of(scalar_of(field)) * field.count;
-}
 
 std::uint32_t read_size(InputFile& in) {
   std::array<std::byte, 4> bytes;
@@ -140,7 +29,7 @@ std::uint32_t read_size(InputFile& in) {
 class PcdReader final : public ScanReader {
  public:
   explicit PcdReader(const std::filesystem::path& file)
-      : in_(file), header_(read_pcd_header(in_)), layout_(layout_of(in_, header_)), left_(header_.rows) {
+      : in_(file), header_(read_pcd_header(in_)), layout_(pcd_layout(in_, header_)), left_(header_.rows) {
     raw_stride_ = header_.row_bytes();
     if (header_.encoding == PcdEncoding::kCompressed) {
       if (header_.rows > 0) open_block();
@@ -173,9 +62,9 @@ class PcdReader final : public ScanReader {
       } else {
         read_columns(batch.count);
       }
-      if constexpr (std::endian::native == std::endian::big) swap_rows(batch.count);
+      if constexpr (std::endian::native == std::endian::big) swap_pcd_rows(header_, raw_.data(), batch.count);
     }
-    convert_rows(batch);
+    convert_pcd_rows(header_, raw_.data(), layout_, batch);
     left_ -= batch.count;
     return true;
   }
@@ -279,34 +168,13 @@ class PcdReader final : public ScanReader {
           if (!words.next(word)) words.fail(std::string("fewer values than needed; ") + kNeeded);
           continue;
         }
-        with_type(field, [&](auto value) {
+        with_pcd_type(field, [&](auto value) {
           value = words.number<decltype(value)>(kNeeded);
           std::memcpy(to, &value, sizeof value);
         });
       }
     }
     words.require_end(kNeeded);
-  }
-
-  void swap_rows(std::size_t count) {
-    std::size_t offset = 0;
-    for (const PcdField& field : header_.fields) {
-      for (std::size_t i = 0; i < field.count; ++i, offset += field.size) {
-        swap_bytes({.data = raw_.data() + offset, .stride = raw_stride_, .type = scalar_of(field)}, count);
-      }
-    }
-  }
-
-  void convert_rows(RowBatch& batch) const {
-    std::size_t from = 0, to = 0;
-    for (const PcdField& field : header_.fields) {
-      if (!field.is_padding()) {
-        convert(field, {.data = raw_.data() + from, .stride = raw_stride_, .type = scalar_of(field)},
-                batch.bytes.data() + to, layout_.stride, batch.count);
-      }
-      from += field.bytes();
-      to += converted_bytes(field);
-    }
   }
 
   InputFile in_;

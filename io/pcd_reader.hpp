@@ -17,7 +17,8 @@ bool looks_like_pcd(const FileStart& start);
 // too short for its header, or with more data behind it (zeros behind a compressed block apart), is an
 // `Error`.
 // A compressed file stores each field for all points, one field after the other: it is unpacked twice, by one
-// stream for each field, at most 256 of them. Memory: 110 KiB a field, whatever the number of points.
+// stream for each field, at most 256 of them. Memory beside the batch: 70 KiB a field, whatever the number of
+// points.
 std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna
