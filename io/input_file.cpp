@@ -15,8 +15,6 @@
 namespace lacuna {
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
@@ -36,7 +34,7 @@ std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_
 
 }  // namespace
 
-InputFile::InputFile(std::filesystem::path file) : file_(std::move(file)) {
+InputFile::InputFile(std::filesystem::path file, std::size_t buffer_bytes) : file_(std::move(file)) {
   // Looked at before it is opened: to open a named pipe would wait for a writer.
   struct stat status {};
   if (::stat(file_.c_str(), &status) != 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
@@ -45,7 +43,7 @@ InputFile::InputFile(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
   size_ = static_cast<std::uint64_t>(status.st_size);
-  buffer_.resize(kBufferBytes);
+  buffer_.resize(buffer_bytes);
 }
 
 InputFile::~InputFile() {
@@ -116,7 +114,7 @@ std::optional<std::string_view> InputFile::next_line() {
     if (found == nullptr) {
       searched = have;
       if (have == buffer_.size()) {
-        fail_at_line(line_ + 1, "longer than the " + std::to_string(kBufferBytes) + " bytes allowed");
+        fail_at_line(line_ + 1, "longer than the " + std::to_string(buffer_.size()) + " bytes allowed");
       }
       if (fill()) continue;
       if (have == 0) return std::nullopt;
@@ -179,6 +177,21 @@ void InputFile::fail_at_line(std::uint64_t line, const std::string& reason) cons
 
 void InputFile::fail_at_byte(std::uint64_t byte, const std::string& reason) const {
   fail("byte " + std::to_string(byte) + ": " + reason);
+}
+
+void require_end(InputFile& in, std::string_view padding) {
+  constexpr std::size_t kBlock = 4096;
+  while (in.remaining() > 0) {
+    const std::uint64_t place = in.position();
+    const std::string_view block = in.peek(kBlock);
+    const std::size_t data = block.find_first_not_of(padding);
+    if (data != std::string_view::npos) {
+      in.fail_at_byte(place + data,
+                      "more data after the last row that the header declares; its counts must hold");
+    }
+    if (block.empty()) return;
+    in.skip(block.size());
+  }
 }
 
 std::string in_quotes(std::string_view text) {

@@ -15,11 +15,13 @@ namespace lacuna {
 class InputFile {
  public:
   // Throws `Error` if the file is missing, not readable or not a regular file (it is read several times).
-  explicit InputFile(std::filesystem::path file);
+  // The buffer has `buffer_bytes`.
+  explicit InputFile(std::filesystem::path file, std::size_t buffer_bytes = std::size_t{1} << 20);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
+  const std::filesystem::path& file() const { return file_; }
   std::uint64_t position() const { return end_position_ - (end_ - begin_); }
   std::uint64_t remaining() const;
   std::uint64_t line() const { return line_; }  // lines passed, by next_line and next_row
@@ -58,6 +60,11 @@ class InputFile {
   std::uint64_t end_position_ = 0;  // in the file, of the buffer's end
   std::uint64_t line_ = 0;
 };
+
+inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+// Throws `Error` where more than `padding` is left: rows that the header does not count would be lost.
+void require_end(InputFile& in, std::string_view padding = kBlanks);
 
 // Text from a file for an error message: one line, printable, not long, in quotes.
 std::string in_quotes(std::string_view text);

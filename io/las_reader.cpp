@@ -54,8 +54,8 @@ class LasReader final : public ScanReader {
 
 }  // namespace
 
-bool looks_like_las(std::string_view first_bytes) {
-  return first_bytes.starts_with("LASF");
+bool looks_like_las(const FileStart& start) {
+  return start.first_bytes.starts_with("LASF");
 }
 
 std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions&) {

@@ -5,11 +5,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace lacuna {
 
-bool looks_like_las(std::string_view first_bytes);
+bool looks_like_las(const FileStart& start);
 
 // Coordinates are stored * scale + offset, in double precision. Every field of the point format and the extra
 // bytes are columns (io/las_columns.hpp). Extended records behind the points are passed over. A file that is

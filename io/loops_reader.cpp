@@ -88,7 +88,7 @@ std::vector<LoopIds> read_text_loops(InputFile& in) {
 
 std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
   InputFile in(file);
-  if (looks_like_ply(in.peek(4))) return read_ply_loops(file);
+  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return read_ply_loops(file);
   return read_text_loops(in);
 }
 

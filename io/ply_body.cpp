@@ -34,21 +34,6 @@ void require_size(const InputFile& in, const PlyHeader& header) {
   }
 }
 
-void require_end(InputFile& in) {
-  constexpr std::size_t kBlock = 4096;
-  while (in.remaining() > 0) {
-    const std::uint64_t place = in.position();
-    const std::string_view block = in.peek(kBlock);
-    const std::size_t data = block.find_first_not_of(" \t\r\n\v\f");
-    if (data != std::string_view::npos) {
-      in.fail_at_byte(place + data,
-                      "more data after the last row that the header declares; its counts must hold");
-    }
-    if (block.empty()) return;
-    in.skip(block.size());
-  }
-}
-
 bool is_swapped(PlyFormat format) {
   return (format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
 }

@@ -9,9 +9,6 @@ namespace lacuna {
 // is safe to count to.
 void require_size(const InputFile& in, const PlyHeader& header);
 
-// Throws `Error` where data is left: rows that the header does not count would be lost.
-void require_end(InputFile& in);
-
 // Values have the other byte order than this machine's.
 bool is_swapped(PlyFormat format);
 

@@ -1,11 +1,15 @@
 #include "io/ply_header.hpp"
 
 #include "io/number.hpp"
+#include "io/property_name.hpp"
 #include "io/scalar.hpp"
 
+#include <mutex>
 #include <set>
 #include <span>
 #include <string_view>
+
+#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -85,6 +89,27 @@ void parse_property(Parser& parser, Words words) {
   element.properties.push_back(std::move(property));
 }
 
+// A file is opened several times in a run: once is enough.
+void warn_once(const InputFile& in, const std::string& reason) {
+  static std::mutex mutex;
+  static std::set<std::string> given;
+  std::string warning = in.file().string() + ": line " + std::to_string(in.line()) + ": " + reason;
+  const std::lock_guard lock(mutex);
+  if (given.insert(warning).second) spdlog::warn("{}", warning);
+}
+
+// X Y Z and NX NY NZ are names of position and normal, unless there are x y z too.
+void set_known_names(PlyHeader& header) {
+  for (PlyElement& element : header.elements) {
+    std::set<std::string> names;
+    for (const PlyProperty& property : element.properties) names.insert(property.name);
+    for (PlyProperty& property : element.properties) {
+      std::string name = property_name(property.name);
+      if (names.insert(name).second) property.name = std::move(name);
+    }
+  }
+}
+
 // False at the end of the header.
 bool parse_line(Parser& parser, Words words) {
   if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
@@ -95,6 +120,8 @@ bool parse_line(Parser& parser, Words words) {
     parse_element(parser, words);
   } else if (words[0] == "property") {
     parse_property(parser, words);
+  } else if (words.size() == 1 && words[0] == "bye") {
+    warn_once(parser.in, "'bye' is no keyword of a header; the line is passed over");
   } else {
     parser.fail("unknown keyword " + in_quotes(words[0]) +
                 "; allowed are format, comment, obj_info, element, property and end_header");
@@ -152,6 +179,7 @@ PlyHeader read_ply_header(InputFile& in) {
     if (!parse_line(parser, split(*line))) break;
   }
   if (!parser.has_format) parser.fail("no 'format' line before 'end_header'");
+  set_known_names(parser.header);
   return std::move(parser.header);
 }
 

@@ -35,7 +35,8 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-// Reads up to and with "end_header" and its line end. Names are unique among the elements and within each
+// Reads up to and with "end_header" and its line end. Names of position and normal may be capitals: X is x. A
+// line "bye", which Stanford's archive has in some headers, is a warning to the log, once in a run. Names are unique among the elements and within each
 // element. The counts are as declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);
 

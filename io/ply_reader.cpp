@@ -88,7 +88,8 @@ class PlyReader final : public ScanReader {
 
 }  // namespace
 
-bool looks_like_ply(std::string_view first_bytes) {
+bool looks_like_ply(const FileStart& start) {
+  const std::string_view first_bytes = start.first_bytes;
   if (!first_bytes.starts_with("ply")) return false;
   return first_bytes.size() == 3 ||
          std::string_view(" \t\r\n").find(first_bytes[3]) != std::string_view::npos;

@@ -5,11 +5,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace lacuna {
 
-bool looks_like_ply(std::string_view first_bytes);
+bool looks_like_ply(const FileStart& start);
 
 // Any scalar types; lists and other elements are passed over, but must be complete, and nothing may follow
 // the last one. A file too short for what its header declares is an `Error` at once.

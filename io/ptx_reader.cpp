@@ -169,7 +169,8 @@ class PtxReader final : public ScanReader {
 
 }  // namespace
 
-bool looks_like_ptx(std::string_view first_bytes) {
+bool looks_like_ptx(const FileStart& start) {
+  std::string_view first_bytes = start.first_bytes;
   std::array<std::string_view, 3> lines;
   for (std::string_view& line : lines) {
     const std::size_t end = first_bytes.find('\n');

@@ -5,12 +5,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace lacuna {
 
 // Two bare counts, then three numbers.
-bool looks_like_ptx(std::string_view first_bytes);
+bool looks_like_ptx(const FileStart& start);
 
 // Blocks one after the other: columns and rows of the grid, the place and axes of the scanner, a 4 x 4
 // matrix, then one line for each ray: x y z intensity, or x y z intensity red green blue. The matrix is

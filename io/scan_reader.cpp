@@ -2,9 +2,13 @@
 
 #include "io/input_file.hpp"
 #include "io/las_reader.hpp"
+#include "io/obj_reader.hpp"
+#include "io/off_reader.hpp"
 #include "io/other_formats.hpp"
+#include "io/pcd_reader.hpp"
 #include "io/ply_reader.hpp"
 #include "io/ptx_reader.hpp"
+#include "io/stl_reader.hpp"
 #include "io/text_reader.hpp"
 
 #include <array>
@@ -14,23 +18,28 @@ namespace {
 
 struct Format {
   const char* name;
-  bool (*recognises)(std::string_view first_bytes);
+  bool (*recognises)(const FileStart& start);
   std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
 };
 
 // Tried in this order.
 constexpr std::array kFormats = {
-    Format{"PLY", looks_like_ply, open_ply},
-    Format{"LAS", looks_like_las, open_las},
-    Format{"PTX", looks_like_ptx, open_ptx},
-    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+    Format{"PLY", looks_like_ply, open_ply}, Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"OBJ", looks_like_obj, open_obj}, Format{"OFF", looks_like_off, open_off},
+    Format{"STL", looks_like_stl, open_stl}, Format{"LAS", looks_like_las, open_las},
+    Format{"PTX", looks_like_ptx, open_ptx}, Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
 constexpr std::size_t kFirstBytes = 4096;
 
-const Format* find_format(std::string_view first_bytes) {
+FileStart file_start(InputFile& in) {
+  const std::uint64_t size = in.remaining();
+  return {.first_bytes = in.peek(kFirstBytes), .size = size};
+}
+
+const Format* find_format(const FileStart& start) {
   for (const Format& format : kFormats) {
-    if (format.recognises(first_bytes)) return &format;
+    if (format.recognises(start)) return &format;
   }
   return nullptr;
 }
@@ -45,18 +54,19 @@ std::string format_names() {
 
 Recognised recognise(const std::filesystem::path& file) {
   InputFile in(file);
-  const std::string_view first_bytes = in.peek(kFirstBytes);
-  const Format* const format = find_format(first_bytes);
-  if (first_bytes.empty() || describe_other_format(first_bytes) || format == nullptr) return Recognised::kNo;
+  const FileStart start = file_start(in);
+  const Format* const format = find_format(start);
+  if (start.first_bytes.empty() || describe_other_format(start.first_bytes) || format == nullptr)
+    return Recognised::kNo;
   return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
 }
 
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile in(file);
-  const std::string_view first_bytes = in.peek(kFirstBytes);
-  if (first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
-  if (const auto other = describe_other_format(first_bytes)) in.fail_at_byte(0, *other);
-  if (const Format* const format = find_format(first_bytes)) return format->open(file, options);
+  const FileStart start = file_start(in);
+  if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
+  if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);
+  if (const Format* const format = find_format(start)) return format->open(file, options);
   in.fail_at_byte(
       0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }

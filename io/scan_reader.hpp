@@ -52,6 +52,14 @@ struct ReadOptions {
   std::string columns;  // text files: column names, space separated; empty: from the header line
 };
 
+// What a format is recognised by.
+struct FileStart {
+  std::string_view first_bytes;
+  std::uint64_t size = 0;  // of the whole file
+
+  bool is_whole() const { return first_bytes.size() == size; }
+};
+
 // By the first bytes of a file, what it may be. Throws `Error` if it cannot be opened.
 enum class Recognised : std::uint8_t {
   kNo,      // no format that is read

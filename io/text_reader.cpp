@@ -2,6 +2,7 @@
 
 #include "io/input_file.hpp"
 #include "io/number.hpp"
+#include "io/property_name.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -57,22 +58,12 @@ bool is_numeric(std::string_view field) {
   return parse_number(field, value) || field.find_first_of("0123456789+-.") == 0;
 }
 
-// A name that can stand in a PLY header too.
 std::string column_name(std::string_view field, std::size_t index) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
     field = field.substr(1, field.size() - 2);
   }
   if (field.empty()) return "column_" + std::to_string(index + 1);
-  std::string name(field);
-  for (char& c : name) {
-    if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
-  }
-  std::string lower = name;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  for (const char* known : {"x", "y", "z", "nx", "ny", "nz"}) {
-    if (lower == known) return lower;
-  }
-  return name;
+  return property_name(field);
 }
 
 std::vector<std::string> column_names(const Fields& fields) {
@@ -279,8 +270,8 @@ class TextReader final : public ScanReader {
 
 }  // namespace
 
-bool looks_like_text(std::string_view first_bytes) {
-  return first_bytes.find('\0') == std::string_view::npos;
+bool looks_like_text(const FileStart& start) {
+  return start.first_bytes.find('\0') == std::string_view::npos;
 }
 
 std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const ReadOptions& options) {

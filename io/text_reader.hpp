@@ -5,11 +5,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace lacuna {
 
-bool looks_like_text(std::string_view first_bytes);
+bool looks_like_text(const FileStart& start);
 
 // Fields divided by blanks, commas or semicolons: whichever the first line has. Commas within values that
 // blanks or semicolons divide are decimal commas. Lines that are blank or begin with # or // are comments. A

@@ -4,6 +4,8 @@
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 namespace lacuna::test {
 namespace {
@@ -257,6 +259,41 @@ TEST_CASE("a header that says something impossible is an error that names its li
     INFO(content);
     CHECK(read_error(folder.write("a.ply", content)).find(expected) != std::string::npos);
   }
+}
+
+TEST_CASE("names of position and normal may be capitals", "[io]") {
+  const ScratchFolder folder;
+  const std::string capitals =
+      "element vertex 1\nproperty float X\nproperty float Y\nproperty double Z\nproperty float NX\n"
+      "property float NY\nproperty float NZ\nproperty float Quality\n";
+  const Table table = read_table(folder.write("a.ply", header("ascii", capitals) + "1 2 3 4 5 6 7\n"));
+  CHECK(table.names == std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz", "Quality"});
+  CHECK(table.rows == Rows{{1, 2, 3, 4, 5, 6, 7}});
+  const std::string both = "element vertex 1\nproperty float X\n" + kXyz;
+  CHECK(read_table(folder.write("a.ply", header("ascii", both) + "9 1 2 3\n")).names ==
+        std::vector<std::string>{"X", "x", "y", "z"});
+  const std::string twice = "element vertex 1\nproperty float nx\nproperty float NX\n" + kXyz;
+  CHECK(read_table(folder.write("a.ply", header("ascii", twice) + "8 9 1 2 3\n")).names ==
+        std::vector<std::string>{"nx", "NX", "x", "y", "z"});
+}
+
+TEST_CASE("a line 'bye' in a header is a warning that names it, once in a run", "[io]") {
+  const ScratchFolder folder;
+  std::ostringstream log;
+  const auto logger = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  const std::string body = "element vertex 1\nbye\n" + kXyz;
+  const auto file = folder.write("a.ply", header("ascii", body) + "1 2 3\n");
+  const Rows first = read_table(file).rows;
+  const Rows second = read_table(file).rows;
+  spdlog::set_default_logger(logger);
+  CHECK(first == Rows{{1, 2, 3}});
+  CHECK(second == first);
+  CHECK_THAT(log.str(), Catch::Contains("[warning] " + file + ": line 4: 'bye' is no keyword"));
+  CHECK(log.str().find("'bye'") == log.str().rfind("'bye'"));
+  CHECK_THAT(read_error(folder.write("a.ply", header("ascii", "bye bye\n" + body) + "1 2 3\n")),
+             Catch::Contains("line 3: unknown keyword 'bye'"));
 }
 
 TEST_CASE("a header without an end is given up", "[io]") {

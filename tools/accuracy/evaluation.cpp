@@ -64,7 +64,7 @@ void read_report(const fs::path& file, Result& result) {
 }
 
 bool is_ply(const fs::path& file) {
-  return looks_like_ply(InputFile(file).peek(4));
+  return looks_like_ply({.first_bytes = InputFile(file).peek(4)});
 }
 
 std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files, const std::string& columns) {

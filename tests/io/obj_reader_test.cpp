@@ -1,0 +1,158 @@
+#include "tests/io/io_support.hpp"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+using Names = std::vector<std::string>;
+
+const std::string kMesh =
+    "# by hand, from C:\\scans\\\nmtllib a.mtl\no thing\nv 1 2 3\nv 4 5 \\\n6\nvt 0 1\nvn 0 0 1\nv 7 8 9\n"
+    "vn 0 1 0\nvn 1 0 0\nusemtl grey\ns off\nf 1/1/1 2/1/2 \\\n 3/1/3\n";
+
+}  // namespace
+
+TEST_CASE("OBJ: vertices are rows, other lines are skipped", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.txt", "\n# one\nmtllib a.mtl\ng\nv 1 2 3\n\tv  -4 5e0 6 \r\nf 1 2 1\n");
+  const Table table = read_table(file, 1);
+  CHECK(table.names == Names{"x", "y", "z"});
+  CHECK(table.rows == Rows{{1, 2, 3}, {-4, 5, 6}});
+  CHECK(open_scan(file, {})->format() == "OBJ");
+  CHECK(open_scan(file, {})->expected_rows() == 2u);
+  CHECK(open_scan(file, {})->layout().find("x")->type == Scalar::kFloat64);
+}
+
+TEST_CASE("OBJ: a weight is left out, and three more values are a colour", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.obj", "v 1 2 3 1.0\nv 4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  const Table coloured = read_table(folder.write("a.obj", "v 1 2 3 0.5 0 1\nv 4 5 6 1 1 0.25"));
+  CHECK(coloured.names == Names{"x", "y", "z", "red", "green", "blue"});
+  CHECK(coloured.rows == Rows{{1, 2, 3, 0.5, 0, 1}, {4, 5, 6, 1, 1, 0.25}});
+}
+
+TEST_CASE("OBJ: a line goes on behind a backslash, but a comment does not", "[io]") {
+  const ScratchFolder folder;
+  const Rows expected = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  Rows positions;
+  for (const auto& row : read_table(folder.write("a.obj", kMesh)).rows) {
+    positions.push_back({row[0], row[1], row[2]});
+  }
+  CHECK(positions == expected);
+  CHECK(read_table(folder.write("a.obj", "v 1\\\n2 \\ \r\n3 \\\n\nf 1 \\\n v 4 5 6\n")).rows ==
+        Rows{{1, 2, 3}});
+  std::string endless = "v 1 2 3\nf";
+  for (int i = 0; i < 200'000; ++i) endless += " 1 1 1\\\n";
+  CHECK_THAT(read_error(folder.write("a.obj", endless)), Catch::Contains("bytes allowed"));
+}
+
+TEST_CASE("OBJ: normals are read if each is of the vertex with its number", "[io]") {
+  const ScratchFolder folder;
+  const Table table = read_table(folder.write("a.obj", kMesh), 2);
+  CHECK(table.names == Names{"x", "y", "z", "nx", "ny", "nz"});
+  CHECK(table.rows == Rows{{1, 2, 3, 0, 0, 1}, {4, 5, 6, 0, 1, 0}, {7, 8, 9, 1, 0, 0}});
+  const auto names = [&](const std::string& content) {
+    return read_table(folder.write("a.obj", content)).names.size();
+  };
+  const std::string two = "v 1 2 3\nv 4 5 6\nvn 0 0 1\n";
+  CHECK(names(two) == 3);
+  CHECK(names(two + "vn 0 1 0\n") == 6);
+  CHECK(names(two + "vn 0 1 0\nvn 1 0 0\n") == 3);
+  CHECK(names(two + "vn 0 1 0\nf 1 2 1\nf 1/9 2/9 1/9\n") == 6);
+  CHECK(names(two + "vn 0 1 0\nf 1//1 2//2 1//1\n") == 6);
+  CHECK(names(two + "vn 0 1 0\nf -2//-2 -1/4/-1 -2//1\n") == 6);
+  CHECK(names(two + "vn 0 1 0\nf 1//1 2//1 1//1\n") == 3);  // the normal of the face
+  CHECK(names(two + "vn 0 1 0\nf -2/1/-1 2//2 1//1\n") == 3);
+}
+
+TEST_CASE("OBJ: points as text are not taken for it, and it is not taken for points", "[io]") {
+  const ScratchFolder folder;
+  const auto format = [&](const std::string& content) {
+    return open_scan(folder.write("a", content), {})->format();
+  };
+  CHECK(format("1 2 3\n4 5 6\n") == "text");
+  CHECK(format("x y z v\n1 2 3 4\n") == "text");
+  CHECK(format("v x y z\n0 1 2 3\n") == "text");
+  CHECK(format("# v 1 2 3\n1 2 3\n") == "text");
+  CHECK(format("v 1 2 3") == "OBJ");
+  CHECK(format("#\n\n  v 1 2 3\n") == "OBJ");
+  // The first bytes end within a line.
+  for (std::size_t length = 4080; length < 4100; ++length) {
+    CHECK(format("v 1 2 3\n#" + std::string(length, '#') + "\nusemtl " + std::string(60, 'a') + "\n") ==
+          "OBJ");
+  }
+}
+
+TEST_CASE("OBJ: a wrong vertex is an error that names its line", "[io]") {
+  const ScratchFolder folder;
+  const std::pair<std::string, std::string> cases[] = {
+      {"v 1 2 3\nv 1 2\n", "a.obj: line 2: fewer values than needed; 'v x y z'"},
+      {"v 1 2 3\n\nv 1 two 3\n", "line 3: 'two' is not a number"},
+      {"v 1 2 3\nv 1 2 3 4 5\n", "line 2: more values"},
+      {"v 1 2 3\nv 1 2 3 w\n", "line 2: 'w' is not a number"},
+      {"v 1 2 3\nv 1 2 3 4 5 6\n", "line 2: a vertex with a colour"},
+      {"v 1 2 3 4 5 6\nv 1 2 3\n", "line 2: fewer values than needed; the first vertex has a colour"},
+      {"v 1 2 3 4 5 6 7\n", "line 1: more values"},
+      {"v 1 2 3\nvn 1 2\n", "line 2: fewer values than needed; 'vn x y z'"},
+      {"v 1 2 3\nvn 1 2 3 4\n", "line 2: more values"},
+  };
+  for (const auto& [content, expected] : cases) {
+    INFO(content);
+    CHECK_THAT(read_error(folder.write("a.obj", content)), Catch::Contains(expected));
+  }
+}
+
+TEST_CASE("OBJ: a file cut at any byte gives whole vertices or an error", "[io]") {
+  const ScratchFolder folder;
+  const Rows whole = read_table(folder.write("a.obj", kMesh)).rows;
+  for (std::size_t length = 0; length < kMesh.size(); ++length) {
+    INFO("cut at byte " << length);
+    const auto file = folder.write("cut.obj", kMesh.substr(0, length));
+    const std::string error = read_error(file);
+    CHECK(error.find('\n') == std::string::npos);
+    if (!error.empty()) continue;
+    const Rows rows = read_table(file).rows;
+    REQUIRE(rows.size() <= whole.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      CHECK(std::equal(rows[i].begin(), rows[i].end(), whole[i].begin()));
+  }
+}
+
+TEST_CASE("OBJ: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
+  const ScratchFolder folder;
+  std::mt19937 random(1);
+  const std::string letters = "v nf/\\#\n\r-10.e ";
+  for (int round = 0; round < 1500; ++round) {
+    std::string changed = kMesh;
+    for (auto left = 1 + random() % 3; left > 0; --left) {
+      const char c = round % 3 == 0 ? static_cast<char>(random()) : letters[random() % letters.size()];
+      changed[random() % changed.size()] = c;
+    }
+    CHECK(read_error(folder.write("a.obj", changed)).find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("OBJ: rows stay whole across buffers and batches", "[io]") {
+  const ScratchFolder folder;
+  constexpr int kRows = 60'000;
+  std::string content;
+  for (int i = 0; i < kRows; ++i) {
+    content += "v " + std::to_string(i) + " 0.5 -1 # a vertex\nvt 0.123456 0.654321\n";
+  }
+  content += "unheard of\n";  // far from the first bytes
+  for (int i = 0; i < kRows; ++i) content += "vn 0 0 " + std::to_string(i) + "\n";
+  for (const std::size_t max_rows : {999u, 1'000'000u}) {
+    const Rows rows = read_table(folder.write("a.obj", content), max_rows).rows;
+    REQUIRE(rows.size() == kRows);
+    bool all = true;
+    for (int i = 0; i < kRows; ++i)
+      all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1, 0, 0, 1.0 * i};
+    CHECK(all);
+  }
+}
+
+}  // namespace lacuna::test
