@@ -5,13 +5,12 @@
 // A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
 //
 // Where the points of a LAZ file are, from the LAS header's `offset to point data`, P:
-//   compressor 2 and 3   At P the offset of the chunk table, 8 bytes, signed. The first chunk begins at P +
-//   8, the
-//                        next one directly behind it. An offset of -1 (or another that is not behind P) is of
-//                        a writer that could not seek: the file's last 8 bytes hold the offset then.
-//   compressor 1         No offset and no table: one chunk from P on with all points of the file, up to the
-//   first
-//                        extended variable length record or the end of the file.
+//
+// - Compressor 2 and 3: at P stands the offset of the chunk table, 8 bytes, signed. The first chunk begins at
+//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, is of a writer
+//   that could not seek: the last 8 bytes of the file hold the offset then.
+// - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to
+//   the first extended variable length record or the end of the file; bytes that follow it do no harm.
 #pragma once
 
 #include <cstddef>
@@ -85,15 +84,14 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
                                     std::uint64_t first_chunk, std::uint64_t table_offset,
                                     std::uint64_t points);
 
-// A bound on the bytes of a table, from its first 8 bytes: how much of the file to hand to
-// read_chunk_table().
+// A bound on the bytes of a table, from its first 8 bytes: as much of the file, where it is as long, is what
+// read_chunk_table() needs.
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 
 // Decompresses the `points` records of a chunk, record_bytes() each, as they are in an uncompressed LAS file.
 // `records` holds exactly these. Thread-safe. Throws `Corrupt` where the chunk is cut or cannot be right;
 // never reads beyond `chunk`. Changed bytes inside a chunk are not always noticed: the format has no
-// checksum. Memory: below 4 MB for point formats 0 to 3, below 12 MB for 6 to 8, and 2 KB for each extra byte
-// and channel.
+// checksum. Memory beside `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
                   std::span<std::byte> records);
 
