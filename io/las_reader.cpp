@@ -16,12 +16,11 @@ namespace {
 class LasReader final : public ScanReader {
  public:
   explicit LasReader(const std::filesystem::path& file)
-      : in_(file), header_(read_las_header(in_)), columns_(header_), left_(header_.points) {
-    if (header_.is_compressed)
-      in_.fail_at_byte(104,
-                       "LAZ is not read yet; `pdal translate in.laz out.las` or CloudCompare convert it");
-    require_points(in_, header_);
-  }
+      : in_(file),
+        header_(read_las_header(in_)),
+        columns_(header_),
+        points_(las_points(file, in_, header_)),
+        left_(header_.points) {}
 
   std::string format() const override {
     return (header_.is_compressed ? "LAZ 1." : "LAS 1.") + std::to_string(header_.minor) + ", point format " +

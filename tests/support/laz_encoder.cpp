@@ -335,6 +335,115 @@ struct PointwiseEncoder {
   }
 };
 
+// Version 1 of POINT10, GPSTIME11, RGB12 and BYTE.
+struct Version1Encoder {
+  const laz::Layout& layout;
+  Encoder encoder;
+  LazBytes last;
+  std::vector<std::int32_t> dxs{0, 0, 0}, dys{0, 0, 0};  // the last three
+  IntegerEncoder dx{32}, dy{32}, z{32}, intensity{16}, scan_angle{8}, point_source{16};
+  Model changed{64};
+  Models returns{256}, classification{256}, user_data{256};
+  std::int32_t time_step = 0;
+  int extremes = 0;
+  Model time_first{3}, time_next{512};
+  IntegerEncoder time{32}, rgb{8}, extra_bytes{8};
+  Model rgb_changed{64};
+
+  Version1Encoder(const laz::Layout& of, const std::byte* first)
+      : layout(of), last(first, first + of.record_bytes()) {}
+
+  static std::int32_t median(std::vector<std::int32_t> values) {
+    std::sort(values.begin(), values.end());
+    return values[1];
+  }
+
+  void encode_point(const std::byte* now) {
+    const std::byte* before = last.data();
+    const auto byte = [](const std::byte* record, std::size_t at) { return load<std::uint8_t>(record + at); };
+    const auto coordinate = [](const std::byte* record, std::size_t at) {
+      return load<std::int32_t>(record + at);
+    };
+    const std::int32_t x = difference_of(coordinate(now, 0), coordinate(before, 0));
+    const std::int32_t y = difference_of(coordinate(now, 4), coordinate(before, 4));
+    dx.encode(encoder, median(dxs), x);
+    dy.encode(encoder, median(dys), y, std::min(dx.k, 19u));
+    const unsigned k = (dx.k + dy.k) / 2;
+    z.encode(encoder, coordinate(before, 8), coordinate(now, 8), std::min(k, 19u));
+    dxs.erase(dxs.begin());
+    dxs.push_back(x);
+    dys.erase(dys.begin());
+    dys.push_back(y);
+
+    const auto short_at = [](const std::byte* record, std::size_t at) {
+      return load<std::uint16_t>(record + at);
+    };
+    const unsigned symbol = (short_at(now, 12) != short_at(before, 12)) << 5 | (now[14] != before[14]) << 4 |
+                            (now[15] != before[15]) << 3 | (now[16] != before[16]) << 2 |
+                            (now[17] != before[17]) << 1 | (short_at(now, 18) != short_at(before, 18));
+    encoder.symbol(changed, symbol);
+    if (symbol & 32) intensity.encode(encoder, short_at(before, 12), short_at(now, 12));
+    if (symbol & 16) encoder.symbol(returns[byte(before, 14)], byte(now, 14));
+    if (symbol & 8) encoder.symbol(classification[byte(before, 15)], byte(now, 15));
+    if (symbol & 4) scan_angle.encode(encoder, byte(before, 16), byte(now, 16), k < 3);
+    if (symbol & 2) encoder.symbol(user_data[byte(before, 17)], byte(now, 17));
+    if (symbol & 1) point_source.encode(encoder, short_at(before, 18), short_at(now, 18));
+  }
+
+  void encode_time(std::uint64_t before, std::uint64_t now) {
+    const bool first = time_step == 0;
+    const auto step = static_cast<std::int64_t>(now - before);
+    if (step == 0) return encoder.symbol(first ? time_first : time_next, first ? 0 : 511);
+    if (step != static_cast<std::int32_t>(step)) {
+      encoder.symbol(first ? time_first : time_next, first ? 2 : 510);
+      encoder.bits(static_cast<std::uint32_t>(now), 32);
+      encoder.bits(static_cast<std::uint32_t>(now >> 32), 32);
+    } else if (first) {
+      encoder.symbol(time_first, 1);
+      time.encode(encoder, 0, step, 0);
+      time_step = static_cast<std::int32_t>(step);
+    } else {
+      const auto factor =
+          static_cast<unsigned>(std::clamp(std::lround(double(step) / double(time_step)), 0l, 509l));
+      encoder.symbol(time_next, factor);
+      const std::int64_t prediction = factor == 0 ? time_step / 4 : std::int64_t{factor} * time_step;
+      const unsigned context = factor == 0 ? 2 : factor == 1 ? 1 : factor < 10 ? 3 : factor < 50 ? 4 : 5;
+      time.encode(encoder, static_cast<std::int32_t>(static_cast<std::uint32_t>(prediction)), step, context);
+      if (factor == 1 || ((factor == 0 || factor == 509) && ++extremes > 3)) {
+        time_step = static_cast<std::int32_t>(step);
+        extremes = 0;
+      }
+    }
+  }
+
+  void encode(const std::byte* now) {
+    std::size_t at = 0;
+    for (const laz::Item& item : layout.items) {
+      if (item.type == laz::item_type::kPoint10) encode_point(now);
+      if (item.type == laz::item_type::kGpsTime11) {
+        encode_time(load<std::uint64_t>(&last[at]), load<std::uint64_t>(now + at));
+      }
+      if (item.type == laz::item_type::kRgb12) {
+        unsigned symbol = 0;
+        for (unsigned i = 0; i < 6; ++i) symbol |= (last[at + i] != now[at + i]) << i;
+        encoder.symbol(rgb_changed, symbol);
+        for (unsigned i = 0; i < 6; ++i) {
+          if (symbol >> i & 1) encode_byte(rgb, last[at + i], now[at + i], i);
+        }
+      }
+      if (item.type == laz::item_type::kByte) {
+        for (unsigned i = 0; i < item.size; ++i) encode_byte(extra_bytes, last[at + i], now[at + i], i);
+      }
+      at += item.size;
+    }
+    last.assign(now, now + last.size());
+  }
+
+  void encode_byte(IntegerEncoder& integers, std::byte before, std::byte now, unsigned context) {
+    integers.encode(encoder, std::to_integer<int>(before), std::to_integer<int>(now), context);
+  }
+};
+
 // A point of 30 bytes, taken apart.
 struct Point14 {
   std::int32_t x, y, z;
@@ -607,10 +716,13 @@ LazBytes laz_record(const laz::Layout& layout) {
 LazBytes laz_chunk(const laz::Layout& layout, std::span<const std::byte> records) {
   if (layout.compressor == laz::compressor::kLayeredChunked) return layered_chunk(layout, records);
   const std::size_t size = layout.record_bytes();
-  PointwiseEncoder points(layout, records.data());
-  for (std::size_t at = size; at < records.size(); at += size) points.encode(&records[at]);
+  const auto compressed = [&](auto points) {
+    for (std::size_t at = size; at < records.size(); at += size) points.encode(&records[at]);
+    return points.encoder.done();
+  };
   LazBytes chunk(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(size));
-  const LazBytes rest = points.encoder.done();
+  const LazBytes rest = layout.items[0].version == 1 ? compressed(Version1Encoder(layout, records.data()))
+                                                     : compressed(PointwiseEncoder(layout, records.data()));
   chunk.insert(chunk.end(), rest.begin(), rest.end());
   return chunk;
 }

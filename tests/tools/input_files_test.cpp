@@ -13,6 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
+fs::path as_list(const std::string& file) {
+  std::string name = "@";
+  name += file;
+  return name;
+}
+
 TEST_CASE("a folder stands for its scans by name, a list for the files in it, all else for itself") {
   const test::ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
@@ -33,7 +39,7 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
         Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
 
   const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
-  CHECK(expand_inputs({"@" + std::string(list)}, {}) ==
+  CHECK(expand_inputs({as_list(list)}, {}) ==
         Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
 }
 
@@ -43,7 +49,7 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
   CHECK_THROWS_WITH(expand_inputs({scratch / "none"}, {}),
                     Catch::Matchers::Contains("none: no scan file in this folder"));
   const auto list = scratch.write("list.txt", "# nothing\n");
-  CHECK_THROWS_WITH(expand_inputs({"@" + std::string(list)}, {}), Catch::Matchers::Contains("names no file"));
+  CHECK_THROWS_WITH(expand_inputs({as_list(list)}, {}), Catch::Matchers::Contains("names no file"));
   CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}, {}),
                     Catch::Matchers::Contains("missing.txt: cannot be opened"));
 }
