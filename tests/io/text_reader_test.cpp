@@ -128,7 +128,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"1 2 three\n", "line 1: 'three' is not a number"},
       {"1,2,3\n4,,6\n", "line 2: '' is not a number"},
       {"1,2,3\n4,5,6,,\n", "line 2: more values"},
-      {"1,5;2,5;3,5\n", "line 1: '1,5' is not a number"},
+      {"1,5;2,5;x\n", "line 1: 'x' is not a number"},
       {"1 2\n", "line 1: 2 values"},
       {"a b c\n1 2 3\n", "line 1: no columns named x, y and z"},
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
