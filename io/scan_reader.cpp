@@ -53,7 +53,7 @@ std::string format_names() {
 }  // namespace
 
 Recognised recognise(const std::filesystem::path& file) {
-  InputFile in(file);
+  InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
   const Format* const format = find_format(start);
   if (start.first_bytes.empty() || describe_other_format(start.first_bytes) || format == nullptr)
@@ -62,7 +62,7 @@ Recognised recognise(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
-  InputFile in(file);
+  InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
   if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);

@@ -128,7 +128,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"1 2 three\n", "line 1: 'three' is not a number"},
       {"1,2,3\n4,,6\n", "line 2: '' is not a number"},
       {"1,2,3\n4,5,6,,\n", "line 2: more values"},
-      {"1,5;2,5;3,5\n", "line 1: '1,5' is not a number"},
+      {"1,5;2,5;x\n", "line 1: 'x' is not a number"},
       {"1 2\n", "line 1: 2 values"},
       {"a b c\n1 2 3\n", "line 1: no columns named x, y and z"},
       {"x y z x\n1 2 3 4\n", "line 1: a second column 'x'"},
@@ -137,7 +137,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
        "?"
        "?'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
-      {"VERSION 0.7\n1 2 3\n", "line 1: 2 values"},
+      {"EDITION 0.7\n1 2 3\n", "line 1: 2 values"},
       {"1 2 3\r4 5 6\r", "line 1: a carriage return within the line"},
       {"# x y z\r1 2 3\r\n", "line 1: a carriage return within the line"},
       {"1 2 3\n4 5 \x01\x02\n",
