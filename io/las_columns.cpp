@@ -1,5 +1,6 @@
 #include "io/las_columns.hpp"
 
+#include "io/property_name.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -40,13 +41,6 @@ double load_stored(std::uint8_t type, const std::byte* from) {
   if (type == kInt64) return static_cast<double>(load<std::int64_t>(from));
   return with_type(kExtraTypes[type].kept,
                    [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
-}
-
-// Names in PLY files have no blanks.
-std::string plain_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c <= ' ' || c == 0x7f; }, '_');
-  return name;
 }
 
 }  // namespace
@@ -136,7 +130,7 @@ LasColumns::LasColumns(const LasHeader& header) : record_bytes_(header.record_by
 }
 
 void LasColumns::add(std::string name, Scalar type, Source source) {
-  const std::string given = plain_name(std::move(name));
+  const std::string given = property_name(name);
   name = given;
   for (int number = 2; layout_.find(name) != nullptr; ++number) name = given + "_" + std::to_string(number);
   layout_.properties.push_back({.name = std::move(name), .type = type, .offset = layout_.stride});

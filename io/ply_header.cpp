@@ -104,7 +104,7 @@ void set_known_names(PlyHeader& header) {
     std::set<std::string> names;
     for (const PlyProperty& property : element.properties) names.insert(property.name);
     for (PlyProperty& property : element.properties) {
-      std::string name = property_name(property.name);
+      std::string name = known_name(property.name);
       if (names.insert(name).second) property.name = std::move(name);
     }
   }

@@ -6,8 +6,10 @@
 
 namespace lacuna {
 
-// A name that can stand in a PLY header: blanks and control characters become '_', and X Y Z, NX NY NZ (in
-// any mix of cases) the names of position and normal.
+// Of X Y Z and NX NY NZ, in any mix of cases, the names of position and normal; others as they are.
+std::string known_name(std::string_view given);
+
+// The same as a name that can stand in a PLY header: blanks and control characters become '_'.
 std::string property_name(std::string_view given);
 
 }  // namespace lacuna

@@ -22,11 +22,11 @@ struct Format {
   std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
 };
 
-// Tried in this order.
+// Tried in this order: those with a name of their own at the beginning come first.
 constexpr std::array kFormats = {
-    Format{"PLY", looks_like_ply, open_ply}, Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"PLY", looks_like_ply, open_ply}, Format{"LAS", looks_like_las, open_las},
+    Format{"PCD", looks_like_pcd, open_pcd}, Format{"STL", looks_like_stl, open_stl},
     Format{"OBJ", looks_like_obj, open_obj}, Format{"OFF", looks_like_off, open_off},
-    Format{"STL", looks_like_stl, open_stl}, Format{"LAS", looks_like_las, open_las},
     Format{"PTX", looks_like_ptx, open_ptx}, Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 

@@ -42,7 +42,7 @@ TEST_CASE("a format is known by its first bytes, not by its name", "[io]") {
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
   CHECK(read_table(folder.write("a.xyz", ply)).rows.empty());
   const std::string unknown = read_error(folder.write("a.las", std::string("\x7f\1\0\0\1\2", 6)));
-  CHECK(unknown.find("unknown format; PLY, PCD") != std::string::npos);
+  CHECK(unknown.find("unknown format; PLY, LAS") != std::string::npos);
 }
 
 TEST_CASE("a format that is known but not read is named, with a way out", "[io]") {

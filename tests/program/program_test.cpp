@@ -127,8 +127,9 @@ TEST_CASE("what is wrong in a config file is told with file, line and key") {
 TEST_CASE("an input that cannot be read leaves no output folder") {
   const ScratchFolder scratch;
   const std::string out = (scratch / "a/b/out").string();
+  fs::create_directory(scratch / "nothing");
   for (const std::string& scan :
-       {(scratch / "none.ply").string(), (scratch / ".").string(), scratch.write("empty.ply", ""),
+       {(scratch / "none.ply").string(), (scratch / "nothing").string(), scratch.write("empty.ply", ""),
         scratch.write("cut.ply",
                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                       "property float y\nproperty float z\nend_header\n0 0 0\n")}) {
