@@ -70,6 +70,7 @@ std::string_view InputFile::peek(std::size_t count) {
 }
 
 void InputFile::read(std::byte* to, std::size_t count) {
+  if (count == 0) return;  // `to` may be null
   const std::size_t buffered = std::min(count, end_ - begin_);
   std::memcpy(to, buffer_.data() + begin_, buffered);
   begin_ += buffered;

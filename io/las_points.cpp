@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -52,8 +51,9 @@ class CompressedPoints final : public LasPoints {
   void read(std::span<std::byte> records) override {
     while (!records.empty()) {
       if (taken_ == decoded_.size()) decode_next();
-      const std::size_t count = std::min(records.size(), decoded_.size() - taken_);
-      std::memcpy(records.data(), &decoded_[taken_], count);
+      const std::span<const std::byte> ready = std::span(decoded_).subspan(taken_);
+      const std::size_t count = std::min(records.size(), ready.size());
+      std::copy_n(ready.begin(), count, records.begin());
       taken_ += count;
       records = records.subspan(count);
     }
