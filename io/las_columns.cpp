@@ -1,5 +1,6 @@
 #include "io/las_columns.hpp"
 
+#include "io/little_endian.hpp"
 #include "io/property_name.hpp"
 #include "io/scalar.hpp"
 
@@ -28,13 +29,6 @@ constexpr std::array<ExtraType, 11> kExtraTypes = {{{0, Scalar::kUint8},
                                                     {4, Scalar::kFloat32},
                                                     {8, Scalar::kFloat64}}};
 constexpr std::uint8_t kUint64 = 7, kInt64 = 8;
-
-template <class T>
-T load(const std::byte* from) {
-  T value;
-  std::memcpy(&value, from, sizeof value);
-  return value;
-}
 
 double load_stored(std::uint8_t type, const std::byte* from) {
   if (type == kUint64) return static_cast<double>(load<std::uint64_t>(from));

@@ -1,16 +1,14 @@
 #include "io/las_header.hpp"
 
+#include "io/little_endian.hpp"
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <span>
 #include <string_view>
 
 namespace lacuna {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);  // as LAS is
 
 // By point format.
 constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -19,9 +17,7 @@ constexpr std::size_t kRecordHeader = 54, kExtraDescriptor = 192;
 
 template <class T>
 T value_at(std::span<const std::byte> bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, &bytes[offset], sizeof value);
-  return value;
+  return load<T>(&bytes[offset]);
 }
 
 // Up to the first zero.

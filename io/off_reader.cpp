@@ -14,7 +14,7 @@ constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr const char* kCounts = "the numbers of vertices, of faces and of edges are needed";
 constexpr const char* kFace = "a face is the number of its vertices, then their indices";
 
-// "CNOFF" without its last three letters, and what is behind; some writers leave no blank before a number.
+// The part of "CNOFF" before OFF, and what follows the word; some writers leave no blank before a number.
 struct Keyword {
   std::string_view kind;
   std::string_view rest;

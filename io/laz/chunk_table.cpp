@@ -1,7 +1,7 @@
 // The table of where chunks begin (LAZ, "Chunk table").
 #include "io/laz/integer_decoder.hpp"
 #include "io/laz/laz.hpp"
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -83,17 +83,10 @@ std::size_t layer_count(const Layout& layout) {
 
 }  // namespace
 
-void decode_layered(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+void decode_layered(const Layout& layout, std::span<const std::byte> compressed,
                     std::span<std::byte> records) {
-  // The first point is not compressed.
-  const std::size_t record_bytes = layout.record_bytes();
-  if (chunk.size() < record_bytes)
-    throw Corrupt("a chunk of compressed points is shorter than its first point");
-  std::copy_n(chunk.begin(), record_bytes, records.begin());
-  if (points == 1) return;
-
   const std::byte* first = records.data();
-  Layers layers(chunk.subspan(record_bytes), layer_count(layout));
+  Layers layers(compressed, layer_count(layout));
   const auto point = std::make_unique<Point14>(first, layers);
   const ChannelRule rule = layout.items[0].version == 3 ? ChannelRule::kVersion3 : ChannelRule::kVersion4;
   std::unique_ptr<Colour> colour;
@@ -111,6 +104,7 @@ void decode_layered(const Layout& layout, std::span<const std::byte> chunk, std:
     at += item.size;
   }
 
+  const std::size_t record_bytes = layout.record_bytes();
   for (std::size_t record = record_bytes; record < records.size(); record += record_bytes) {
     std::byte* to = records.data() + record;
     point->decode(to);

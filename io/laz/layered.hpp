@@ -5,8 +5,9 @@
 
 namespace lacuna::laz {
 
-// As decode_chunk(), for at least one point.
-void decode_layered(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+// The records of a chunk behind the first, which is in `records` already. `compressed`: what follows it in
+// the chunk.
+void decode_layered(const Layout& layout, std::span<const std::byte> compressed,
                     std::span<std::byte> records);
 
 }  // namespace lacuna::laz

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/laz/arithmetic_decoder.hpp"
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 // The record of the LAS header that says how points are compressed (LAZ, "LASzip VLR").
 #include "io/laz/laz.hpp"
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "io/laz/point14.hpp"
 
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 
 namespace lacuna::laz {
 namespace {

@@ -1,10 +1,10 @@
 #include "io/laz/pointwise.hpp"
 
 #include "io/laz/gps_time.hpp"
-#include "io/laz/little_endian.hpp"
 #include "io/laz/point10.hpp"
 #include "io/laz/rgb.hpp"
 #include "io/laz/version1.hpp"
+#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -104,15 +104,8 @@ void decode_rest(const Layout& layout, std::span<const std::byte> compressed, st
 
 }  // namespace
 
-void decode_pointwise(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
+void decode_pointwise(const Layout& layout, std::span<const std::byte> compressed,
                       std::span<std::byte> records) {
-  // The first point is not compressed.
-  const std::size_t record_bytes = layout.record_bytes();
-  if (chunk.size() < record_bytes)
-    throw Corrupt("a chunk of compressed points is shorter than its first point");
-  std::copy_n(chunk.begin(), record_bytes, records.begin());
-  if (points == 1) return;
-  const auto compressed = chunk.subspan(record_bytes);
   if (layout.items[0].version == 1) {
     decode_rest<Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>>(
         layout, compressed, records);

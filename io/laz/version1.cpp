@@ -1,6 +1,6 @@
 #include "io/laz/version1.hpp"
 
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 
 #include <algorithm>
 

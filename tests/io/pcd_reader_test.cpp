@@ -334,7 +334,7 @@ TEST_CASE("LZF: a damaged block is an error that names the byte", "[io]") {
   };
   using namespace std::string_literals;
   CHECK(error("\1ab"s, 2).empty());
-  CHECK(error("\0a\x20\0"s, 4).empty());  // one letter, three times again
+  CHECK(error("\0a\x20\0"s, 4).empty());  // one byte, three times again
   CHECK_THAT(error("\0a\x20\1"s, 4), Catch::Contains("a.lzf: byte 6: a repetition of bytes before"));
   CHECK_THAT(error("\x20\0"s, 3), Catch::Contains("byte 4: a repetition of bytes before"));
   CHECK_THAT(error("\2ab"s, 3), Catch::Contains("byte 4: the compressed block ends here, 3 of its 3"));

@@ -1,9 +1,9 @@
 #include "tests/support/laz_encoder.hpp"
 
 #include "io/laz/contexts.hpp"
-#include "io/laz/little_endian.hpp"
 #include "io/laz/streaming_median.hpp"
 #include "io/laz/symbol_model.hpp"
+#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,6 @@ namespace lacuna::test {
 namespace {
 
 using laz::BitModel;
-using laz::load;
 using laz::StreamingMedian;
 using laz::SymbolModel;
 using Model = SymbolModel<516>;  // the largest alphabet; here all models have its capacity
@@ -758,7 +757,7 @@ LazBytes laz_point_data(const laz::Layout& layout, std::span<const std::byte> re
     chunks.push_back({offset + data.size(), chunk.size(), points});
     data.insert(data.end(), chunk.begin(), chunk.end());
   }
-  laz::store(data.data(), offset + data.size());
+  store(data.data(), offset + data.size());
   const LazBytes table = laz_chunk_table(layout, chunks);
   data.insert(data.end(), table.begin(), table.end());
   return data;

@@ -1,6 +1,6 @@
 #include "io/laz/laz.hpp"
 
-#include "io/laz/little_endian.hpp"
+#include "io/little_endian.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/laz_encoder.hpp"
 #include "tests/support/skip.hpp"
@@ -49,14 +49,14 @@ unsigned below(Random& random, unsigned end) {
 void put_time(Random& random, std::byte* at, std::uint64_t& time) {
   // Steps like those of pulses, now and then a longer one, another flight line or a leap.
   const unsigned kind = below(random, 40);
-  if (kind < 12) return laz::store(at, time);
+  if (kind < 12) return store(at, time);
   if (kind < 30) time += 1000 * (1 + below(random, 3));
   if (kind == 30) time += 1000 * below(random, 700);
   if (kind == 31) time -= 1000 * below(random, 20);
   if (kind == 32) time += std::uint64_t{1} << 40;
   if (kind == 33) time -= std::uint64_t{1} << 40;
   if (kind == 34) time += random();
-  laz::store(at, time);
+  store(at, time);
 }
 
 // Points along scan lines, with several returns, four scanner channels and colours that are alike.
@@ -75,10 +75,10 @@ LazBytes plausible_records(const Layout& layout, std::size_t points, Random& ran
     y += static_cast<std::int32_t>(below(random, 20)) - 10;
     z += static_cast<std::int32_t>(below(random, 50)) - 25;
     if (below(random, 60) == 0) x -= 100000;
-    laz::store(at, x);
-    laz::store(at + 4, y);
-    laz::store(at + 8, z);
-    if (below(random, 3)) laz::store(at + 12, static_cast<std::uint16_t>(below(random, 300)));
+    store(at, x);
+    store(at + 4, y);
+    store(at + 8, z);
+    if (below(random, 3)) store(at + 12, static_cast<std::uint16_t>(below(random, 300)));
     if (++r > n) n = 1 + below(random, layered ? 15 : 5), r = 1;
     std::size_t end;
     if (layered) {
@@ -87,8 +87,8 @@ LazBytes plausible_records(const Layout& layout, std::size_t points, Random& ran
       byte(15, below(random, 8) | channel << 4 | below(random, 4) << 6);
       byte(16, below(random, 4));
       if (below(random, 8) == 0) byte(17, below(random, 256));
-      if (below(random, 8) == 0) laz::store(at + 18, static_cast<std::int16_t>(below(random, 6000) - 3000));
-      if (below(random, 20) == 0) laz::store(at + 20, static_cast<std::uint16_t>(below(random, 5)));
+      if (below(random, 8) == 0) store(at + 18, static_cast<std::int16_t>(below(random, 6000) - 3000));
+      if (below(random, 20) == 0) store(at + 20, static_cast<std::uint16_t>(below(random, 5)));
       put_time(random, at + 22, time);
       end = 30;
     } else {
@@ -96,7 +96,7 @@ LazBytes plausible_records(const Layout& layout, std::size_t points, Random& ran
       byte(15, below(random, 4));
       byte(16, below(random, 40) - 20);
       if (below(random, 8) == 0) byte(17, below(random, 256));
-      if (below(random, 20) == 0) laz::store(at + 18, static_cast<std::uint16_t>(below(random, 5)));
+      if (below(random, 20) == 0) store(at + 18, static_cast<std::uint16_t>(below(random, 5)));
       end = 20;
     }
     for (const laz::Item& item : layout.items) {
@@ -140,7 +140,7 @@ LazBytes bytes_of(const std::filesystem::path& file) {
 
 template <class T>
 T number(const LazBytes& bytes, std::uint64_t at) {
-  return laz::load<T>(&bytes.at(at));
+  return load<T>(&bytes.at(at));
 }
 
 // Comparisons of records have double parentheses, lest Catch prints a failure of megabytes.
@@ -229,7 +229,7 @@ TEST_CASE("points that are all the same, and the largest steps, are decompressed
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int32_t values[] = {0, std::numeric_limits<std::int32_t>::min(),
                                        std::numeric_limits<std::int32_t>::max()};
-        laz::store(&records[i * size + axis * 4], values[below(random, 3)]);
+        store(&records[i * size + axis * 4], values[below(random, 3)]);
       }
     }
     CHECK((decoded(layout, laz_chunk(layout, records), 300) == records));
@@ -310,7 +310,7 @@ TEST_CASE("a chunk with changed sizes of layers gives records or an error", "[la
     for (std::size_t layer = 0; layer < 9; ++layer) {
       for (const std::uint32_t size : {0u, 1u, 3u, 4u, 100000u, 0xffffffffu}) {
         LazBytes changed = chunk;
-        laz::store(&changed[layout.record_bytes() + 4 + layer * 4], size);
+        store(&changed[layout.record_bytes() + 4 + layer * 4], size);
         const std::string error = message([&] { decoded(layout, changed, 40); });
         INFO(name(c) << ", layer " << layer << " of " << size << " bytes: " << error);
         if (size >= 100000 || (layer == 0 && size == 0)) CHECK(error != "");
@@ -395,7 +395,7 @@ TEST_CASE("chunk tables that do not fit the file are errors", "[laz]") {
           "");
   }
   LazBytes many = table;
-  laz::store(&many[4], 0xffffffffu);
+  store(&many[4], 0xffffffffu);
   CHECK(read(many, 100, std::uint64_t{1} << 60, std::uint64_t{1} << 60) ==
         "the compressed points end too early");
   Random random(7);
