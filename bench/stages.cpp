@@ -18,7 +18,7 @@
 #include "engine/store/scratch.hpp"
 #include "engine/survey/survey.hpp"
 #include "io/file_scan.hpp"
-#include "io/output_set.hpp"
+#include "io/results/output_set.hpp"
 #include "tests/support/point_tree.hpp"
 #include "tools/synth/ply_output.hpp"
 #include "tools/synth/random.hpp"

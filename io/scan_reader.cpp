@@ -1,15 +1,15 @@
 #include "io/scan_reader.hpp"
 
 #include "io/input_file.hpp"
-#include "io/las_reader.hpp"
-#include "io/obj_reader.hpp"
-#include "io/off_reader.hpp"
+#include "io/las/las_reader.hpp"
+#include "io/mesh/obj_reader.hpp"
+#include "io/mesh/off_reader.hpp"
+#include "io/mesh/stl_reader.hpp"
 #include "io/other_formats.hpp"
-#include "io/pcd_reader.hpp"
-#include "io/ply_reader.hpp"
-#include "io/ptx_reader.hpp"
-#include "io/stl_reader.hpp"
-#include "io/text_reader.hpp"
+#include "io/pcd/pcd_reader.hpp"
+#include "io/ply/ply_reader.hpp"
+#include "io/text/ptx_reader.hpp"
+#include "io/text/text_reader.hpp"
 
 #include <array>
 

@@ -4,7 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
-#include "io/results.hpp"
+#include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"

@@ -3,9 +3,9 @@
 #include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
 #include "io/input_file.hpp"
-#include "io/loops_reader.hpp"
-#include "io/mesh_reader.hpp"
-#include "io/ply_reader.hpp"
+#include "io/ply/mesh_reader.hpp"
+#include "io/ply/ply_reader.hpp"
+#include "io/results/loops_reader.hpp"
 #include "tools/accuracy/mesh_boundary.hpp"
 #include "tools/accuracy/spacing.hpp"
 

@@ -1,7 +1,7 @@
 // The true loops of a mesh.
 #pragma once
 
-#include "io/mesh_reader.hpp"
+#include "io/ply/mesh_reader.hpp"
 #include "tools/accuracy/true_loops.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // What is true of a scan: the loops that its holes and rims have.
 #pragma once
 
-#include "io/loops_reader.hpp"
+#include "io/results/loops_reader.hpp"
 #include "tools/accuracy/edge_tree.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // What `lacuna synth surface` can be asked for.
 #pragma once
 
-#include "io/output_set.hpp"
+#include "io/results/output_set.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/ply_output.hpp"
 

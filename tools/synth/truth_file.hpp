@@ -1,7 +1,7 @@
 // The file of true loops beside a made scan.
 #pragma once
 
-#include "io/output_file.hpp"
+#include "io/results/output_file.hpp"
 
 #include <cstdint>
 #include <filesystem>

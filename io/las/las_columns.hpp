@@ -1,0 +1,42 @@
+// The columns of LAS points, and raw records unpacked to rows.
+#pragma once
+
+#include "io/las/las_header.hpp"
+#include "io/scan_reader.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// Every field of the point format, then the extra bytes; x, y and z as doubles in units of the scan. Values
+// of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes that the header does
+// not describe are the columns extra_0, extra_1 and so on.
+class LasColumns {
+ public:
+  explicit LasColumns(const LasHeader& header);
+
+  const RowLayout& layout() const { return layout_; }
+  // `records`: raw ones, one after the other; `rows`: as many of the layout.
+  void unpack(std::span<const std::byte> records, std::byte* rows) const;
+
+ private:
+  // Where a column's value is in a record, and what is made of it.
+  struct Source {
+    enum class Kind : std::uint8_t { kCoordinate, kBits, kCopy, kScaled } kind;
+    std::size_t offset;
+    std::uint8_t shift = 0, mask = 0xff;  // of bits
+    std::uint8_t stored = 0;              // type of extra bytes, 1 to 10
+    double scale = 1, added = 0;
+  };
+  void add(std::string name, Scalar type, Source source);
+  void add_extra(const LasExtraBytes& extra, std::size_t& offset);
+
+  std::size_t record_bytes_;
+  RowLayout layout_;
+  std::vector<Source> sources_;  // of each column
+};
+
+}  // namespace lacuna

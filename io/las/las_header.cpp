@@ -1,0 +1,129 @@
+#include "io/las/las_header.hpp"
+
+#include "io/little_endian.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+namespace lacuna {
+namespace {
+
+// By point format.
+constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+constexpr std::array<std::size_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};  // by minor version
+constexpr std::size_t kRecordHeader = 54, kExtraDescriptor = 192;
+
+template <class T>
+T value_at(std::span<const std::byte> bytes, std::size_t offset) {
+  return load<T>(&bytes[offset]);
+}
+
+// Up to the first zero.
+std::string text_at(std::span<const std::byte> bytes, std::size_t offset, std::size_t length) {
+  const auto* const first = reinterpret_cast<const char*>(&bytes[offset]);
+  return {first, std::find(first, first + length, '\0')};
+}
+
+std::vector<LasExtraBytes> extra_bytes_of(std::span<const std::byte> data) {
+  constexpr std::uint8_t kHasScale = 8, kHasOffset = 16;
+  std::vector<LasExtraBytes> all;
+  for (; data.size() >= kExtraDescriptor; data = data.subspan(kExtraDescriptor)) {
+    LasExtraBytes extra{.name = text_at(data, 4, 32),
+                        .type = value_at<std::uint8_t>(data, 2),
+                        .options = value_at<std::uint8_t>(data, 3),
+                        .scale = 1,
+                        .offset = 0};
+    if (extra.type != 0 && (extra.options & kHasScale) != 0) extra.scale = value_at<double>(data, 112);
+    if (extra.type != 0 && (extra.options & kHasOffset) != 0) extra.offset = value_at<double>(data, 136);
+    all.push_back(std::move(extra));
+  }
+  return all;
+}
+
+// A variable length record. Those of other users and numbers are passed over.
+void read_record(InputFile& in, LasHeader& header) {
+  std::array<std::byte, kRecordHeader> head;
+  const std::uint64_t place = in.position();
+  in.read(head.data(), head.size());
+  const std::string user = text_at(head, 2, 16);
+  const auto number = value_at<std::uint16_t>(head, 18), bytes = value_at<std::uint16_t>(head, 20);
+  if (in.position() + bytes > header.points_at)
+    in.fail_at_byte(place, "a variable length record goes on beyond the first point");
+  std::vector<std::byte> data(bytes);
+  in.read(data.data(), data.size());
+  if (user == "LASF_Spec" && number == 4) header.extra_bytes = extra_bytes_of(data);
+  if (user == "laszip encoded" && number == 22204) header.laszip = std::move(data);
+}
+
+void check_points(const InputFile& in, const LasHeader& header) {
+  const std::string format = std::to_string(header.point_format);
+  if (header.record_bytes < las_point_bytes(header.point_format)) {
+    in.fail_at_byte(105, "points of " + std::to_string(header.record_bytes) + " bytes; those of format " +
+                             format + " have " + std::to_string(las_point_bytes(header.point_format)) +
+                             " or more");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(std::isfinite(header.scale[axis]) && header.scale[axis] != 0 && std::isfinite(header.offset[axis])))
+      in.fail_at_byte(131,
+                      "a scale that is 0, or a scale or offset that is not finite; coordinates need both");
+  }
+}
+
+}  // namespace
+
+std::size_t las_point_bytes(int point_format) {
+  return kPointBytes.at(static_cast<std::size_t>(point_format));
+}
+
+LasHeader read_las_header(InputFile& in) {
+  std::vector<std::byte> head(kHeaderBytes[0]);
+  in.read(head.data(), head.size());
+  LasHeader header;
+  const auto major = value_at<std::uint8_t>(head, 24), minor = value_at<std::uint8_t>(head, 25);
+  if (major != 1 || minor > 4) {
+    in.fail_at_byte(
+        24, "LAS " + std::to_string(major) + "." + std::to_string(minor) + "; versions 1.0 to 1.4 are read");
+  }
+  header.minor = minor;
+  const auto header_bytes = value_at<std::uint16_t>(head, 94);
+  if (header_bytes < kHeaderBytes[minor]) {
+    in.fail_at_byte(94, "a header of " + std::to_string(header_bytes) + " bytes; LAS 1." +
+                            std::to_string(minor) + " has " + std::to_string(kHeaderBytes[minor]) +
+                            " or more");
+  }
+  head.resize(header_bytes);
+  in.read(head.data() + kHeaderBytes[0], head.size() - kHeaderBytes[0]);
+
+  // The upper two bits of the format say that LASzip has compressed the points.
+  const auto format = value_at<std::uint8_t>(head, 104);
+  header.is_compressed = (format & 0xc0) != 0;
+  header.point_format = format & 0x3f;
+  if (header.point_format >= static_cast<int>(kPointBytes.size()))
+    in.fail_at_byte(104,
+                    "point format " + std::to_string(header.point_format) + "; formats 0 to 10 are read");
+  header.points_at = value_at<std::uint32_t>(head, 96);
+  header.record_bytes = value_at<std::uint16_t>(head, 105);
+  header.points = value_at<std::uint32_t>(head, 107);
+  if (minor == 4 && value_at<std::uint64_t>(head, 247) != 0)
+    header.points = value_at<std::uint64_t>(head, 247);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    header.scale[axis] = value_at<double>(head, 131 + 8 * axis);
+    header.offset[axis] = value_at<double>(head, 155 + 8 * axis);
+  }
+  check_points(in, header);
+
+  if (header.points_at < header_bytes) in.fail_at_byte(96, "the points begin within the header");
+  const auto records = value_at<std::uint32_t>(head, 100);
+  for (std::uint32_t i = 0; i < records; ++i) {
+    if (in.position() + kRecordHeader > header.points_at)
+      in.fail_at_byte(100,
+                      std::to_string(records) + " variable length records do not fit before the first point");
+    read_record(in, header);
+  }
+  in.skip(header.points_at - in.position());
+  return header;
+}
+
+}  // namespace lacuna

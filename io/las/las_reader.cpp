@@ -1,0 +1,65 @@
+#include "io/las/las_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/las/las_columns.hpp"
+#include "io/las/las_header.hpp"
+#include "io/las/las_points.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+class LasReader final : public ScanReader {
+ public:
+  explicit LasReader(const std::filesystem::path& file)
+      : in_(file),
+        header_(read_las_header(in_)),
+        columns_(header_),
+        points_(las_points(file, in_, header_)),
+        left_(header_.points) {}
+
+  std::string format() const override {
+    return (header_.is_compressed ? "LAZ 1." : "LAS 1.") + std::to_string(header_.minor) + ", point format " +
+           std::to_string(header_.point_format);
+  }
+  const RowLayout& layout() const override { return columns_.layout(); }
+  std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, kMostRows)));
+    batch.bytes.resize(batch.count * layout().stride);
+    if (batch.count == 0) return false;
+    records_.resize(batch.count * header_.record_bytes);
+    points_->read(records_);
+    columns_.unpack(records_, batch.bytes.data());
+    left_ -= batch.count;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kMostRows = 1 << 16;
+
+  InputFile in_;
+  LasHeader header_;
+  LasColumns columns_;
+  std::unique_ptr<LasPoints> points_;
+  std::uint64_t left_;  // points not yet read
+  std::vector<std::byte> records_;
+};
+
+}  // namespace
+
+bool looks_like_las(const FileStart& start) {
+  return start.first_bytes.starts_with("LASF");
+}
+
+std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<LasReader>(file);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,217 @@
+#include "io/mesh/stl_reader.hpp"
+
+#include "io/line_words.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+constexpr std::size_t kHeaderBytes = 84;
+constexpr std::size_t kTriangleBytes = 50;  // a normal, three vertices, two bytes for any use
+constexpr std::size_t kNormalBytes = 12;
+constexpr std::size_t kVertexBytes = 12;
+
+// As a binary file has it; none if there is no whole header.
+std::optional<std::uint64_t> count_triangles(const FileStart& start) {
+  if (start.first_bytes.size() < kHeaderBytes) return std::nullopt;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    count |= std::uint64_t{static_cast<unsigned char>(start.first_bytes[kHeaderBytes - 4 + i])} << 8 * i;
+  }
+  return count;
+}
+
+bool is_binary(const FileStart& start) {
+  const auto triangles = count_triangles(start);
+  return triangles && start.size == kHeaderBytes + kTriangleBytes * *triangles;
+}
+
+// The keyword of a line, in lower case as most writers have it.
+std::string first_word(LineWords& words) {
+  std::string_view word;
+  words.next(word);
+  std::string lower(word);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+RowLayout layout_of(Scalar type) {
+  const std::array<std::pair<std::string, Scalar>, 3> properties = {{{"x", type}, {"y", type}, {"z", type}}};
+  return packed_layout(properties);
+}
+
+class BinaryStl final : public ScanReader {
+ public:
+  BinaryStl(const std::filesystem::path& file, std::uint64_t triangles)
+      : in_(file), layout_(layout_of(Scalar::kFloat32)), triangles_(triangles), left_(triangles * 3) {
+    in_.skip(kHeaderBytes);
+  }
+
+  std::string format() const override { return "STL, binary"; }
+  const RowLayout& layout() const override { return layout_; }
+  std::optional<std::uint64_t> expected_rows() const override { return triangles_ * 3; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t rows = std::min(max_rows, kBatchBytes / kVertexBytes);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, rows));
+    batch.bytes.resize(batch.count * kVertexBytes);
+    for (std::size_t row = 0; row < batch.count; ++row, --left_) {
+      if (left_ % 3 == 0) in_.skip(kNormalBytes);
+      in_.read(batch.bytes.data() + row * kVertexBytes, kVertexBytes);
+      if (left_ % 3 == 1) in_.skip(kTriangleBytes - kNormalBytes - 3 * kVertexBytes);
+    }
+    if constexpr (std::endian::native == std::endian::big) {
+      for (const Property& property : layout_.properties) {
+        swap_bytes(
+            {.data = batch.bytes.data() + property.offset, .stride = kVertexBytes, .type = property.type},
+            batch.count);
+      }
+    }
+    return batch.count > 0;
+  }
+
+ private:
+  InputFile in_;
+  RowLayout layout_;
+  std::uint64_t triangles_;
+  std::uint64_t left_;  // vertices not yet read
+};
+
+class AsciiStl final : public ScanReader {
+ public:
+  explicit AsciiStl(const std::filesystem::path& file) : in_(file), layout_(layout_of(Scalar::kFloat64)) {}
+
+  std::string format() const override { return "STL, ascii"; }
+  const RowLayout& layout() const override { return layout_; }
+  std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t rows = std::min(max_rows, kBatchBytes / layout_.stride);
+    batch.bytes.resize(rows * layout_.stride);
+    batch.count = 0;
+    while (batch.count < rows) {
+      const auto line = in_.next_line();
+      if (!line) {
+        if (place_ != Place::kOutside) {
+          in_.fail_at_line(in_.line(), "the file ends here within a solid; 'endsolid' must follow");
+        }
+        break;
+      }
+      batch.count += read_line(*line, batch.bytes.data() + batch.count * layout_.stride);
+    }
+    batch.bytes.resize(batch.count * layout_.stride);
+    return batch.count > 0;
+  }
+
+ private:
+  enum class Place : std::uint8_t { kOutside, kSolid, kFacet, kLoop, kClosed };
+
+  // How many vertices the line has: 1 or 0.
+  std::size_t read_line(std::string_view line, std::byte* to) {
+    LineWords words(in_, line);
+    const std::string keyword = first_word(words);
+    if (keyword.empty()) return 0;
+    if (keyword == "vertex") {
+      if (place_ != Place::kLoop || corners_ == 3) words.fail("a vertex outside of a loop of three");
+      constexpr const char* kNeeded = "'vertex x y z' is allowed";
+      for (int i = 0; i < 3; ++i, to += sizeof(double)) {
+        const auto value = words.number<double>(kNeeded);
+        std::memcpy(to, &value, sizeof value);
+      }
+      words.require_end(kNeeded);
+      ++corners_;
+      return 1;
+    }
+    if (keyword == "endloop" && corners_ != 3) {
+      words.fail(std::to_string(corners_) + " vertices of a facet; three are needed");
+    }
+    struct Step {
+      const char* keyword;
+      Place from, to;
+    };
+    constexpr std::array<Step, 6> kSteps = {{{"solid", Place::kOutside, Place::kSolid},
+                                             {"facet", Place::kSolid, Place::kFacet},
+                                             {"outer", Place::kFacet, Place::kLoop},
+                                             {"endloop", Place::kLoop, Place::kClosed},
+                                             {"endfacet", Place::kClosed, Place::kSolid},
+                                             {"endsolid", Place::kSolid, Place::kOutside}}};
+    for (const Step& step : kSteps) {
+      if (place_ != step.from || keyword != step.keyword) continue;
+      place_ = step.to;
+      corners_ = 0;
+      return 0;
+    }
+    words.fail(in_quotes(keyword) + " is not expected here; allowed are " + allowed_here());
+  }
+
+  std::string allowed_here() const {
+    switch (place_) {
+      case Place::kOutside:
+        return "'solid' and the end of the file";
+      case Place::kSolid:
+        return "'facet' and 'endsolid'";
+      case Place::kFacet:
+        return "'outer loop'";
+      case Place::kLoop:
+        return "'vertex' and 'endloop'";
+      case Place::kClosed:
+        break;
+    }
+    return "'endfacet'";
+  }
+
+  InputFile in_;
+  RowLayout layout_;
+  Place place_ = Place::kOutside;
+  int corners_ = 0;  // of the facet, so far
+};
+
+}  // namespace
+
+bool looks_like_stl(const FileStart& start) {
+  if (is_binary(start)) return true;
+  std::string_view rest = start.first_bytes;
+  const std::size_t begin = rest.find_first_not_of(" \t\r\n\v\f");
+  if (begin == std::string_view::npos) return false;
+  rest.remove_prefix(begin);
+  constexpr std::string_view kSolid = "solid";
+  for (std::size_t i = 0; i < kSolid.size(); ++i) {
+    if (i == rest.size() || (rest[i] | 0x20) != kSolid[i]) return false;
+  }
+  // A table may have a column of this name, but then numbers follow; a binary file of the wrong size has
+  // zeros.
+  if (rest.find('\0') != std::string_view::npos) return true;
+  rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
+  std::string_view word;
+  rest.remove_prefix(std::min(rest.find_first_not_of("\n\r\t\v\f "), rest.size()));
+  rest = rest.substr(0, rest.find('\n'));
+  if (!next_field(rest, ' ', word)) return true;
+  return (word[0] | 0x20) == 'f' || (word[0] | 0x20) == 'e';
+}
+
+std::unique_ptr<ScanReader> open_stl(const std::filesystem::path& file, const ReadOptions&) {
+  InputFile in(file);
+  const FileStart start{.first_bytes = in.peek(4096), .size = in.remaining()};
+  const auto triangles = count_triangles(start);
+  if (is_binary(start)) return std::make_unique<BinaryStl>(file, *triangles);
+  if (start.first_bytes.find('\0') != std::string_view::npos) {
+    in.fail_at_byte(start.size,
+                    "neither ASCII nor a binary STL" +
+                        (triangles ? " of " + std::to_string(*triangles) + " triangles, which has " +
+                                         std::to_string(kHeaderBytes + kTriangleBytes * *triangles) + " bytes"
+                                   : ", which has a header of 84 bytes") +
+                        "; the size must fit");
+  }
+  return std::make_unique<AsciiStl>(file);
+}
+
+}  // namespace lacuna

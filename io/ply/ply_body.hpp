@@ -1,0 +1,18 @@
+// What follows the header of a PLY file, in either encoding.
+#pragma once
+
+#include "io/ply/ply_header.hpp"
+
+namespace lacuna {
+
+// Whether the file can hold the rows that the header declares; throws `Error` if not. Afterwards their number
+// is safe to count to.
+void require_size(const InputFile& in, const PlyHeader& header);
+
+// Values have the other byte order than this machine's.
+bool is_swapped(PlyFormat format);
+
+// Passes over all rows of one element.
+void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element);
+
+}  // namespace lacuna

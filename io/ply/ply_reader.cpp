@@ -1,0 +1,102 @@
+#include "io/ply/ply_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/ply/ply_body.hpp"
+#include "io/ply/ply_header.hpp"
+#include "io/ply/ply_rows.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace lacuna {
+namespace {
+
+// A batch is no larger than this, however many properties a row has.
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+
+std::size_t find_vertex(const InputFile& in, const PlyHeader& header) {
+  for (std::size_t i = 0; i < header.elements.size(); ++i) {
+    if (header.elements[i].name == "vertex") return i;
+  }
+  in.fail_at_line(in.line(), "the header has no element 'vertex'; points are needed");
+}
+
+void require_position(const InputFile& in, const PlyElement& vertex) {
+  const RowLayout layout = vertex.layout();
+  for (const char* name : {"x", "y", "z"}) {
+    if (!layout.find(name)) {
+      in.fail_at_line(in.line(), "element 'vertex' has no scalar property " + in_quotes(name) +
+                                     "; x, y and z are needed");
+    }
+  }
+}
+
+class PlyReader final : public ScanReader {
+ public:
+  explicit PlyReader(const std::filesystem::path& file) : in_(file), header_(read_ply_header(in_)) {
+    const std::size_t vertex = find_vertex(in_, header_);
+    require_position(in_, header_.elements[vertex]);
+    require_size(in_, header_);
+    element_ = vertex;
+    layout_ = header_.elements[vertex].layout();
+    left_ = header_.elements[vertex].count;
+    for (std::size_t i = 0; i < vertex; ++i) skip_rows(in_, header_.format, header_.elements[i]);
+  }
+
+  std::string format() const override { return std::string("PLY, ") + ply_name(header_.format); }
+  const RowLayout& layout() const override { return layout_; }
+
+  std::optional<std::uint64_t> expected_rows() const override { return header_.elements[element_].count; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / layout_.stride);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
+    batch.bytes.resize(batch.count * layout_.stride);
+    if (batch.count == 0) {
+      finish();
+      return false;
+    }
+    const PlyElement& vertex = header_.elements[element_];
+    if (header_.format == PlyFormat::kAscii) {
+      read_ascii_rows(in_, vertex, batch.count, batch.bytes.data());
+    } else {
+      read_binary_rows(in_, vertex, is_swapped(header_.format), batch.count, batch.bytes.data());
+    }
+    left_ -= batch.count;
+    return true;
+  }
+
+ private:
+  void finish() {
+    if (finished_) return;
+    for (std::size_t i = element_ + 1; i < header_.elements.size(); ++i) {
+      skip_rows(in_, header_.format, header_.elements[i]);
+    }
+    require_end(in_);
+    finished_ = true;
+  }
+
+  InputFile in_;
+  PlyHeader header_;
+  std::size_t element_ = 0;  // of the header, the vertices
+  RowLayout layout_;
+  std::uint64_t left_ = 0;  // vertices not yet read
+  bool finished_ = false;
+};
+
+}  // namespace
+
+bool looks_like_ply(const FileStart& start) {
+  const std::string_view first_bytes = start.first_bytes;
+  if (!first_bytes.starts_with("ply")) return false;
+  return first_bytes.size() == 3 ||
+         std::string_view(" \t\r\n").find(first_bytes[3]) != std::string_view::npos;
+}
+
+std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<PlyReader>(file);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,36 @@
+#include "io/ply/ply_writer.hpp"
+
+#include "io/scalar.hpp"
+
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace lacuna {
+
+static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
+
+PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements) : out_(out) {
+  const PlyHeader header{.format = PlyFormat::kLittleEndian, .elements = std::move(elements)};
+  for (const PlyElement& element : header.elements) {
+    assert(!element.has_lists());
+    missing_bytes_ += element.count * element.layout().stride;
+  }
+  out_.write(print_ply_header(header, "lacuna detect"));
+}
+
+void PlyWriter::put_as(Scalar type, double value) {
+  with_type(type, [&](auto target) { put(static_cast<decltype(target)>(value)); });
+}
+
+void PlyWriter::put_bytes(std::span<const std::byte> bytes) {
+  assert(bytes.size() <= missing_bytes_);
+  missing_bytes_ -= bytes.size();
+  out_.write(bytes);
+}
+
+void PlyWriter::finish() {
+  assert(missing_bytes_ == 0);
+}
+
+}  // namespace lacuna

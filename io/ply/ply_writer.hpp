@@ -1,0 +1,41 @@
+// Binary little endian PLY, as a stream of values.
+#pragma once
+
+#include "io/ply/ply_header.hpp"
+#include "io/results/output_file.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace lacuna {
+
+// How each file of a PlyWriter begins: an earlier one is recognised by it.
+inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
+
+class PlyWriter {
+ public:
+  // Writes the header. The elements have no lists; their counts are final.
+  PlyWriter(OutputFile& out, std::vector<PlyElement> elements);
+
+  // Values must follow in the order and with the types of the header.
+  template <class T>
+  void put(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    put_bytes(std::as_bytes(std::span(&value, 1)));
+  }
+  // Some values, as `Scalar` type of the header.
+  void put_as(Scalar type, double value);
+  void put_bytes(std::span<const std::byte> bytes);
+
+  // Asserts that all that the header declares was put.
+  void finish();
+
+ private:
+  OutputFile& out_;
+  std::uint64_t missing_bytes_ = 0;
+};
+
+}  // namespace lacuna

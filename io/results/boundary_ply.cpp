@@ -1,0 +1,25 @@
+#include "io/ply/ply_writer.hpp"
+#include "io/results/results.hpp"
+
+namespace lacuna {
+
+void write_boundary(const Detection& detection, const FileScan& scan, OutputFile& out) {
+  PlyElement vertex{.name = "vertex",
+                    .count = detection.summary().counts.boundary_points,
+                    .properties = position_and_id(detection, scan)};
+  const Scalar coordinate = vertex.properties.front().type;
+  const Scalar id = vertex.properties.back().type;
+  vertex.properties.push_back({"scalar_probability", Scalar::kFloat32, {}});
+  vertex.properties.push_back({"scalar_loop", Scalar::kInt32, {}});
+  PlyWriter writer(out, {vertex});
+
+  detection.for_each_boundary_point([&](const BoundaryPoint& point) {
+    for (const double component : point.position) writer.put_as(coordinate, component);
+    writer.put_as(id, static_cast<double>(value(point.id)));
+    writer.put(point.probability);
+    writer.put(point.loop);
+  });
+  writer.finish();
+}
+
+}  // namespace lacuna

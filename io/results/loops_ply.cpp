@@ -1,0 +1,56 @@
+#include "engine/run/error.hpp"
+#include "io/ply/ply_writer.hpp"
+#include "io/results/results.hpp"
+
+#include <cassert>
+#include <limits>
+
+namespace lacuna {
+namespace {
+
+std::uint64_t count_points(const Detection& detection) {
+  std::uint64_t count = 0;
+  for (const LoopMeasures& loop : detection.loops()) count += loop.points;
+  return count;
+}
+
+}  // namespace
+
+void write_loops(const Detection& detection, const FileScan& scan, OutputFile& out) {
+  const std::uint64_t points = count_points(detection);
+  if (points > std::numeric_limits<std::int32_t>::max()) {
+    throw Error(out.path().string() + ": " + std::to_string(points) +
+                " points on loops; the format allows 2147483647");
+  }
+  PlyElement vertex{.name = "vertex", .count = points, .properties = position_and_id(detection, scan)};
+  const Scalar coordinate = vertex.properties.front().type;
+  const Scalar id = vertex.properties.back().type;
+  vertex.properties.push_back({"loop", Scalar::kInt32, {}});
+  // A closed loop has as many edges as points.
+  const PlyElement edge{.name = "edge",
+                        .count = points,
+                        .properties = {{"vertex1", Scalar::kInt32, {}}, {"vertex2", Scalar::kInt32, {}}}};
+  PlyWriter writer(out, {vertex, edge});
+
+  for (std::size_t loop = 0; loop < detection.loops().size(); ++loop) {
+    const Loop members = detection.read_loop(loop).points;
+    assert(members.size() == detection.loops()[loop].points);
+    for (const LoopPoint& point : members) {
+      for (const double component : point.position) writer.put_as(coordinate, component);
+      writer.put_as(id, static_cast<double>(value(point.id)));
+      writer.put(static_cast<std::int32_t>(loop));
+    }
+  }
+  std::int32_t first = 0;
+  for (const LoopMeasures& loop : detection.loops()) {
+    const auto length = static_cast<std::int32_t>(loop.points);
+    for (std::int32_t i = 0; i < length; ++i) {
+      writer.put(first + i);
+      writer.put(i + 1 < length ? first + i + 1 : first);
+    }
+    first += length;
+  }
+  writer.finish();
+}
+
+}  // namespace lacuna

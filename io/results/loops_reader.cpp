@@ -1,0 +1,99 @@
+#include "io/results/loops_reader.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/input_file.hpp"
+#include "io/number.hpp"
+#include "io/ply/ply_reader.hpp"
+#include "io/scalar.hpp"
+
+#include <string>
+
+namespace lacuna {
+namespace {
+
+constexpr double kIdsEnd = 0x1p53;  // from here on a double is no longer any whole number
+
+// A column of whole numbers from 0 on, whatever its type.
+std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::string_view name) {
+  const auto reader = open_ply(file, {});
+  const Property* property = reader->layout().find(name);
+  if (!property) {
+    throw Error(file.string() + ": element 'vertex' has no property " + in_quotes(name) +
+                "; files as lacuna detect writes them have it");
+  }
+  constexpr std::size_t kRowsAtATime = 1 << 16;
+  std::vector<std::uint64_t> column;
+  std::vector<double> values;
+  for (RowBatch batch; reader->next(batch, kRowsAtATime);) {
+    values.resize(batch.count);
+    copy_column({.data = batch.bytes.data() + property->offset,
+                 .stride = reader->layout().stride,
+                 .type = property->type},
+                {.data = reinterpret_cast<std::byte*>(values.data()),
+                 .stride = sizeof(double),
+                 .type = Scalar::kFloat64},
+                batch.count);
+    for (const double value : values) {
+      const bool whole =
+          value >= 0 && value < kIdsEnd && value == static_cast<double>(static_cast<std::uint64_t>(value));
+      if (!whole) {
+        throw Error(file.string() + ": vertex " + std::to_string(column.size()) + " (from 0): '" +
+                    std::string(name) + "' is " + std::to_string(value) +
+                    "; a whole number from 0 on is needed");
+      }
+      column.push_back(static_cast<std::uint64_t>(value));
+    }
+  }
+  return column;
+}
+
+std::vector<LoopIds> read_ply_loops(const std::filesystem::path& file) {
+  const std::vector<std::uint64_t> ids = read_column(file, "id");
+  const std::vector<std::uint64_t> loop_of = read_column(file, "loop");
+  std::vector<LoopIds> loops;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const bool known = loop_of[i] + 1 == loops.size();
+    if (!known && loop_of[i] != loops.size()) {
+      throw Error(file.string() + ": vertex " + std::to_string(i) + " (from 0): loop " +
+                  std::to_string(loop_of[i]) + " where " + std::to_string(loops.size()) +
+                  " would be the next; loops must follow one after the other from 0 on");
+    }
+    if (!known) loops.emplace_back();
+    loops.back().push_back(ids[i]);
+  }
+  return loops;
+}
+
+std::vector<LoopIds> read_text_loops(InputFile& in) {
+  std::vector<LoopIds> loops;
+  while (in.next_row()) {
+    LoopIds loop;
+    while (const auto word = in.next_word()) {
+      if (word->starts_with('#') && loop.empty()) break;
+      std::uint64_t id = 0;
+      if (!parse_number(*word, id)) {
+        in.fail_at_line(in.line() + 1, in_quotes(*word) + " is not a point id, " +
+                                           describe_number<std::uint64_t>() +
+                                           "; a line is the ids of one loop");
+      }
+      loop.push_back(id);
+    }
+    while (!in.end_row()) in.next_word();  // the rest of a comment
+    if (!loop.empty()) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
+  InputFile in(file);
+  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return read_ply_loops(file);
+  return read_text_loops(in);
+}
+
+std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {
+  return read_column(file, "id");
+}
+
+}  // namespace lacuna

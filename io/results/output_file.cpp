@@ -1,0 +1,73 @@
+#include "io/results/output_file.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace lacuna {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+
+OutputFile::OutputFile(std::filesystem::path name, const std::filesystem::path& place)
+    : name_(std::move(name)),
+      descriptor_(::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail("cannot be made", errno);
+  buffer_.reserve(kBufferBytes);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  assert(descriptor_ >= 0);
+  while (!bytes.empty()) {
+    const auto fitting = bytes.first(std::min(bytes.size(), kBufferBytes - buffer_.size()));
+    buffer_.insert(buffer_.end(), fitting.begin(), fitting.end());
+    bytes = bytes.subspan(fitting.size());
+    if (buffer_.size() == kBufferBytes) flush();
+  }
+}
+
+void OutputFile::overwrite_start(std::string_view text) {
+  flush();
+  assert(text.size() <= end_);
+  put(0, std::as_bytes(std::span(text)));
+}
+
+void OutputFile::flush() {
+  put(end_, buffer_);
+  end_ += buffer_.size();
+  buffer_.clear();
+}
+
+void OutputFile::put(std::uint64_t at, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail("cannot be written", written < 0 ? errno : ENOSPC);
+    at += static_cast<std::uint64_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  flush();
+  if (::fsync(descriptor_) != 0) fail("cannot be written", errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be written", errno);
+}
+
+void OutputFile::fail(const char* what, int reason) const {
+  throw Error(name_.string() + ": " + what + ": " + std::strerror(reason));
+}
+
+}  // namespace lacuna

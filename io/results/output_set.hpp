@@ -1,0 +1,78 @@
+// Files that appear under their names all together, or not at all.
+//
+// 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that begins as
+// the same
+//    command writes it (its mark). With Overwrite::kAny it may be the name of any regular file. Links,
+//    folders, pipes and devices are always refused.
+// 2. The content goes to a new file in a private folder beside the name, `.lacuna-XXXXXX`. Other names in the
+// output
+//    folder are neither used nor looked at.
+// 3. commit: all files are closed and on the disk before any name changes. Then older files move to the
+// private
+//    folder, last added first; new ones take their names in the order of add. So the last file, a report,
+//    stands for all the others. The folders are synced, and the private ones go, with the older files.
+//
+// Only the file that was checked is replaced. commit refuses another one that has come to its name meanwhile.
+// A failure leaves the names as they were: in 3, new files are taken back and older ones return. An older
+// file that cannot return stays in the private folder, and the error says where. A signal removes the private
+// folders; it waits while 3 is under way. After SIGKILL or a power cut the private folder stays. Each older
+// file is then under its name or in that folder.
+#pragma once
+
+#include "io/results/output_file.hpp"
+#include "io/temporary_folder.hpp"
+
+#include <filesystem>
+#include <list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <sys/stat.h>
+
+namespace lacuna {
+
+enum class Overwrite { kOwn, kAny };
+
+// What `file` begins with, if the command that asks wrote it.
+bool is_own_file(const std::filesystem::path& file, std::string_view mark);
+
+// Throws `Error` if a file of this name may not be written. Cheap: a program checks before the work.
+void check_output(const std::filesystem::path& file, std::string_view mark, Overwrite overwrite);
+
+class OutputSet {
+ public:
+  explicit OutputSet(Overwrite overwrite) : overwrite_(overwrite) {}
+
+  // Checks the name and opens the file. The reference is valid as long as the set.
+  OutputFile& add(const std::filesystem::path& file, std::string_view mark);
+
+  // An own file of this name, if there is one, goes with commit; any other stays.
+  void drop(const std::filesystem::path& file, std::string_view mark);
+
+  // All or none. Throws `Error`.
+  void commit();
+
+ private:
+  struct Member {
+    std::filesystem::path name;
+    TemporaryFolder* folder = nullptr;    // beside the name
+    std::filesystem::path staged, older;  // in that folder, the new file and the one that it replaces
+    std::optional<struct stat> found;     // under the name, when it was checked
+    std::optional<OutputFile> content;    // none: the older file goes, and nothing takes its place
+    bool is_aside = false;                // the older file has moved there
+    bool is_in_place = false;             // the new file has its name
+  };
+
+  Member& join(const std::filesystem::path& file, const std::optional<struct stat>& found);
+  static void set_aside(Member& member);
+  static void put_in_place(Member& member);
+  std::string put_back();
+
+  Overwrite overwrite_;
+  std::map<std::filesystem::path, TemporaryFolder> private_folders_;  // by the folder of names
+  std::list<Member> members_;                                         // in the order of add
+};
+
+}  // namespace lacuna

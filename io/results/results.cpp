@@ -1,0 +1,113 @@
+#include "io/results/results.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
+#include "io/ply/ply_writer.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string_view>
+
+namespace lacuna {
+namespace {
+
+struct ResultFile {
+  std::string_view name;
+  std::string_view mark;
+  void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
+  bool (*is_wanted)(const Config&);
+};
+
+using D = const Detection&;
+using S = const FileScan&;
+using C = const Config&;
+bool always(C) {
+  return true;
+}
+
+// In the order in which they appear: the report comes last, and stands for all the others.
+const std::vector<ResultFile>& all_results() {
+  static const std::vector<ResultFile> results = {
+      {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }, always},
+      {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }, always},
+      {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points(d, s, c.output, out); },
+       [](C c) { return c.output.points; }},
+      {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
+       [](C c) { return c.output.vdb; }},
+      {"holes.json", kReportMark, write_report, always}};
+  return results;
+}
+
+std::vector<ResultFile> results_of(const Config& config) {
+  std::vector<ResultFile> results;
+  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
+               [&](const ResultFile& result) { return result.is_wanted(config); });
+  return results;
+}
+
+// Those that this run does not write. An earlier run may have.
+std::vector<ResultFile> unwanted_results(const Config& config) {
+  std::vector<ResultFile> results;
+  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
+               [&](const ResultFile& result) { return !result.is_wanted(config); });
+  return results;
+}
+
+void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
+  for (const auto& input : scan.files()) {
+    std::error_code error;  // where nothing is, nothing can be lost
+    if (std::filesystem::equivalent(file, input, error)) {
+      throw Error(input.string() + ": is an input in the place of a result; another output folder is needed");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const ResultFile& result : results_of(config)) files.push_back(folder / result.name);
+  return files;
+}
+
+void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
+                         Overwrite overwrite) {
+  for (const ResultFile& result : results_of(config)) {
+    check_not_input(folder / result.name, scan);
+    check_output(folder / result.name, result.mark, overwrite);
+  }
+  for (const ResultFile& result : unwanted_results(config)) {
+    if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
+  }
+}
+
+void write_results(const Detection& detection, const FileScan& scan, const Config& config,
+                   const std::filesystem::path& folder, Overwrite overwrite) {
+  check_output_folder(scan, config, folder, overwrite);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder.string() + ": the folder cannot be made: " + error.message());
+
+  OutputSet set(overwrite);
+  const std::vector<ResultFile> results = results_of(config);
+  std::vector<OutputFile*> files;
+  for (const ResultFile& result : results) files.push_back(&set.add(folder / result.name, result.mark));
+  for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
+  const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+  arena.for_each(results.size(),
+                 [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
+  scan.check_unchanged();
+  set.commit();
+}
+
+std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan) {
+  const Scalar coordinate = scan.single_precision() ? Scalar::kFloat32 : Scalar::kFloat64;
+  const bool small = detection.summary().counts.points <= std::numeric_limits<std::uint32_t>::max();
+  return {{"x", coordinate, {}},
+          {"y", coordinate, {}},
+          {"z", coordinate, {}},
+          {"id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
+}
+
+}  // namespace lacuna

@@ -1,0 +1,189 @@
+#include "io/text/ptx_reader.hpp"
+
+#include "io/input_file.hpp"
+#include "io/number.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+using Values = std::array<double, 8>;
+
+// Numbers of a line divided by blanks; none where one is not a number or there are too many.
+std::optional<std::size_t> parse_line(std::string_view line, Values& values) {
+  std::size_t count = 0;
+  for (std::string_view field; next_field(line, ' ', field); ++count) {
+    if (count == values.size() || !parse_number(field, values[count])) return std::nullopt;
+  }
+  return count;
+}
+
+bool is_count(std::string_view line) {
+  std::string_view field, rest = line;
+  std::uint64_t count = 0;
+  return next_field(rest, ' ', field) && parse_number(field, count) && !next_field(rest, ' ', field);
+}
+
+class PtxReader final : public ScanReader {
+ public:
+  explicit PtxReader(const std::filesystem::path& file) : in_(file) {
+    // The first ray says whether there are colours.
+    const bool begun = begin_block();
+    assert(begun);
+    (void)begun;
+    std::vector<std::pair<std::string, Scalar>> columns = {{"x", Scalar::kFloat64},
+                                                           {"y", Scalar::kFloat64},
+                                                           {"z", Scalar::kFloat64},
+                                                           {"intensity", Scalar::kFloat32}};
+    if (left_ > 0) {
+      values_ = read_ray();
+      is_pending_ = true;
+    }
+    if (values_ == 7) {
+      for (const char* colour : {"red", "green", "blue"}) columns.emplace_back(colour, Scalar::kUint8);
+    }
+    columns.emplace_back("scan", Scalar::kUint32);
+    layout_ = packed_layout(columns);
+  }
+
+  std::string format() const override { return "PTX"; }
+  const RowLayout& layout() const override { return layout_; }
+  std::optional<std::uint64_t> expected_rows() const override {
+    return std::nullopt;
+  }  // more blocks may follow
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    constexpr std::size_t kMostRows = 1 << 16;
+    const std::size_t rows = std::min(max_rows, kMostRows);
+    batch.bytes.resize(rows * layout_.stride);
+    batch.count = 0;
+    while (batch.count < rows) {
+      if (left_ == 0 && !begin_block()) break;
+      if (left_ == 0) continue;  // an empty grid
+      if (!is_pending_ && read_ray() != values_)
+        in_.fail_at_line(in_.line(),
+                         "a ray needs " + std::to_string(values_) + " numbers, as the first one has");
+      is_pending_ = false;
+      put_ray(batch.bytes.data() + batch.count * layout_.stride);
+      ++batch.count;
+      --left_;
+    }
+    batch.bytes.resize(batch.count * layout_.stride);
+    return batch.count > 0;
+  }
+
+ private:
+  // Passes the ten lines before the rays; false at the end of the file.
+  bool begin_block() {
+    const std::optional<std::string_view> first = next_full_line();
+    if (!first) return false;
+    const std::uint64_t columns = read_count(*first);
+    const std::uint64_t rows = read_count(next_line());
+    if (rows > 0 && columns > std::numeric_limits<std::uint64_t>::max() / rows)
+      in_.fail_at_line(in_.line(),
+                       "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " rays");
+    for (int i = 0; i < 4; ++i) read_values(3);  // the scanner's place and axes, which the matrix has too
+    for (std::size_t i = 0; i < 4; ++i) {
+      read_values(4);
+      std::copy_n(line_.begin(), 4, matrix_[i].begin());
+    }
+    left_ = columns * rows;
+    ++scan_;
+    return true;
+  }
+
+  // Without blank lines.
+  std::optional<std::string_view> next_full_line() {
+    while (const auto line = in_.next_line()) {
+      if (line->find_first_not_of(" \t\r") != line->npos) return line;
+    }
+    return std::nullopt;
+  }
+
+  std::string_view next_line() {
+    const std::optional<std::string_view> line = next_full_line();
+    if (!line) in_.fail_at_line(in_.line() + 1, "the file ends here, too early");
+    return *line;
+  }
+
+  std::uint64_t read_count(std::string_view line) {
+    std::string_view field;
+    std::uint64_t count = 0;
+    if (!is_count(line) || !next_field(line, ' ', field) || !parse_number(field, count))
+      in_.fail_at_line(in_.line(), in_quotes(line) + " is no number of rows or columns");
+    return count;
+  }
+
+  void read_values(std::size_t count) {
+    if (parse_line(next_line(), line_) != count)
+      in_.fail_at_line(in_.line(), "a pose needs " + std::to_string(count) + " numbers here");
+  }
+
+  // The number of its values, 4 or 7.
+  std::size_t read_ray() {
+    const std::optional<std::size_t> count = parse_line(next_line(), line_);
+    if (count != 4 && count != 7)
+      in_.fail_at_line(in_.line(), "a ray needs x y z intensity, or x y z intensity red green blue");
+    return *count;
+  }
+
+  void put_ray(std::byte* to) const {
+    const bool is_return = line_[0] != 0 || line_[1] != 0 || line_[2] != 0;
+    std::array<double, 3> place;
+    place.fill(std::numeric_limits<double>::quiet_NaN());
+    if (is_return) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        place[axis] = line_[0] * matrix_[0][axis] + line_[1] * matrix_[1][axis] +
+                      line_[2] * matrix_[2][axis] + matrix_[3][axis];
+      }
+    }
+    const auto put = [&](auto value) {
+      std::memcpy(to, &value, sizeof value);
+      to += sizeof value;
+    };
+    for (const double coordinate : place) put(coordinate);
+    put(static_cast<float>(line_[3]));
+    for (std::size_t i = 4; i < values_; ++i)
+      put(static_cast<std::uint8_t>(std::clamp(line_[i], 0.0, 255.0)));
+    put(scan_ - 1);
+  }
+
+  InputFile in_;
+  RowLayout layout_;
+  std::array<std::array<double, 4>, 4> matrix_{};
+  std::uint64_t left_ = 0;   // rays of the block not yet read
+  std::uint32_t scan_ = 0;   // blocks begun
+  std::size_t values_ = 4;   // of each ray
+  Values line_{};            // the last one read
+  bool is_pending_ = false;  // it is a ray that is not yet in a batch
+};
+
+}  // namespace
+
+bool looks_like_ptx(const FileStart& start) {
+  std::string_view first_bytes = start.first_bytes;
+  std::array<std::string_view, 3> lines;
+  for (std::string_view& line : lines) {
+    const std::size_t end = first_bytes.find('\n');
+    if (end == first_bytes.npos) return false;
+    line = first_bytes.substr(0, end);
+    first_bytes.remove_prefix(end + 1);
+  }
+  Values values;
+  return is_count(lines[0]) && is_count(lines[1]) && parse_line(lines[2], values) == std::size_t{3};
+}
+
+std::unique_ptr<ScanReader> open_ptx(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<PtxReader>(file);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,421 @@
+#include "io/pcd/lzf.hpp"
+#include "tests/io/io_support.hpp"
+#include "tests/support/golden.hpp"
+#include "tests/support/skip.hpp"
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+using Names = std::vector<std::string>;
+
+std::string header(const std::string& fields, std::size_t points, const std::string& data) {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
+         std::to_string(points) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(points) +
+         "\nDATA " + data + "\n";
+}
+
+const std::string kXyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+
+// Greedy: the last place with the same three bytes.
+std::string packed(const std::string& bytes) {
+  std::string result, literal;
+  const auto flush = [&] {
+    if (literal.empty()) return;
+    result += static_cast<char>(literal.size() - 1);
+    result += literal;
+    literal.clear();
+  };
+  std::map<std::string, std::size_t> last;
+  for (std::size_t i = 0; i < bytes.size();) {
+    const std::string three = bytes.substr(i, 3);
+    const auto found = last.find(three);
+    std::size_t length = 0;
+    if (three.size() == 3 && found != last.end() && i - found->second <= 8192) {
+      while (length < 264 && i + length < bytes.size() && bytes[found->second + length] == bytes[i + length])
+        ++length;
+    }
+    if (length >= 3) {
+      flush();
+      const std::size_t distance = i - found->second - 1;
+      const std::size_t code = std::min<std::size_t>(length - 2, 7);
+      result += static_cast<char>(code << 5 | distance >> 8);
+      if (code == 7) result += static_cast<char>(length - 9);
+      result += static_cast<char>(distance & 255);
+    } else {
+      literal += bytes[i];
+      if (literal.size() == 32) flush();
+      length = 1;
+    }
+    for (std::size_t j = i; j < i + length; ++j) last[bytes.substr(j, 3)] = j;
+    i += length;
+  }
+  flush();
+  return result;
+}
+
+std::string block(const std::string& bytes) {
+  const std::string small = packed(bytes);
+  Bytes sizes;
+  sizes << static_cast<std::uint32_t>(small.size()) << static_cast<std::uint32_t>(bytes.size());
+  return sizes.str() + small;
+}
+
+// Two points with a field of every kind, padding among them.
+const std::string kCrowded =
+    "FIELDS _ x y z rgb label _ fpfh normal_x normal_y normal_z big index\n"
+    "SIZE 1 4 4 8 4 1 2 2 4 4 4 8 8\nTYPE U F F F F I I U F F F I U\nCOUNT 3 1 1 1 1 1 2 3 1 1 1 1 1\n";
+
+const Names kCrowdedNames = {"x",      "y",      "z",  "red", "green", "blue", "label", "fpfh_0",
+                             "fpfh_1", "fpfh_2", "nx", "ny",  "nz",    "big",  "index"};
+const Rows kCrowdedRows = {{1.5, -2, 1e300, 1, 2, 3, -128, 1, 2, 65535, 0, 0.5, 1, -5e18, 18e18},
+                           {4, 5, 6, 255, 254, 253, 127, 3, 4, 5, 1, 0, 0, 7, 8}};
+
+using U8 = std::uint8_t;
+using I8 = std::int8_t;
+using U16 = std::uint16_t;
+
+std::string crowded_rows() {
+  Bytes b;
+  for (const auto& r : kCrowdedRows) {
+    const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(r[i]); };
+    const auto single = [&](std::size_t i) { return static_cast<float>(r[i]); };
+    b << U8{9} << U8{9} << U8{9} << single(0) << single(1) << r[2];
+    b << static_cast<U8>(whole(5)) << static_cast<U8>(whole(4)) << static_cast<U8>(whole(3)) << U8{77};
+    b << static_cast<I8>(whole(6)) << U16{9} << U16{9};
+    for (const std::size_t i : {7, 8, 9}) b << static_cast<U16>(whole(i));
+    for (const std::size_t i : {10, 11, 12}) b << single(i);
+    b << whole(13) << static_cast<std::uint64_t>(r[14]);
+  }
+  return b.str();
+}
+
+// Rows to columns, with the fields of kCrowded.
+std::string crowded_columns(bool with_padding) {
+  const std::string rows = crowded_rows();
+  const std::size_t stride = rows.size() / 2;
+  const std::pair<std::size_t, bool> fields[] = {{3, true},  {4, false}, {4, false}, {8, false}, {4, false},
+                                                 {1, false}, {4, true},  {6, false}, {4, false}, {4, false},
+                                                 {4, false}, {8, false}, {8, false}};
+  std::string columns;
+  std::size_t offset = 0;
+  for (const auto& [bytes, is_padding] : fields) {
+    if (with_padding || !is_padding) {
+      for (const std::size_t row : {0, 1}) columns += rows.substr(row * stride + offset, bytes);
+    }
+    offset += bytes;
+  }
+  return columns;
+}
+
+float packed_colour(std::uint32_t colour) {
+  return std::bit_cast<float>(colour);
+}
+
+std::string crowded_ascii() {
+  std::ostringstream text;
+  text.precision(9);
+  text << header(kCrowded, 2, "ascii") << "0 0 0 1.5 -2 1e300 " << packed_colour(0x010203)
+       << " -128 0 0 1 2 65535 0 0.5 1 -5000000000000000000 18000000000000000000\n"
+       << "_ _ _ 4 5 6 " << packed_colour(0x7ffefd) << " 127 0 0 3 4 5 1 0 0 7 8\n";
+  return text.str();
+}
+
+std::vector<std::string> crowded_files() {
+  return {crowded_ascii(), header(kCrowded, 2, "binary") + crowded_rows(),
+          header(kCrowded, 2, "binary_compressed") + block(crowded_columns(false)),
+          header(kCrowded, 2, "binary_compressed") + block(crowded_columns(true))};
+}
+
+}  // namespace
+
+TEST_CASE("PCD: every field is kept in every encoding, padding apart", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string& content : crowded_files()) {
+    const auto file = folder.write("a.xyz", content);
+    const Table table = read_table(file, 1);
+    CHECK(table.names == kCrowdedNames);
+    Rows expected = kCrowdedRows;
+    if (content == crowded_ascii()) expected[1][3] = 0x7f;  // 0xfffefd is a NaN, which text cannot hold
+    CHECK(table.rows == expected);
+    CHECK(open_scan(file, {})->expected_rows() == 2u);
+  }
+  CHECK(open_scan(folder.write("a", crowded_files()[0]), {})->format() == "PCD, ascii");
+  CHECK(open_scan(folder.write("a", crowded_files()[1]), {})->format() == "PCD, binary");
+  CHECK(open_scan(folder.write("a", crowded_files()[2]), {})->format() == "PCD, binary_compressed");
+}
+
+TEST_CASE("PCD: rgba has alpha, packed as an integer too, and single floats keep their type", "[io]") {
+  const ScratchFolder folder;
+  const std::string fields = "FIELDS x y z rgba\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n";
+  const auto file = folder.write("a.pcd", header(fields, 1, "ascii") + "1 2 3 4278321666\n");
+  const Table table = read_table(file);
+  CHECK(table.names == Names{"x", "y", "z", "red", "green", "blue", "alpha"});
+  CHECK(table.rows == Rows{{1, 2, 3, 2, 2, 2, 255}});
+  const auto reader = open_scan(file, {});
+  CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
+  CHECK(reader->layout().find("alpha")->type == Scalar::kUint8);
+}
+
+TEST_CASE("PCD: points that are NaN are rows", "[io]") {
+  const ScratchFolder folder;
+  const Rows rows = read_table(folder.write("a.pcd", header(kXyz, 2, "ascii") + "nan nan nan\n1 2 3\n")).rows;
+  REQUIRE(rows.size() == 2);
+  CHECK(std::isnan(rows[0][0]));
+  CHECK(rows[1] == std::vector<double>{1, 2, 3});
+}
+
+TEST_CASE("PCD: headers of old versions are understood", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string head :
+       {"VERSION .5\nFIELDS x y z\nPOINTS 1\nDATA ascii\n",
+        "# by hand\n\nVERSION .6\r\nCOLUMNS x y z\r\nSIZE 4 4 4\r\nTYPE F F F\r\nWIDTH 1\r\nDATA ascii\r\n",
+        "# .PCD v.7\nFIELDS X Y z\nWIDTH 1\nHEIGHT 1\nDATA ascii\n"}) {
+    INFO(head);
+    const Table table = read_table(folder.write("a.pcd", head + "1 2 3"));
+    CHECK(table.names == Names{"x", "y", "z"});
+    CHECK(table.rows == Rows{{1, 2, 3}});
+  }
+  for (const std::string data : {"ascii", "binary", "binary_compressed"}) {
+    CHECK(read_table(folder.write("a.pcd", header(kXyz, 0, data))).rows.empty());
+  }
+}
+
+TEST_CASE("PCD: a file cut at any byte is an error, and never a crash", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string& whole : crowded_files()) {
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+      INFO("cut at byte " << length);
+      const auto file = folder.write("cut.pcd", whole.substr(0, length));
+      const std::string error = read_error(file);
+      if (length + 1 == whole.size() && whole.ends_with('\n')) {
+        CHECK(read_table(file).rows.size() == 2);
+      } else {
+        CHECK(error.find("cut.pcd: ") != std::string::npos);
+        CHECK(error.find('\n') == std::string::npos);
+      }
+    }
+  }
+}
+
+TEST_CASE("PCD: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
+  const ScratchFolder folder;
+  std::mt19937 random(1);
+  for (const std::string& whole : crowded_files()) {
+    for (int round = 0; round < 500; ++round) {
+      std::string changed = whole;
+      for (auto left = 1 + random() % 3; left > 0; --left) {
+        changed[random() % changed.size()] =
+            static_cast<char>(round % 2 == 0 ? random() : '0' + random() % 10);
+      }
+      const std::string error = read_error(folder.write("a.pcd", changed));
+      CHECK(error.find('\n') == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("PCD: a header that says something impossible is an error that names its line", "[io]") {
+  const ScratchFolder folder;
+  const std::string version = "VERSION .7\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"VERSION 0.8\n", "line 1: version '0.8'; allowed are .5"},
+      {version + version, "line 2: a second line 'VERSION'"},
+      {version + "POINTS\n", "line 2: fewer values"},
+      {version + "POINTS -1\n", "line 2: '-1' is not a whole number"},
+      {version + "SIZE 4 4 4\n", "line 2: SIZE before FIELDS"},
+      {version + "FIELDS\n", "line 2: no fields"},
+      {version + "FIELDS x y z\nSIZE 4 4\n", "line 3: 2 values for the 3 fields"},
+      {version + "FIELDS x y z\nTYPE F F D\n", "line 3: unknown type 'D'"},
+      {version + "FIELDS x y z\nSIZE 4 4 3\nPOINTS 1\nDATA ascii\n",
+       "line 5: field 'z' has type F of 3 bytes"},
+      {version + "FIELDS x y z\nCOUNT 1 1 0\nPOINTS 1\nDATA ascii\n", "line 5: field 'z' has COUNT 0"},
+      {version + "FIELDS x y z a\nCOUNT 1 1 1 4294967295\nPOINTS 0\nDATA ascii\n",
+       "more than the 65536 values"},
+      {version + "FIELDS x y z\nCOUNT 1 1 2\nPOINTS 0\nDATA ascii\n", "line 5: no field 'z'"},
+      {version + "FIELDS x y\nPOINTS 0\nDATA ascii\n", "line 4: no field 'z'"},
+      {version + "FIELDS x y z x\nPOINTS 0\nDATA ascii\n", "line 4: two fields have the name 'x'"},
+      {version + "FIELDS x y z nx normal_x\nPOINTS 0\nDATA ascii\n", "two fields have the name 'nx'"},
+      {version + "FIELDS x y z\nDATA ascii\n", "line 3: neither POINTS nor WIDTH"},
+      {version + "FIELDS x y z\nWIDTH 2\nHEIGHT 3\nPOINTS 7\nDATA ascii\n", "WIDTH 2 times HEIGHT 3 is not"},
+      {version + "FIELDS x y z\nWIDTH 4294967296\nHEIGHT 4294967296\nDATA ascii\n", "is not the number"},
+      {version + "POINTS 1\nDATA ascii\n", "line 3: no line FIELDS"},
+      {version + "FIELDS x y z\nPOINTS 1\nDATA zip\n", "line 4: unknown encoding 'zip'"},
+      {version + "COLOUR blue\n", "line 2: unknown keyword 'COLOUR'"},
+      {version + "FIELDS x y z\n", "line 2: the file ends here, within its header"},
+  };
+  for (const auto& [content, expected] : cases) {
+    INFO(content);
+    CHECK_THAT(read_error(folder.write("a.pcd", content)), Catch::Contains(expected));
+  }
+}
+
+TEST_CASE("PCD: a wrong row is an error that names its line", "[io]") {
+  const ScratchFolder folder;
+  const std::string fields = "FIELDS x y z label\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 1\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"1 2 3 4\n1 2 3 256\n", "line 13: '256' is not a whole number from 0 to 255"},
+      {"1 2 3 4\n1 two 3 4\n", "line 13: 'two' is not a number"},
+      {"1 2 3\n1 2 3 4 \n\n", "line 12: fewer values"},
+      {"1 2 3 4\n1 2 3 4 5\n", "line 13: more values than needed, from '5' on"},
+      {"1 2 3 4\n1 2 3 4\n1 2 3 4\n", "more data after the last row"},
+      {"1 2 3 4444\n\n\n\n\n\n\n\n", "line 12: '4444'"},
+      {"1 2 3 4\n\n\n\n\n\n\n\n", "fewer rows than the 2"},
+  };
+  for (const auto& [rows, expected] : cases) {
+    INFO(rows);
+    CHECK_THAT(read_error(folder.write("a.pcd", header(fields, 2, "ascii") + rows)),
+               Catch::Contains(expected));
+  }
+}
+
+TEST_CASE("PCD: counts and sizes that the file cannot hold are errors at once", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string data : {"ascii", "binary", "binary_compressed"}) {
+    for (const std::string points : {"1000000000000000000", "18446744073709551615", "40"}) {
+      const std::string content =
+          "VERSION .7\nFIELDS x y z\nPOINTS " + points + "\nDATA " + data + "\n1 2 3\n";
+      CHECK_THAT(read_error(folder.write("a.pcd", content)), Catch::Contains("too early for the " + points));
+    }
+  }
+  const auto compressed = [&](std::uint32_t small, std::uint32_t large, const std::string& bytes) {
+    Bytes sizes;
+    sizes << small << large;
+    const auto file = folder.write("a.pcd", header(kXyz, 100, "binary_compressed") + sizes.str() + bytes);
+    return error_of([&] { open_scan(file, {}); });
+  };
+  CHECK_THAT(compressed(20, 1201, std::string(20, '\0')),
+             Catch::Contains("1201 uncompressed bytes are not 100 points of 12 bytes"));
+  CHECK_THAT(compressed(13, 1200, std::string(13, '\0')), Catch::Contains("cannot come to the 1200"));
+  CHECK_THAT(compressed(21, 1200, std::string(20, '\0')), Catch::Contains("too early"));
+  CHECK(compressed(14, 1200, std::string(14, '\0')).empty());
+}
+
+TEST_CASE("LZF: a block unpacks to what was packed, from any place on", "[io]") {
+  const ScratchFolder folder;
+  std::mt19937 random(2);
+  for (const unsigned letters : {1u, 2u, 5u, 256u}) {
+    std::string bytes(200'000, ' ');
+    for (char& c : bytes) c = static_cast<char>(random() % letters);
+    const std::string small = packed(bytes);
+    if (letters == 1) CHECK(small.size() < bytes.size() / 80);
+    const auto file = folder.write("a.lzf", "head" + small + "tail");
+    LzfStream stream(file, 4, small.size(), bytes.size());
+    std::string read;
+    while (read.size() < bytes.size()) {
+      const std::size_t count = std::min<std::size_t>(1 + random() % 30'000, bytes.size() - read.size());
+      LzfStream twin = stream.fork();
+      std::string part(count, ' '), same(count / 2, ' ');
+      stream.read(reinterpret_cast<std::byte*>(part.data()), count);
+      twin.skip(count - same.size());
+      twin.read(reinterpret_cast<std::byte*>(same.data()), same.size());
+      CHECK(part.ends_with(same));
+      read += part;
+    }
+    CHECK(read == bytes);
+    stream.require_end();
+  }
+}
+
+TEST_CASE("LZF: a damaged block is an error that names the byte", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& bytes, std::uint64_t unpacked) {
+    const auto file = folder.write("a.lzf", "head" + bytes);
+    return error_of([&] {
+      LzfStream stream(file, 4, bytes.size(), unpacked);
+      stream.skip(unpacked);
+      stream.require_end();
+    });
+  };
+  using namespace std::string_literals;
+  CHECK(error("\1ab"s, 2).empty());
+  CHECK(error("\0a\x20\0"s, 4).empty());  // one byte, three times again
+  CHECK_THAT(error("\0a\x20\1"s, 4), Catch::Contains("a.lzf: byte 6: a repetition of bytes before"));
+  CHECK_THAT(error("\x20\0"s, 3), Catch::Contains("byte 4: a repetition of bytes before"));
+  CHECK_THAT(error("\2ab"s, 3), Catch::Contains("byte 4: the compressed block ends here, 3 of its 3"));
+  CHECK_THAT(error("\0a\xe0\5"s, 15), Catch::Contains("byte 6: the compressed block ends here"));
+  CHECK_THAT(error("\1ab"s, 5), Catch::Contains("byte 7: the compressed block ends here, 3 of its 5"));
+  CHECK_THAT(error("\1ab"s, 1), Catch::Contains("byte 4: the compressed block comes to more than its 1"));
+  CHECK_THAT(error("\1ab\0c"s, 2), Catch::Contains("goes on for 2 bytes"));
+}
+
+TEST_CASE("PCD: columns of a compressed file are joined to rows across buffers and batches", "[io]") {
+  const ScratchFolder folder;
+  constexpr std::uint32_t kRows = 60'000;
+  const std::string fields = "FIELDS x a y z\nSIZE 4 2 8 4\nTYPE U U F F\nCOUNT 1 2 1 1\n";
+  Bytes x, a, y, z;
+  for (std::uint32_t i = 0; i < kRows; ++i) {
+    x << i;
+    a << U16{5} << static_cast<U16>(i);
+    y << 0.5 * i;
+    z << -1.f;
+  }
+  const auto file = folder.write(
+      "a.pcd", header(fields, kRows, "binary_compressed") + block(x.str() + a.str() + y.str() + z.str()));
+  for (const std::size_t max_rows : {999u, 65536u}) {
+    const Rows rows = read_table(file, max_rows).rows;
+    REQUIRE(rows.size() == kRows);
+    bool all = true;
+    for (std::uint32_t i = 0; i < kRows; ++i) {
+      all = all && rows[i] == std::vector<double>{1.0 * i, 5, 1.0 * (i % 65536), 0.5 * i, -1};
+    }
+    CHECK(all);
+  }
+}
+
+TEST_CASE("PCD: too many fields of a compressed file are refused", "[io]") {
+  const ScratchFolder folder;
+  std::string names = "FIELDS x y z", columns(12, '\0');
+  for (int i = 0; i < 254; ++i) {
+    names += " p" + std::to_string(i);
+    columns += std::string(4, '\0');
+  }
+  const std::string content = header(names + "\n", 1, "binary_compressed") + block(columns);
+  CHECK_THAT(read_error(folder.write("a.pcd", content)), Catch::Contains("257 fields"));
+}
+
+TEST_CASE("PCD: a compressed frame of a depth camera is read as PCL wrote it", "[io]") {
+  const auto shared = shared_folder();
+  if (!shared) return;
+  const auto file = *shared / "data/pcd/milk_cartoon_all_small_clorox.pcd";
+  if (!std::filesystem::exists(file)) {
+    skip("no " + file.string());
+    return;
+  }
+  // The expected values: the block unpacked by a script of its own.
+  const Table table = read_table(file, 65536);
+  CHECK(table.names == Names{"x", "y", "z", "red", "green", "blue", "alpha"});
+  REQUIRE(table.rows.size() == 307'200);
+  std::size_t finite = 0;
+  std::vector<double> sums(7, 0.0);
+  for (const auto& row : table.rows) {
+    const bool is_finite = std::isfinite(row[0]) && std::isfinite(row[1]) && std::isfinite(row[2]);
+    finite += is_finite;
+    for (std::size_t i = is_finite ? 0 : 3; i < 7; ++i) sums[i] += row[i];
+  }
+  CHECK(finite == 241'407);
+  CHECK(sums[0] == Approx(2189.215449071402));
+  CHECK(sums[1] == Approx(-21377.97890348977));
+  CHECK(sums[2] == Approx(218447.3789679408));
+  CHECK(std::vector<double>(sums.begin() + 3, sums.end()) ==
+        std::vector<double>{24001028, 21760851, 19743536, 78336000});
+  CHECK(table.rows[10'814] == std::vector<double>{0.9656456708908081, -0.8480228781700134, 1.9919999837875366,
+                                                  0x58, 0x55, 0x44, 255});
+  CHECK(table.rows[296'918] == std::vector<double>{0.273725688457489, 0.21966859698295593, 0.515999972820282,
+                                                   0x3e, 0x2b, 0x07, 255});
+}
+
+TEST_CASE("PCD: zeros behind a compressed block are padding, anything else is data", "[io]") {
+  const ScratchFolder folder;
+  const std::string whole = crowded_files()[2];
+  CHECK(read_table(folder.write("a.pcd", whole + std::string(5000, '\0'))).rows == kCrowdedRows);
+  CHECK_THAT(read_error(folder.write("a.pcd", whole + std::string(10, '\0') + "1")),
+             Catch::Contains("byte " + std::to_string(whole.size() + 10) + ": more data"));
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,69 @@
+#include "io/results/loops_reader.hpp"
+
+#include "tests/io/io_support.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Loops = std::vector<LoopIds>;
+
+std::string loops_ply(const std::string& rows, std::size_t count) {
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty double id\nproperty int loop\n"
+         "end_header\n" +
+         rows;
+}
+
+std::string loops_error(const std::filesystem::path& file) {
+  return error_of([&] { read_loops(file); });
+}
+
+}  // namespace
+
+TEST_CASE("loops as text are a line each, without comments and blank lines", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_loops(folder.write("a.loops.txt",
+                                "# one loop per line\n3 1 2\n\n  #4 5 6\n 18446744073709551615\t7 \r\n8")) ==
+        Loops{{3, 1, 2}, {18446744073709551615u, 7}, {8}});
+  CHECK(read_loops(folder.write("none.loops.txt", "# none\n")).empty());
+  CHECK(read_loops(folder.write("empty.loops.txt", "")).empty());
+}
+
+TEST_CASE("loops as text that are no ids are told with their line", "[io]") {
+  const ScratchFolder folder;
+  using Catch::Matchers::Contains;
+  CHECK_THAT(loops_error(folder.write("a.txt", "# ids\n1 2 3\n4 5 -6\n")),
+             Contains("a.txt: line 3: '-6' is not a point id"));
+  CHECK_THAT(loops_error(folder.write("a.txt", "1 2 3 # a hole\n")), Contains("line 1: '#'"));
+  CHECK_THAT(loops_error(folder.write("a.txt", std::string("\1\2\0\xff", 4))), Contains("line 1: '???"));
+  CHECK_THAT(loops_error(folder / "missing.txt"), Contains("missing.txt: cannot be opened"));
+  CHECK_THAT(loops_error(folder.path()), Contains("is a folder"));
+}
+
+TEST_CASE("loops.ply has its loops one after the other", "[io]") {
+  const ScratchFolder folder;
+  CHECK(read_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n0 0 0 5000000001 0\n0 0 0 2 1\n", 3))) ==
+        Loops{{5, 5'000'000'001}, {2}});
+  CHECK(read_loops(folder.write("a.ply", loops_ply("", 0))).empty());
+  CHECK(read_ids(folder.write("a.ply", loops_ply("0 0 0 5 0\n0 0 0 3 0\n", 2))) ==
+        std::vector<std::uint64_t>{5, 3});
+}
+
+TEST_CASE("a PLY without loops, or with broken ones, is told with its place", "[io]") {
+  const ScratchFolder folder;
+  using Catch::Matchers::Contains;
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  CHECK_THAT(loops_error(folder.write("a.ply", points)), Contains("no property 'id'"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 0\n0 0 0 1 2\n", 2))),
+             Contains("vertex 1 (from 0): loop 2 where 1 would be the next"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1.5 0\n", 1))), Contains("'id' is 1.5"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 nan 0\n", 1))), Contains("'id' is nan"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1e17 0\n", 1))), Contains("whole number"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 -1\n", 1))), Contains("'loop' is -1"));
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,388 @@
+#include "io/results/results.hpp"
+
+#include "tests/io/io_support.hpp"
+#include "tests/support/file_size_limit.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+using Names = std::vector<std::string>;
+
+// A run that has found what the test says.
+class FakeDetection final : public Detection {
+ public:
+  Summary numbers;
+  std::vector<ReportedLoop> found;
+  std::vector<BoundaryPoint> boundary;
+  std::vector<PointResult> results;
+  std::size_t block = 2;
+
+  FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
+    ReportedLoop loop;
+    for (const std::uint64_t id : ids) {
+      loop.points.push_back({.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}});
+    }
+    loop.measures = {
+        .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
+    found.push_back(loop);
+    measures_.push_back(loop.measures);
+    return *this;
+  }
+
+  // As many results as the input has rows, each with its id as probability.
+  FakeDetection& with_results(std::size_t count) {
+    numbers.counts.points = count;
+    for (std::size_t id = 0; id < count; ++id) {
+      results.push_back({.probability = static_cast<float>(id),
+                         .criteria = {0.25f, 0.5f, 0.75f},
+                         .boundary = 1,
+                         .coherent = 0,
+                         .loop = -1,
+                         .normal = {0, 0, 1}});
+    }
+    return *this;
+  }
+
+  const Summary& summary() const override { return numbers; }
+  const std::vector<LoopMeasures>& loops() const override { return measures_; }
+  ReportedLoop read_loop(std::size_t index) const override { return found.at(index); }
+  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
+    for (const BoundaryPoint& point : boundary) visit(point);
+  }
+  void for_each_result_block(
+      const std::function<void(PointId, std::span<const PointResult>)>& visit) const override {
+    for (std::size_t first = 0; first < results.size(); first += block) {
+      visit(PointId{first}, std::span(results).subspan(first, std::min(block, results.size() - first)));
+    }
+  }
+
+  ProbabilityLattice probability_lattice() const override { return lattice; }
+  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
+    for (const ProbabilityVoxel& voxel : voxels) visit(voxel);
+  }
+
+  ProbabilityLattice lattice;
+  std::vector<ProbabilityVoxel> voxels;
+
+ private:
+  std::vector<LoopMeasures> measures_;
+};
+
+std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
+  return std::string("ply\nformat ascii 1.0\nelement vertex ") + std::to_string(count) + "\n" + properties +
+         "end_header\n" + rows;
+}
+
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string kWide = "property double x\nproperty double y\nproperty double z\n";
+
+nlohmann::json report(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(read_file(folder / "holes.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const auto out = folder / "new" / "out";
+  write_results(FakeDetection().with_results(1), scan, Config{}, out);
+  CHECK(read_table(out / "loops.ply").rows.empty());
+  CHECK(read_table(out / "boundary.ply").rows.empty());
+  CHECK_FALSE(std::filesystem::exists(out / "points.ply"));
+  const auto json = report(out);
+  CHECK(json.at("loops").empty());
+  CHECK(json.at("bounds").is_null());
+  CHECK(json.at("points_per_second").is_null());
+  CHECK(json.at("peak_memory_bytes") > 0);
+  CHECK(json.at("inputs")[0].at("points") == 1);
+  CHECK(json.at("inputs")[0].at("properties").at("z") == "float");
+}
+
+TEST_CASE("the report has every parameter, every count and one line per loop", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
+  detection.numbers.counts.points = 10;
+  detection.numbers.counts.candidates = 7;
+  detection.numbers.bounds = {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(3, 4, 5)};
+  detection.numbers.phases = {{"survey", 2}, {"evaluate", 3}};
+  detection.found[1].measures.area = std::nan("");
+  Config config;
+  config.neighbourhood.k = 21;
+  config.selection.holes_only = true;
+  write_results(detection, scan, config, folder.path());
+
+  const auto json = report(folder.path());
+  CHECK(json.at("lacuna") == "0.1.0");
+  for (const Parameter& parameter : parameters(config)) {
+    CHECK(json.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
+  }
+  CHECK(json.at("parameters").at("neighbourhood").at("k") == 21);
+  CHECK(json.at("parameters").at("selection").at("holes_only") == true);
+  CHECK(json.at("inputs")[0].at("points").is_null());
+  CHECK(json.at("counts").at("candidates") == 7);
+  CHECK(json.at("counts").at("loops") == 2);
+  CHECK(json.at("counts").at("holes") == 1);
+  CHECK(json.at("counts").at("outer") == 1);
+  CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
+  CHECK(json.at("phases")[0].at("points_per_second") == 5);
+  CHECK(json.at("total_seconds") == 5);
+  CHECK(json.at("loops")[0].at("points") == nlohmann::json{1, 5, 3});
+  CHECK(json.at("loops")[1].at("kind") == "outer");
+  CHECK(json.at("loops")[1].at("area").is_null());
+  CHECK(
+      read_file(folder / "holes.json")
+          .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
+                "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
+                "\"mean_probability\":0.0,\"confidence\":1.0,\"tiles\":0},\n") != std::string::npos);
+}
+
+TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
+  write_results(detection, scan, Config{}, folder.path());
+  const Table table = read_table(folder / "loops.ply");
+  CHECK(table.names == Names{"x", "y", "z", "id", "loop"});
+  REQUIRE(table.rows.size() == 7);
+  CHECK(table.rows[1] == std::vector<double>{0.5f, 2, 3, 5, 0});
+  CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 6, 1});
+  Bytes edges;
+  for (const std::int32_t end : {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 6, 6, 3}) edges << end;
+  CHECK(read_file(folder / "loops.ply").ends_with(edges.str()));
+}
+
+TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kWide, 1, "1 2 3\n"))}, {});
+  FakeDetection detection;
+  detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
+  detection.numbers.counts.points = 5'000'000'002;
+  detection.numbers.counts.boundary_points = 1;
+  detection.boundary = {
+      {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
+  write_results(detection, scan, Config{}, folder.path());
+  CHECK(read_table(folder / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
+  const Table boundary = read_table(folder / "boundary.ply");
+  CHECK(boundary.names == Names{"x", "y", "z", "id", "scalar_probability", "scalar_loop"});
+  CHECK(boundary.rows == Rows{{0.1, 2, 3, 5'000'000'001.0, 0.75, 0}});
+}
+
+TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("a.ply", ply(std::string("property uchar red\n") + kXyz + "property int scalar_loop\n", 3,
+                                "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
+  FileScan scan({file}, {});
+  Config config;
+  config.output = {.points = true, .normals = true};
+  write_results(FakeDetection().with_results(3), scan, config, folder.path());
+  const Table table = read_table(folder / "points.ply");
+  CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
+                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny",
+                             "nz"});
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.rows[0][1] == 0.1f);
+  CHECK(std::isnan(table.rows[0][2]));
+  CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 0, 0, 1});
+  const auto reader = open_scan(folder / "points.ply", {});
+  CHECK(reader->layout().find("red")->type == Scalar::kUint8);
+  CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
+  CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
+}
+
+TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
+  const ScratchFolder folder;
+  const auto a = folder.write("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
+                                           "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
+  const auto b = folder.write("b.ply", ply(kXyz, 0, ""));
+  const auto c =
+      folder.write("c.ply", ply(std::string("property short tag\n") + kWide + "property ushort red\n", 2,
+                                "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+  for (const std::size_t block : {1u, 2u, 4u, 100u}) {
+    FileScan scan({a, b, c}, {});
+    FakeDetection detection;
+    detection.with_results(5).block = block;
+    Config config;
+    config.output.points = true;
+    write_results(detection, scan, config, folder / "out");
+    const Table table = read_table(folder / "out" / "points.ply");
+    REQUIRE(table.rows.size() == 5);
+    CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
+          Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
+    CHECK(table.names.size() == 6 + 7);
+    CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1});
+    CHECK(table.rows[3][0] == 0.1);
+    CHECK(table.rows[3][3] == 300);
+    CHECK(std::isnan(table.rows[3][4]));
+    CHECK(table.rows[4][5] == -6);
+    CHECK(table.rows[4][6] == 4);
+  }
+}
+
+TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write(
+      "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
+  FileScan scan({file}, {});
+  Config config;
+  config.output = {.points = true, .normals = true};
+  write_results(FakeDetection().with_results(1), scan, config, folder.path());
+  const Table table = read_table(folder / "points.ply");
+  CHECK(table.names.size() == 6 + 7);
+  CHECK(table.rows.at(0)[3] == 1);
+}
+
+TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const auto detection = FakeDetection().with_results(1);
+  Config with_points;
+  with_points.output.points = true;
+  const Names all{"a.ply", "boundary.ply", "holes.json", "loops.ply", "points.ply"};
+  for (const Config& config : {with_points, with_points, Config{}, Config{}, with_points}) {
+    write_results(detection, scan, config, folder.path());
+    Names expected = all;
+    if (!config.output.points) expected.pop_back();
+    CHECK(folder.names() == expected);
+  }
+}
+
+TEST_CASE("a file that detect did not write is refused, and replaced on request", "[io]") {
+  Config with_points;
+  with_points.output.points = true;
+  for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
+    const ScratchFolder folder;
+    FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+    const auto detection = FakeDetection().with_results(1);
+    write_results(detection, scan, with_points, folder.path());
+    const std::string mine = name.ends_with(".json") ? "{ \"loops\": [] }" : ply(kXyz, 1, "1 2 3\n");
+    folder.write(name, mine);
+    const Names before = folder.names();
+    for (const auto& refused :
+         {std::function<void()>(
+              [&] { check_output_folder(scan, with_points, folder.path(), Overwrite::kOwn); }),
+          std::function<void()>([&] { write_results(detection, scan, with_points, folder.path()); })}) {
+      CHECK(error_of(refused).find(name + ": exists, and this command did not write it") !=
+            std::string::npos);
+      CHECK(folder.names() == before);
+      CHECK(read_file(folder / name) == mine);
+    }
+    if (name == "points.ply") {
+      for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
+        write_results(detection, scan, Config{}, folder.path(), overwrite);
+        CHECK(read_file(folder / name) == mine);  // no result has its name
+      }
+    }
+    write_results(detection, scan, with_points, folder.path(), Overwrite::kAny);
+    CHECK(read_file(folder / name) != mine);
+    CHECK(folder.names() == before);
+  }
+}
+
+TEST_CASE("an input in the place of a result is never replaced", "[io]") {
+  Config with_points;
+  with_points.output.points = true;
+  for (const bool is_result : {false, true}) {
+    const ScratchFolder folder;
+    std::string content = ply(kXyz, 1, "1 2 3\n");
+    if (is_result) {
+      FileScan first({folder.write("a.ply", content)}, {});
+      write_results(FakeDetection().with_results(1), first, with_points, folder.path());
+      content = read_file(folder / "points.ply");
+    }
+    FileScan scan({folder.write("points.ply", content)}, {});
+    const auto detection = FakeDetection().with_results(1);
+    const Names before = folder.names();
+    for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
+      CHECK(error_of([&] {
+              write_results(detection, scan, with_points, folder.path(), overwrite);
+            }).find("points.ply: is an input") != std::string::npos);
+      // Without --points, only an earlier result would go.
+      const std::string error =
+          error_of([&] { write_results(detection, scan, {}, folder.path(), overwrite); });
+      CHECK((error.find("points.ply: is an input") != std::string::npos) == is_result);
+    }
+    CHECK(read_file(folder / "points.ply") == content);
+    if (is_result) CHECK(folder.names() == before);
+  }
+}
+
+TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
+  Config config;
+  config.output.points = true;
+  for (const std::size_t results : {1u, 3u}) {
+    CHECK(error_of([&] {
+            write_results(FakeDetection().with_results(results), scan, config, folder.path());
+          }).find("the input has changed") != std::string::npos);
+    CHECK(folder.names() == Names{"a.ply"});
+  }
+}
+
+TEST_CASE("an input that was replaced leaves the results of the earlier run as they are", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.xyz", "1 2 3\n");
+  FileScan scan({file}, {});
+  write_results(FakeDetection().with_results(1), scan, Config{}, folder / "out");
+  const std::string earlier = read_file(folder / "out" / "holes.json");
+  std::filesystem::rename(folder.write("b.xyz", "4 5 6\n"), file);
+  const std::string error = error_of([&] {
+    write_results(FakeDetection().with_results(1).with_loop({0}, LoopKind::kHole), scan, {}, folder / "out");
+  });
+  CHECK(error.find("a.xyz: has changed during the run") != std::string::npos);
+  CHECK(read_file(folder / "out" / "holes.json") == earlier);
+}
+
+TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1000,
+                                           [] {
+                                             std::string rows;
+                                             for (int i = 0; i < 1000; ++i) rows += "1 2 3\n";
+                                             return rows;
+                                           }()))},
+                {});
+  Config config;
+  config.output.points = true;
+  const auto few = FakeDetection().with_results(1000);
+  FakeDetection long_loop = few, many_loops = few, much_boundary = few;
+  long_loop.with_loop(std::vector<std::uint64_t>(10'000, 1), LoopKind::kHole);
+  for (int i = 0; i < 1000; ++i) many_loops.with_loop({1, 2, 3}, LoopKind::kHole);
+  much_boundary.numbers.counts.boundary_points = 10'000;
+  much_boundary.boundary.resize(10'000);
+  const std::vector<std::pair<std::string, const FakeDetection*>> largest = {{"loops.ply", &long_loop},
+                                                                             {"boundary.ply", &much_boundary},
+                                                                             {"points.ply", &few},
+                                                                             {"holes.json", &many_loops}};
+  for (const auto& [name, detection] : largest) {
+    const auto bytes = [&, &detection = *detection] {
+      write_results(detection, scan, config, folder.path());
+      std::uintmax_t most = 0;
+      for (const auto& file : result_files(config, folder.path())) {
+        most = std::max(most, std::filesystem::file_size(file));
+        if (file.filename() != name)
+          CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / name));
+      }
+      return most;
+    }();
+    for (const auto& file : result_files(config, folder.path())) std::filesystem::remove(file);
+    CHECK(error_of([&, &detection = *detection] {
+            const FileSizeLimit full(bytes - 1);
+            write_results(detection, scan, config, folder.path());
+          }).find(name + ": cannot be written: File too large") != std::string::npos);
+    CHECK(folder.names() == Names{"a.ply"});
+  }
+}
+
+}  // namespace lacuna::test
