@@ -38,7 +38,15 @@ struct SetFromToml {
     if (!text) refuse(parameter, shown());
     *target = *text;
   }
-  void operator()(LoopMethod*) const {
+  template <typename Number>
+  void operator()(std::vector<Number>* target) const {
+    const toml::array* const array = node.as_array();
+    if (!array) refuse(parameter, shown());
+    std::vector<Number> numbers(array->size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) SetFromToml{parameter, (*array)[i]}(&numbers[i]);
+    *target = std::move(numbers);
+  }
+  void operator()(const NamedValue&) const {
     const auto text = node.value_exact<std::string>();
     if (!text) refuse(parameter, shown());
     parameter.set(*text);
@@ -90,6 +98,19 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
   } catch (const toml::parse_error& error) {
     throw Error(file.string() + ":" + std::to_string(error.source().begin.line) + ": " +
                 std::string(error.description()));
+  }
+}
+
+void check_bounds(const std::vector<double>& bounds) {
+  if (!bounds.empty() && bounds.size() != 4 && bounds.size() != 6)
+    throw Error("bounds has " + std::to_string(bounds.size()) +
+                " numbers; allowed: 4 (min x y, max x y) or 6 (min x y z, max x y z), divided by commas");
+  const std::size_t axes = bounds.size() / 2;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (bounds[axis] > bounds[axes + axis])
+      throw Error("bounds are empty: min " + std::string(1, "xyz"[axis]) + " = " +
+                  print_number(bounds[axis]) + " is above max " + "xyz"[axis] + " = " +
+                  print_number(bounds[axes + axis]) + "; all of min come before all of max");
   }
 }
 
@@ -153,14 +174,15 @@ void check_config(const Config& config) {
   Config checked = config;
   for (const Parameter& parameter : parameters(checked)) {
     std::visit(
-        [&parameter](const auto* value) {
-          if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(*value)>>) {
+        [&parameter](const auto& value) {
+          if constexpr (requires { static_cast<double>(*value); }) {
             if (!in_range(parameter, static_cast<double>(*value))) refuse(parameter, parameter.print());
           }
         },
         parameter.value);
   }
 
+  check_bounds(config.input.bounds);
   const NeighbourhoodConfig& neighbourhood = config.neighbourhood;
   if (neighbourhood.eps > 0 && neighbourhood.eps_fraction > 0) {
     throw Error("eps and eps_fraction are both set; allowed: at most one of them above 0");

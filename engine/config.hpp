@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -99,8 +100,15 @@ struct SelectionConfig {
   bool holes_only = false;  // no outer boundaries
 };
 
+// Which returns of a pulse count.
+enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
+
 struct InputConfig {
-  std::string columns;  // names of a text file's columns, space separated; empty: from its header line
+  std::string columns;         // names of a text file's columns, space separated; empty: from its header line
+  std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
+  std::vector<std::int64_t> classes;  // of property classification; empty: all
+  Returns returns = Returns::kAll;
+  bool drop_origin = false;  // without points at 0 0 0 or at the scanner
 };
 
 struct OutputConfig {
@@ -138,13 +146,20 @@ struct Need {
   bool (*is_given)(const Config&);
 };
 
+// A value of an enumeration, by the names of all.
+struct NamedValue {
+  std::uint8_t* value;
+  std::span<const std::string_view> names;
+};
+
 // One line of the list: `[section] key = value`, on the command line `--key` with dashes.
 struct Parameter {
-  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*, LoopMethod*>;
+  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*,
+                             std::vector<double>*, std::vector<std::int64_t>*, NamedValue>;
   std::string_view section;
   std::string_view key;
   Value value;  // points into the Config it was listed from; uint64_t: a size in bytes
-  double min;
+  double min;   // of lists: of each number
   double max;
   std::string_view allowed;  // for error messages: "a whole number from 1 to 1000"
   std::string_view help;

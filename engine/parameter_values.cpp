@@ -17,8 +17,6 @@ constexpr std::uint64_t kMiB = 1024 * kKiB;
 constexpr std::uint64_t kGiB = 1024 * kMiB;
 constexpr std::uint64_t kTiB = 1024 * kGiB;
 
-// In the order of LoopMethod.
-constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kFormerTangential = "stars";
 
 struct Unit {
@@ -55,12 +53,25 @@ struct SetFromText {
     *target = text == "true";
   }
   void operator()(std::string* target) const { *target = text; }
-  void operator()(LoopMethod* target) const {
-    const auto method = std::find(std::begin(kMethods), std::end(kMethods), text);
-    if (method == std::end(kMethods)) {
+  template <typename Number>
+  void operator()(std::vector<Number>* target) const {
+    std::vector<Number> numbers;
+    constexpr std::string_view kBetween = ", \t";
+    for (std::size_t at = text.find_first_not_of(kBetween); at < text.size();) {
+      const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+      const std::optional<Number> number = parse_number<Number>(text.substr(at, end - at));
+      if (!number || !in_range(parameter, static_cast<double>(*number))) refuse(parameter, text);
+      numbers.push_back(*number);
+      at = text.find_first_not_of(kBetween, end);
+    }
+    *target = std::move(numbers);
+  }
+  void operator()(const NamedValue& target) const {
+    const auto name = std::find(target.names.begin(), target.names.end(), text);
+    if (name == target.names.end()) {
       refuse(parameter, text == kFormerTangential ? "stars (now called tangential)" : text);
     }
-    *target = static_cast<LoopMethod>(method - std::begin(kMethods));
+    *target.value = static_cast<std::uint8_t>(name - target.names.begin());
   }
   void operator()(std::uint64_t* target) const {
     std::uint64_t bytes = 0;
@@ -80,7 +91,13 @@ struct PrintValue {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return quote(*value); }
   std::string operator()(const std::uint64_t* value) const { return quote(print_bytes(*value)); }
-  std::string operator()(const LoopMethod* value) const { return quote(name_of(*value)); }
+  template <typename Number>
+  std::string operator()(const std::vector<Number>* values) const {
+    std::string text;
+    for (const Number value : *values) text += (text.empty() ? "" : ", ") + (*this)(&value);
+    return "[" + text + "]";
+  }
+  std::string operator()(const NamedValue& value) const { return quote(value.names[*value.value]); }
 };
 
 }  // namespace
@@ -122,10 +139,6 @@ std::string quote(std::string_view text) {
     }
   }
   return quoted + '"';
-}
-
-std::string_view name_of(LoopMethod method) {
-  return kMethods[static_cast<std::size_t>(method)];
 }
 
 std::string Parameter::option() const {

@@ -11,6 +11,16 @@ namespace {
 constexpr double kAboveZero = std::numeric_limits<double>::min();
 constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 
+// In the order of their enumerations.
+constexpr std::string_view kMethods[] = {"tangential", "paper"};
+constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
+
+template <class Enum>
+NamedValue named(Enum& value, std::span<const std::string_view> names) {
+  static_assert(sizeof(Enum) == sizeof(std::uint8_t));
+  return {reinterpret_cast<std::uint8_t*>(&value), names};
+}
+
 constexpr Need kNothing{"", [](const Config&) { return true; }};
 constexpr Need kTangential{"--method tangential",
                            [](const Config& c) { return c.loops.method == LoopMethod::kTangential; }};
@@ -20,6 +30,10 @@ constexpr Need kPointsNormals{"--points --normals",
                               [](const Config& c) { return c.output.points && c.output.normals; }};
 
 }  // namespace
+
+std::string_view name_of(LoopMethod method) {
+  return kMethods[static_cast<std::size_t>(method)];
+}
 
 std::vector<Parameter> parameters(Config& config) {
   auto& [scale, neighbourhood, normals, criteria, coherence, loops, spanning, tangential, selection, input,
@@ -65,7 +79,7 @@ std::vector<Parameter> parameters(Config& config) {
        "Boundary probability above which a point is a candidate; tangential loops are searched from these.",
        kNothing},
 
-      {"loops", "method", &loops.method, 0, 1, "tangential or paper",
+      {"loops", "method", named(loops.method, kMethods), 0, 1, "tangential or paper",
        "How loops are found: tangential, as the boundary of the triangles on which neighbouring points "
        "agree; "
        "paper, as Bendels et al. do.",
@@ -124,6 +138,15 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
        "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line.", kNothing},
+      {"input", "bounds", &input.bounds, -1e153, 1e153,
+       "4 numbers, min x y and max x y, or 6, min x y z and max x y z; none: no bounds",
+       "Points outside of this box do not take part.", kNothing},
+      {"input", "classes", &input.classes, 0, 255, "whole numbers from 0 to 255; none: all classes",
+       "Points of other classes do not take part; the property classification has them.", kNothing},
+      {"input", "returns", named(input.returns, kReturns), 0, 3, "all, first, last or only",
+       "Other returns of a laser pulse do not take part; only: of pulses with one return.", kNothing},
+      {"input", "drop_origin", &input.drop_origin, 0, 1, "true or false",
+       "Points at 0 0 0, or at the scanner where a file has its place, do not take part.", kNothing},
 
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write points.ply too: every point of the input with its probabilities.", kNothing},

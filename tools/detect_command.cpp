@@ -52,14 +52,13 @@ void require(const CLI::App& command, const std::string& option) {
   if (command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
 }
 
-// Writes the results; returns what to tell about them.
+// Writes the results; returns their summary.
 std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const ReadOptions options{.columns = config.input.columns};
-  const std::vector<fs::path> files = expand_inputs(arguments.scans, options);
-  for (const std::string& warning : repeated_files(files)) spdlog::warn("{}", warning);
-  FileScan scan(files, options);
+  FileScan scan(expand_inputs(arguments.scans, options), config.input);
+  for (const std::string& warning : repeated_files(scan.files())) spdlog::warn("{}", warning);
 
   const MadeFolder out_folder(arguments.out);
   const fs::path& out = out_folder.path();
@@ -82,7 +81,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
     spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
-  std::string summary = print_summary(*detection, files,
+  std::string summary = print_summary(*detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()});
   for (const fs::path& file : result_files(config, out))
@@ -104,8 +103,8 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   if (arguments.quiet) quiet_log();
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 
-  const std::string told = detect_to(arguments, config);
-  if (!arguments.quiet) std::cout << told;
+  const std::string summary = detect_to(arguments, config);
+  if (!arguments.quiet) std::cout << summary;
 }
 
 }  // namespace

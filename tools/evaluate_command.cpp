@@ -209,7 +209,7 @@ void run_evaluate(const EvaluateArguments& arguments) {
     throw CLI::ValidationError("--min-vertices", "must be a whole number from 0 on");
   }
   const Result result = read_result(arguments.result);
-  Truth truth = read_truth(arguments.truth, arguments.scans, result);
+  Truth truth = read_truth(arguments.truth, {arguments.scans.begin(), arguments.scans.end()}, result);
   if (!arguments.surface.empty()) truth.surface = read_surface(arguments.surface);
   const Evaluation evaluation = evaluate(
       result, truth,

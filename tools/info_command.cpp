@@ -98,7 +98,7 @@ std::string assumption() {
          std::to_string(static_cast<int>(kMeasuredThreads)) + " threads, and twice that on twice as many";
 }
 
-void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
+void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
               << print_count(file.points) << "\n  properties ";
@@ -109,7 +109,7 @@ void print_text(const std::vector<FileInfo>& files, const RunInfo& run) {
   }
   const Summary& summary = run.estimate.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
-  if (summary.counts.dropped > 0) std::cout << ", " << print_count(summary.counts.dropped) << " not finite";
+  std::cout << print_left_out(summary.counts, filtered);
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
@@ -137,7 +137,7 @@ Json point_json(const Eigen::Vector3d& point) {
   return Json::array({point.x(), point.y(), point.z()});
 }
 
-void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
+void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
   for (const FileInfo& file : files) {
@@ -153,7 +153,11 @@ void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
   const Summary& summary = run.estimate.summary;
   const bool has_bounds = !summary.bounds.isEmpty();
   root["points"] = summary.counts.points;
-  root["dropped"] = summary.counts.dropped;
+  root["dropped"] = summary.counts.dropped - filtered.total();
+  root["filtered_out"] = {{"origin", filtered.origin},
+                          {"bounds", filtered.bounds},
+                          {"classes", filtered.classes},
+                          {"returns", filtered.returns}};
   root["bounds"] =
       has_bounds
           ? Json({{"min", point_json(summary.bounds.min())}, {"max", point_json(summary.bounds.max())}})
@@ -177,15 +181,14 @@ void print_json(const std::vector<FileInfo>& files, const RunInfo& run) {
 void run_info(const InfoArguments& arguments) {
   const Config config = arguments.parameters.read().config;
   const ReadOptions options{.columns = config.input.columns};
-  const std::vector<fs::path> inputs = expand_inputs(arguments.scans, options);
-  FileScan scan(inputs, options);
+  FileScan scan(expand_inputs(arguments.scans, options), config.input);
   std::vector<FileInfo> files;
-  for (const fs::path& file : inputs) files.push_back(read_file_info(file, options));
+  for (const fs::path& file : scan.files()) files.push_back(read_file_info(file, options));
   const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
-    print_json(files, run);
+    print_json(files, scan.filtered_out(), run);
   } else {
-    print_text(files, run);
+    print_text(files, scan.filtered_out(), run);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include "engine/run/error.hpp"
 #include "io/input_file.hpp"
+#include "io/number.hpp"
+#include "io/pose.hpp"
 #include "io/scan_reader.hpp"
 #include "tools/visible_text.hpp"
 
@@ -15,6 +17,8 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kPoseBlanks = " \t,";
 
 bool is_readable(const fs::path& file, const ReadOptions& options) {
   try {
@@ -32,7 +36,7 @@ bool is_scan(const fs::path& file, const ReadOptions& options) {
   return recognised == Recognised::kYes || (recognised == Recognised::kAsText && is_readable(file, options));
 }
 
-void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<fs::path>& files) {
+void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<ScanInput>& files) {
   std::vector<fs::path> inside;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -44,7 +48,7 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
   const std::size_t before = files.size();
   for (const fs::path& file : inside) {
     if (is_scan(file, options)) {
-      files.push_back(file);
+      files.emplace_back(file);
     } else {
       spdlog::warn("{}: passed over, since it is no scan", visible(file.string()));
     }
@@ -52,22 +56,42 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
   if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
 }
 
-void add_list(const fs::path& list, std::vector<fs::path>& files) {
+Pose find_pose(const fs::path& folder, std::string_view text) {
+  double number = 0;
+  const bool is_numbers = parse_number(text.substr(0, text.find_first_of(kPoseBlanks)), number);
+  return is_numbers ? parse_pose(text) : read_pose(folder / text);
+}
+
+// A line of a list: a file name, and what may follow it.
+ScanInput parse_entry(const fs::path& folder, std::string_view line) {
+  constexpr std::string_view kPose = "pose=";
+  const std::size_t at = line.rfind(kPose);
+  const bool has_pose = at != line.npos && at > 0 && kPoseBlanks.find(line[at - 1]) != kPoseBlanks.npos;
+  if (!has_pose) return folder / line;
+  const std::string_view name = line.substr(0, line.find_last_not_of(kPoseBlanks, at - 1) + 1);
+  return {folder / name, find_pose(folder, line.substr(at + kPose.size()))};
+}
+
+void add_list(const fs::path& list, std::vector<ScanInput>& files) {
   InputFile in(list);
   const std::size_t before = files.size();
   while (const auto line = in.next_line()) {
     std::string name(*line);
     if (name.ends_with('\r')) name.pop_back();
     if (name.empty() || name.starts_with('#')) continue;
-    files.push_back(list.parent_path() / name);
+    try {
+      files.push_back(parse_entry(list.parent_path(), name));
+    } catch (const Error& error) {
+      in.fail_at_line(in.line(), error.what());
+    }
   }
   if (files.size() == before) in.fail("the list names no file");
 }
 
 }  // namespace
 
-std::vector<fs::path> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options) {
-  std::vector<fs::path> files;
+std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options) {
+  std::vector<ScanInput> files;
   for (const fs::path& input : given) {
     std::error_code error;  // what is missing is an error later, when it is opened
     if (input.string().starts_with('@') && !fs::exists(input, error)) {
@@ -75,7 +99,7 @@ std::vector<fs::path> expand_inputs(const std::vector<fs::path>& given, const Re
     } else if (fs::is_directory(input, error)) {
       add_folder(input, options, files);
     } else {
-      files.push_back(input);
+      files.emplace_back(input);
     }
   }
   return files;

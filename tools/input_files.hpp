@@ -1,7 +1,7 @@
 // The scan files that the user names, one by one, by folder or in a list.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/file_scan.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -10,9 +10,10 @@ namespace lacuna {
 
 // A folder stands for the scan files in it, sorted by name; hidden files, folders in it and files of formats
 // that are not read are passed over, the last with a warning. "@FILE" stands for the files named in it, one
-// per line, relative to its folder; blank lines and lines that begin with # are passed over. Throws `Error`
-// where a folder or list names no scan.
-std::vector<std::filesystem::path> expand_inputs(const std::vector<std::filesystem::path>& given,
-                                                 const ReadOptions& options);
+// per line, relative to its folder; blank lines and lines that begin with # are passed over. A pose may
+// follow the name: `pose=` and its numbers, or a file that holds them (io/pose.hpp). Throws `Error` where a
+// folder or list names no scan, or a pose is none.
+std::vector<ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
+                                     const ReadOptions& options);
 
 }  // namespace lacuna

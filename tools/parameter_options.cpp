@@ -17,7 +17,9 @@ struct TypeName {
   std::string operator()(const bool*) const { return ""; }
   std::string operator()(const std::string*) const { return "TEXT"; }
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
-  std::string operator()(const LoopMethod*) const { return "NAME"; }
+  std::string operator()(const std::vector<double>*) const { return "X,X..."; }
+  std::string operator()(const std::vector<std::int64_t>*) const { return "N,N..."; }
+  std::string operator()(const NamedValue&) const { return "NAME"; }
 };
 
 }  // namespace

@@ -33,11 +33,11 @@ std::string print_position(const Eigen::Vector3d& position) {
   return buffer;
 }
 
-std::string print_input(const Counts& counts, const std::vector<std::filesystem::path>& scans) {
+std::string print_input(const Counts& counts, const FileScan& scan) {
   std::string text = print_count(counts.points) + " points";
-  text += scans.size() == 1 ? " in " + visible(scans.front().string())
-                            : " in " + std::to_string(scans.size()) + " files, as one scan";
-  if (counts.dropped > 0) text += "; " + print_count(counts.dropped) + " not finite, dropped";
+  text += scan.files().size() == 1 ? " in " + visible(scan.files().front().string())
+                                   : " in " + std::to_string(scan.files().size()) + " files, as one scan";
+  text += print_left_out(counts, scan.filtered_out());
   if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " represented by another";
   if (counts.duplicates > 0) text += "; " + print_count(counts.duplicates) + " at the place of another";
   return text + "\n";
@@ -110,14 +110,26 @@ std::string counted(std::size_t count, const char* one, const char* several) {
 
 }  // namespace
 
-std::string print_summary(const Detection& detection, const std::vector<std::filesystem::path>& scans,
-                          const RunTimes& times) {
+std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
+  std::string text;
+  const auto add = [&text](std::uint64_t points, const char* why) {
+    if (points > 0) text += "; " + print_count(points) + " " + why;
+  };
+  add(counts.dropped - filtered.total(), "not finite, dropped");
+  add(filtered.origin, "without return");
+  add(filtered.bounds, "outside of the bounds");
+  add(filtered.classes, "of other classes");
+  add(filtered.returns, "of other returns");
+  return text;
+}
+
+std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times) {
   const Summary& summary = detection.summary();
   const std::vector<LoopMeasures>& loops = detection.loops();
   const auto holes = static_cast<std::size_t>(std::count_if(
       loops.begin(), loops.end(), [](const LoopMeasures& loop) { return loop.kind == LoopKind::kHole; }));
 
-  std::string text = print_input(summary.counts, scans) + print_findings(summary) + "\n";
+  std::string text = print_input(summary.counts, scan) + print_findings(summary) + "\n";
   text += print_times(summary, times);
   text += "  peak memory " + print_size(peak_memory()) + " of " + print_size(summary.memory_limit) + ", " +
           counted(summary.threads, "thread", "threads") + "\n\n";

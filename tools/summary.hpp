@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
+#include "io/file_scan.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,8 +16,10 @@ struct RunTimes {
 };
 
 // What was read and found, time per phase, and the loops, the one with the largest perimeter first.
-std::string print_summary(const Detection& detection, const std::vector<std::filesystem::path>& scans,
-                          const RunTimes& times);
+std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times);
+
+// Points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
+std::string print_left_out(const Counts& counts, const FilteredOut& filtered);
 
 // Rows of as many cells each, at least one row; columns as wide as their widest cell, the first to the left,
 // the others to the right.

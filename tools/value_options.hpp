@@ -1,4 +1,4 @@
-// Options whose values are checked before they are used: what is wrong is told with what is allowed.
+// Options whose values are checked before they are used: an error says what is allowed.
 #pragma once
 
 #include <array>

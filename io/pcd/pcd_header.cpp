@@ -73,6 +73,7 @@ bool parse_line(Parser& parser, std::string_view line) {
     parser.fail("a second line " + in_quotes(keyword) + "; one is allowed");
   }
   constexpr const char* kCount = "one whole number is needed";
+  constexpr const char* kViewpoint = "a position x y z and a quaternion are needed";
   if (keyword == "VERSION") {
     parse_version(parser, words);
   } else if (keyword == "FIELDS") {
@@ -101,7 +102,9 @@ bool parse_line(Parser& parser, std::string_view line) {
   } else if (keyword == "DATA") {
     parse_data(parser, words);
     return false;
-  } else if (keyword != "VIEWPOINT") {
+  } else if (keyword == "VIEWPOINT") {
+    for (double& coordinate : parser.header.viewpoint) coordinate = words.number<double>(kViewpoint);
+  } else {
     parser.fail(
         "unknown keyword " + in_quotes(keyword) +
         "; allowed are VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS and DATA");

@@ -4,6 +4,7 @@
 
 #include "io/input_file.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -28,6 +29,7 @@ struct PcdHeader {
   std::vector<PcdField> fields;  // at least one, with at most 65,536 values together
   std::uint64_t rows = 0;        // as declared: nothing may be allocated by it
   PcdEncoding encoding = PcdEncoding::kAscii;
+  std::array<double, 3> viewpoint{};  // the scanner's position, in the coordinates of the points
 
   std::size_t row_bytes() const;
   std::size_t padding_bytes() const;  // of them, in fields named "_"

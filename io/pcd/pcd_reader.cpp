@@ -40,6 +40,9 @@ class PcdReader final : public ScanReader {
 
   std::string format() const override { return std::string("PCD, ") + pcd_name(header_.encoding); }
   const RowLayout& layout() const override { return layout_; }
+  std::vector<Eigen::Vector3d> no_return_places() const override {
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Map(header_.viewpoint.data())};
+  }
   std::optional<std::uint64_t> expected_rows() const override { return header_.rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

@@ -22,19 +22,28 @@ Json list(const Vector& vector) {
   return Json{vector[0], vector[1], vector[2]};
 }
 
-template <class Value>
-Json json_value(const Value& value) {
-  return value;
+// Its 4 x 4 matrix, row by row.
+Json rows_of(const Pose& pose) {
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(pose.matrix()(row, column));
+  }
+  return rows;
 }
-Json json_value(LoopMethod method) {
-  return name_of(method);
+
+template <class Value>
+Json json_value(const Value* value) {
+  return *value;
+}
+Json json_value(const NamedValue& value) {
+  return value.names[*value.value];
 }
 
 Json parameter_values(Config config) {
   Json sections = Json::object();
   for (const Parameter& parameter : parameters(config)) {
     Json& entry = sections[std::string(parameter.section)][std::string(parameter.key)];
-    std::visit([&](const auto* value) { entry = json_value(*value); }, parameter.value);
+    std::visit([&](const auto& value) { entry = json_value(value); }, parameter.value);
   }
   return sections;
 }
@@ -44,6 +53,7 @@ Json inputs(const FileScan& scan) {
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     Json file = Json::object();
     file["file"] = scan.files()[i].string();
+    if (const auto& pose = scan.poses()[i]) file["pose"] = rows_of(*pose);
     const auto& rows = scan.expected_rows()[i];
     file["points"] = rows ? Json(*rows) : Json(nullptr);
     Json::object_t properties;  // names differ, so none is searched for
@@ -56,11 +66,16 @@ Json inputs(const FileScan& scan) {
   return files;
 }
 
-Json counts(const Counts& counts, const std::vector<LoopMeasures>& loops) {
+Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector<LoopMeasures>& loops) {
   std::uint64_t holes = 0;
   for (const LoopMeasures& loop : loops) holes += loop.kind == LoopKind::kHole ? 1 : 0;
   return {{"points", counts.points},
-          {"dropped", counts.dropped},
+          {"dropped", counts.dropped - filtered.total()},
+          {"filtered_out",
+           {{"origin", filtered.origin},
+            {"bounds", filtered.bounds},
+            {"classes", filtered.classes},
+            {"returns", filtered.returns}}},
           {"thinned_out", counts.thinned_out},
           {"duplicates", counts.duplicates},
           {"candidates", counts.candidates},
@@ -97,7 +112,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["lacuna"] = LACUNA_VERSION;
   json["parameters"] = parameter_values(config);
   json["inputs"] = inputs(scan);
-  json["counts"] = counts(summary.counts, detection.loops());
+  json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
   json["bounds"] = nullptr;
   if (!summary.bounds.isEmpty()) {
     json["bounds"] = {{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}};

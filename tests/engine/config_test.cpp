@@ -178,6 +178,42 @@ TEST_CASE("an impossible value names its key and what is allowed") {
   CHECK(error_of_set("memory_limit", "0").empty());
 }
 
+TEST_CASE("lists of numbers come as text with commas and as arrays, and print as arrays") {
+  Config config;
+  const std::vector<Parameter> all = parameters(config);
+  find(all, "bounds").set("-1, 2.5,3 4");
+  CHECK(config.input.bounds == std::vector{-1.0, 2.5, 3.0, 4.0});
+  CHECK(find(all, "bounds").print() == "[-1.0, 2.5, 3.0, 4.0]");
+  find(all, "classes").set("2,6");
+  CHECK(find(all, "classes").print() == "[2, 6]");
+  CHECK(read("[input]\nbounds = [1, 2.5, 3, 4]\nclasses = [2, 9]\n").input.classes ==
+        std::vector<std::int64_t>{2, 9});
+  CHECK_THAT(error_of_set("classes", "2,256"), Contains("classes = 2,256 is not possible"));
+  CHECK_THAT(error_of_set("classes", "ground"), Contains("whole numbers from 0 to 255"));
+  CHECK_THAT(error_of_set("bounds", "1,nan,3,4"), Contains("bounds = 1,nan,3,4"));
+  CHECK_THAT(error_of_file("[input]\nclasses = 2\n"), Contains(":2: classes = 2 is not"));
+  CHECK_THAT(error_of_file("[input]\nclasses = [2, 1.5]\n"), Contains("classes = 1.5 is not"));
+  CHECK_THAT(error_of_set("returns", "second"), Contains("allowed: all, first, last or only"));
+}
+
+TEST_CASE("bounds of another count of numbers, or without content, contradict themselves") {
+  const auto error = [](std::vector<double> bounds) {
+    Config config;
+    config.input.bounds = std::move(bounds);
+    try {
+      check_config(config);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(error({}).empty());
+  CHECK(error({0, 0, 1, 1}).empty());
+  CHECK(error({0, 0, 0, 0, 0, 0}).empty());
+  CHECK_THAT(error({0, 0, 1}), Contains("bounds has 3 numbers; allowed: 4"));
+  CHECK_THAT(error({0, 1, 0, 5, 6, -1}), Contains("min z = 0.0 is above max z = -1.0"));
+}
+
 TEST_CASE("the former name of a method is refused with its present one") {
   CHECK(error_of_set("method", "stars") ==
         "method = stars (now called tangential) is not possible; allowed: tangential or paper");

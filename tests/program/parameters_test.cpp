@@ -49,13 +49,17 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_hole", "7"},
     {"max_perimeter", "45"},
     {"min_points", "40"},
-    {"columns", "y x z"},
+    {"columns", "y x z classification return_number number_of_returns"},
+    {"bounds", "2,2,100,300"},
+    {"classes", "2"},
+    {"returns", "first"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},
 };
 
-// A rough sheet with two holes, and pairs of sheets that meet in creases.
+// A rough sheet with two holes, and pairs of sheets that meet in creases; of two classes and returns, with
+// one point at 0 0 0.
 std::string scan_text() {
   Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
   for (const int degrees : {40, 60, 80, 100, 120}) {
@@ -63,8 +67,11 @@ std::string scan_text() {
   }
   std::ostringstream text;
   text.precision(17);
-  text << "x y z\n";
-  for (const Eigen::Vector3d& p : cloud.positions) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  text << "x y z classification return_number number_of_returns\n0 0 0 2 1 1\n";
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    text << cloud.positions[i].transpose() << (i % 7 == 0 ? " 6" : " 2")
+         << (i % 5 == 0 ? " 2 2\n" : " 1 1\n");
+  }
   return text.str();
 }
 

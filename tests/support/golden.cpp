@@ -110,7 +110,7 @@ GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops) {
 }
 
 Cloud read_cloud(const std::filesystem::path& file) {
-  FileScan scan({file}, ReadOptions{});
+  FileScan scan({file}, {});
   Cloud cloud;
   for (PointBatch batch; scan.next(batch);) {
     cloud.positions.insert(cloud.positions.end(), batch.positions.begin(), batch.positions.end());

@@ -13,6 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
+Paths files_of(const std::vector<fs::path>& given) {
+  Paths files;
+  for (const ScanInput& input : expand_inputs(given, {})) files.push_back(input.file);
+  return files;
+}
+
 fs::path as_list(const std::string& file) {
   std::string name = "@";
   name += file;
@@ -34,13 +40,32 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
   scratch.write("in/empty.xyz", "");
   scratch.write("in/deeper/d.xyz", rows);
   // A broken file of a format that is read is an error later, not passed over.
-  CHECK(expand_inputs({in}, {}) == Paths{a, b, broken});
-  CHECK(expand_inputs({b, in / "deeper", "missing.ply"}, {}) ==
-        Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
+  CHECK(files_of({in}) == Paths{a, b, broken});
+  CHECK(files_of({b, in / "deeper", "missing.ply"}) == Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
 
   const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
-  CHECK(expand_inputs({as_list(list)}, {}) ==
-        Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
+  CHECK(files_of({as_list(list)}) == Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
+}
+
+TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds them") {
+  const test::ScratchFolder scratch;
+  scratch.write("turned.xf", "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
+  const auto list =
+      scratch.write("list.txt", "a b.xyz pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
+  const std::vector<ScanInput> inputs = expand_inputs({as_list(list)}, {});
+  REQUIRE(inputs.size() == 4);
+  CHECK(inputs[0].file == scratch / "a b.xyz");
+  CHECK(inputs[0].pose->translation() == Eigen::Vector3d(1, 2, 3));
+  CHECK(inputs[1].file == scratch / "c.xyz");
+  CHECK(inputs[1].pose->translation() == Eigen::Vector3d(4, 5, 6));
+  CHECK_FALSE(inputs[2].pose);
+  CHECK(inputs[3].file == scratch / "pose=e.xyz");
+  CHECK_FALSE(inputs[3].pose);
+  const auto wrong = scratch.write("wrong.txt", "d.xyz\na.xyz pose=1 2 3\n");
+  CHECK_THROWS_WITH(expand_inputs({as_list(wrong)}, {}),
+                    Catch::Matchers::Contains("wrong.txt: line 2: a pose of 3 numbers"));
+  const auto missing = scratch.write("missing.txt", "a.xyz pose=none.xf\n");
+  CHECK_THROWS_WITH(expand_inputs({as_list(missing)}, {}), Catch::Matchers::Contains("none.xf"));
 }
 
 TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {

@@ -47,7 +47,11 @@ void read_report(const fs::path& file, Result& result) {
     result.points = report.at("counts").at("points").get<std::uint64_t>();
     result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
     for (const Json& input : report.at("inputs")) {
-      result.inputs.emplace_back(input.at("file").get<std::string>());
+      ScanInput& scan = result.inputs.emplace_back(input.at("file").get<std::string>());
+      if (const auto pose = input.find("pose"); pose != input.end()) {
+        const auto rows = pose->get<std::array<double, 16>>();
+        scan.pose = Eigen::Matrix4d::Map(rows.data()).transpose();
+      }
     }
     if (report.at("loops").size() != result.loops.size()) {
       throw Error(file.string() + ": " + std::to_string(report.at("loops").size()) + " loops, but " +
@@ -67,8 +71,8 @@ bool is_ply(const fs::path& file) {
   return looks_like_ply({.first_bytes = InputFile(file).peek(4)});
 }
 
-std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files, const std::string& columns) {
-  FileScan scan(files, {.columns = columns});
+std::vector<Eigen::Vector3d> read_positions(std::vector<ScanInput> inputs, const std::string& columns) {
+  FileScan scan(std::move(inputs), {.columns = columns});
   std::vector<Eigen::Vector3d> positions;
   for (PointBatch batch; scan.next(batch);) {
     positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
@@ -76,13 +80,13 @@ std::vector<Eigen::Vector3d> read_positions(const std::vector<fs::path>& files, 
   return positions;
 }
 
-std::vector<fs::path> scans_of(const fs::path& truth, const Result& result) {
+std::vector<ScanInput> scans_of(const fs::path& truth, const Result& result) {
   const std::string name = truth.string();
   if (name.ends_with(kLoopsEnding)) {
     const fs::path beside = name.substr(0, name.size() - kLoopsEnding.size()) + ".ply";
     if (fs::exists(beside)) return {beside};
   }
-  const auto exists = [](const fs::path& input) { return fs::exists(input); };
+  const auto exists = [](const ScanInput& input) { return fs::exists(input.file); };
   if (!result.inputs.empty() && std::all_of(result.inputs.begin(), result.inputs.end(), exists)) {
     return result.inputs;
   }
@@ -172,7 +176,7 @@ Result read_result(const fs::path& path) {
   return result;
 }
 
-Truth read_truth(const fs::path& file, std::vector<fs::path> scans, const Result& result) {
+Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, const Result& result) {
   Truth truth{.file = file};
   const bool mesh = is_ply(file);
   if (mesh && !scans.empty())

@@ -1,6 +1,7 @@
 // A result held against the truth: files in, scores out.
 #pragma once
 
+#include "io/file_scan.hpp"
 #include "tools/accuracy/boundary_points.hpp"
 #include "tools/accuracy/match_loops.hpp"
 #include "tools/accuracy/true_loops.hpp"
@@ -22,9 +23,9 @@ struct Result {
   std::vector<LoopIds> loops;
   std::vector<double> confidence;                      // of each loop, NaN: unknown; empty: of none
   std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
-  std::optional<std::uint64_t> points;                 // of the input, where the run tells
-  std::vector<std::filesystem::path> inputs;           // where the run tells
-  std::string columns;                                 // of inputs that are text, where the run was told
+  std::optional<std::uint64_t> points;                 // of the input; this and the next from the report
+  std::vector<ScanInput> inputs;
+  std::string columns;  // of inputs that are text
 };
 
 // What is there. Ids are places in `positions`.
@@ -55,8 +56,7 @@ Result read_result(const std::filesystem::path& path);
 // A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`;
 // without any, of the scan X.ply beside X.loops.txt, else of the result's inputs where they still are. Points
 // that no face of a mesh uses take no part in the spacing. Throws `Error`.
-Truth read_truth(const std::filesystem::path& file, std::vector<std::filesystem::path> scans,
-                 const Result& result);
+Truth read_truth(const std::filesystem::path& file, std::vector<ScanInput> scans, const Result& result);
 
 // The faces of a PLY mesh. Throws `Error`.
 Surface read_surface(const std::filesystem::path& file);

@@ -1,0 +1,21 @@
+// Where a scan stands in the registered scan: a rotation, a scale and a translation.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+
+using Pose = Eigen::Affine3d;  // of the scan's own coordinates: p -> A p + t
+
+// Numbers divided by blanks or commas: 16 of a 4 x 4 matrix, row by row; 12 of its first three rows; or 7,
+// the translation x y z and the unit quaternion x y z w. Throws `Error` unless the matrix turns, scales
+// evenly and moves, nothing else (to 1 part in 1000).
+Pose parse_pose(std::string_view numbers);
+
+// The same from a text file, over any number of lines. Throws `Error`.
+Pose read_pose(const std::filesystem::path& file);
+
+}  // namespace lacuna

@@ -1,0 +1,55 @@
+// Which rows of a scan take part: the user's choice by place, class and return.
+#pragma once
+
+#include "engine/config.hpp"
+#include "io/scan_reader.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+
+// Rows left out, each counted by the first of these filters that refuses it. A row that is not finite is in
+// none of them.
+struct FilteredOut {
+  std::uint64_t origin = 0;
+  std::uint64_t bounds = 0;
+  std::uint64_t classes = 0;
+  std::uint64_t returns = 0;
+
+  std::uint64_t total() const { return origin + bounds + classes + returns; }
+};
+
+class RowFilter {
+ public:
+  // For the rows of one file. Throws `Error` where these have no class or return, and the choice needs it.
+  RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
+
+  // Makes the positions of rows that do not take part NaN, and counts them.
+  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered);
+
+ private:
+  struct Values {  // of one column, for the rows at hand
+    Property property;
+    std::vector<double> values;
+  };
+  void load(const RowBatch& rows, std::optional<Values>& column) const;
+  bool is_no_return(const Eigen::Vector3d& position) const;
+  bool has_chosen_class(std::size_t row) const;
+  bool is_chosen_return(std::size_t row) const;
+
+  bool is_active_;
+  std::size_t stride_;
+  std::vector<Eigen::Vector3d> no_return_places_;
+  std::optional<Eigen::AlignedBox3d> bounds_;
+  std::vector<std::int64_t> chosen_classes_;
+  Returns chosen_returns_;
+  std::optional<Values> class_, return_number_, number_of_returns_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,44 @@
+#include "io/vectors.hpp"
+
+#include "io/scalar.hpp"
+
+#include <algorithm>
+
+namespace lacuna {
+
+bool is_component(std::string_view property, const VectorNames& names) {
+  return std::find(names.begin(), names.end(), property) != names.end();
+}
+
+bool has_vectors(const RowLayout& layout, const VectorNames& names) {
+  return std::all_of(names.begin(), names.end(), [&](const char* name) { return layout.find(name); });
+}
+
+void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNames& names,
+                  std::vector<Eigen::Vector3d>& vectors) {
+  vectors.resize(rows.count);
+  if (rows.count == 0) return;
+  auto* to = reinterpret_cast<std::byte*>(vectors.data());
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    const Property& property = *layout.find(names[axis]);
+    copy_column(
+        {.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
+        {.data = to + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
+        rows.count);
+  }
+}
+
+void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,
+                   const VectorNames& names, RowBatch& rows) {
+  if (vectors.empty()) return;
+  const auto* from = reinterpret_cast<const std::byte*>(vectors.data());
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    const Property& property = *layout.find(names[axis]);
+    copy_column(
+        {.data = from + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
+        {.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
+        vectors.size());
+  }
+}
+
+}  // namespace lacuna

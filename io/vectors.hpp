@@ -1,0 +1,28 @@
+// Positions and normals of rows: three columns each.
+#pragma once
+
+#include "io/scan_reader.hpp"
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+using VectorNames = std::array<const char*, 3>;
+inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
+inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
+
+bool is_component(std::string_view property, const VectorNames& names);
+bool has_vectors(const RowLayout& layout, const VectorNames& names);
+
+// All three columns must be there; to store, as doubles.
+void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNames& names,
+                  std::vector<Eigen::Vector3d>& vectors);
+void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,
+                   const VectorNames& names, RowBatch& rows);
+
+}  // namespace lacuna

@@ -1,0 +1,60 @@
+// Poses and filters, from the command line to the report.
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+using nlohmann::json;
+using test::run_program;
+using test::ScratchFolder;
+
+std::string rows_of(const Cloud& cloud, int classification) {
+  std::ostringstream rows;
+  rows.precision(17);
+  for (const Eigen::Vector3d& p : cloud.positions)
+    rows << p.x() << " " << p.y() << " " << p.z() << " " << classification << "\n";
+  return rows.str();
+}
+
+json report_of(const std::vector<std::string>& arguments, const std::string& out) {
+  std::vector<std::string> words = {"detect", "--out", out, "--quiet"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const test::ProgramResult result = run_program(words);
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  std::ifstream in(out + "/holes.json");
+  return json::parse(in);
+}
+
+TEST_CASE("scans in their own coordinates with poses, and filters, give the loops of the chosen points") {
+  const ScratchFolder scratch;
+  const Cloud left = plane(30).punched({14, 14}, 4).translated({0, 0, 1});
+  const Cloud right = plane(30).punched({20, 9}, 3).translated({30, 0, 1});
+  const std::string header = "x y z Classification\n";
+  const auto whole = scratch.write("whole.csv", header + rows_of(left, 2) + rows_of(right, 2));
+  const json expected = report_of({whole}, (scratch / "whole").string());
+  REQUIRE(expected["counts"]["holes"] == 2);
+
+  // The right part has its origin elsewhere; points of class 7 fill its hole, points at 0 0 0 have no return.
+  scratch.write("left.csv", header + rows_of(left, 2));
+  scratch.write("right.csv", header + rows_of(right.translated({-512, 1024, 0}), 2) +
+                                 rows_of(plane(8).translated({30 - 512 + 17, 1024 + 6, 1}), 7) +
+                                 "0 0 0 2\n0 0 0 2\n");
+  const auto list = scratch.write("list.txt", "left.csv\nright.csv pose=512 -1024 0 0 0 0 1\n");
+  const json found = report_of({"@" + list, "--classes", "2", "--drop-origin"}, (scratch / "posed").string());
+  CHECK(found["loops"] == expected["loops"]);
+  CHECK(found["counts"]["filtered_out"]["classes"] == 64);
+  CHECK(found["counts"]["filtered_out"]["origin"] == 2);
+  CHECK(found["counts"]["dropped"] == 0);
+  CHECK(found["inputs"][1]["pose"] == json({1, 0, 0, 512, 0, 1, 0, -1024, 0, 0, 1, 0, 0, 0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace lacuna
