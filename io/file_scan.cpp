@@ -23,6 +23,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     const auto reader = open(files_.size() - 1);
     const RowFilter filter(config_, files_.back(), *reader);
     layouts_.push_back(reader->layout());
+    crs_.push_back(reader->crs());
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     expected_rows_.push_back(reader->expected_rows());
     if (expected_points_ && expected_rows_.back()) {
@@ -80,6 +81,12 @@ std::optional<std::uint64_t> FileScan::expected_points() const {
 
 bool FileScan::has_normals() const {
   return has_normals_;
+}
+
+std::string FileScan::common_crs() const {
+  const bool is_common =
+      std::all_of(crs_.begin(), crs_.end(), [&](const auto& crs) { return crs == crs_.front(); });
+  return is_common && !crs_.empty() ? crs_.front() : "";
 }
 
 bool FileScan::single_precision() const {

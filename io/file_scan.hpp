@@ -44,6 +44,10 @@ class FileScan : public PointSource {
   const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
   // Rows that each file's header declares; text files declare none.
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
+  // Of each file; empty where it names none, or has a pose.
+  const std::vector<std::string>& crs() const { return crs_; }
+  // The one that all files share; empty: they differ, or name none.
+  std::string common_crs() const;
   // From its first row on, moved by its pose, without filters.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
   // Of the points read since the last rewind.
@@ -59,6 +63,7 @@ class FileScan : public PointSource {
   InputConfig config_;
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
+  std::vector<std::string> crs_;
   bool has_normals_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;

@@ -58,7 +58,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const ReadOptions options{.columns = config.input.columns};
   FileScan scan(expand_inputs(arguments.scans, options), config.input);
-  for (const std::string& warning : repeated_files(scan.files())) spdlog::warn("{}", warning);
+  for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
 
   const MadeFolder out_folder(arguments.out);
   const fs::path& out = out_folder.path();

@@ -7,6 +7,7 @@
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
@@ -46,6 +47,7 @@ struct InfoArguments {
 struct FileInfo {
   fs::path file;
   std::string format;
+  std::string crs;
   RowLayout layout;
   std::uint64_t points = 0;
 };
@@ -66,7 +68,7 @@ std::uint64_t count_rows(ScanReader& reader) {
 
 FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
   const std::unique_ptr<ScanReader> reader = open_scan(file, options);
-  return {file, reader->format(), reader->layout(), count_rows(*reader)};
+  return {file, reader->format(), reader->crs(), reader->layout(), count_rows(*reader)};
 }
 
 RunInfo estimate_run(FileScan& scan, const Config& config) {
@@ -101,7 +103,9 @@ std::string assumption() {
 void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
-              << print_count(file.points) << "\n  properties ";
+              << print_count(file.points);
+    if (!file.crs.empty()) std::cout << "\n  crs         " << crs_name(file.crs);
+    std::cout << "\n  properties ";
     for (const Property& property : file.layout.properties) {
       std::cout << " " << property.name << " (" << ply_name(property.type) << ")";
     }
@@ -148,6 +152,7 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
     root["files"].push_back({{"file", file.file.string()},
                              {"format", file.format},
                              {"points", file.points},
+                             {"crs", file.crs.empty() ? Json() : Json(file.crs)},
                              {"properties", std::move(properties)}});
   }
   const Summary& summary = run.estimate.summary;

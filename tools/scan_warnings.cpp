@@ -3,6 +3,7 @@
 #include "tools/summary.hpp"
 #include "tools/visible_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -18,17 +19,31 @@ double coarsest_step(const Eigen::AlignedBox3d& bounds) {
   return static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity()) - single);
 }
 
+bool is_repeated(const std::vector<std::filesystem::path>& files, std::size_t i) {
+  return std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& before) {
+    std::error_code error;
+    return std::filesystem::equivalent(files[i], before, error);
+  });
+}
+
 }  // namespace
 
-std::vector<std::string> repeated_files(const std::vector<std::filesystem::path>& scans) {
+std::string crs_name(const std::string& crs) {
+  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
+  return visible(end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1));
+}
+
+std::vector<std::string> input_warnings(const FileScan& scan) {
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      std::error_code error;  // what cannot be opened is another error, later
-      if (!std::filesystem::equivalent(scans[i], scans[j], error)) continue;
-      warnings.push_back(visible(scans[i].string()) + ": given more than once; its points are the same");
-      break;
-    }
+  const auto warn = [&](std::size_t file, const std::string& reason) {
+    warnings.push_back(visible(scan.files()[file].string()) + ": " + reason);
+  };
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    if (is_repeated(scan.files(), i)) warn(i, "given more than once; its points are the same");
+    const std::string &crs = scan.crs()[i], &first = scan.crs().front();
+    if (!crs.empty() && !first.empty() && crs != first)
+      warn(i, "its coordinate reference system is not that of the first file: " + crs_name(crs) + ", not " +
+                  crs_name(first));
   }
   return warnings;
 }

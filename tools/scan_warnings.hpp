@@ -5,14 +5,17 @@
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace lacuna {
 
-// One line for each file that is given more than once, also by another name.
-std::vector<std::string> repeated_files(const std::vector<std::filesystem::path>& scans);
+// The name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
+std::string crs_name(const std::string& crs);
+
+// Before a run: one line for each file that is given more than once, also by another name, and for each whose
+// coordinate reference system is not that of the first.
+std::vector<std::string> input_warnings(const FileScan& scan);
 
 // After a run: too few points for their neighbourhoods, and coordinates that are too coarse for their
 // spacing.

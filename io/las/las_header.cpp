@@ -42,6 +42,8 @@ std::vector<LasExtraBytes> extra_bytes_of(std::span<const std::byte> data) {
   return all;
 }
 
+constexpr std::string_view kProjection = "LASF_Projection";
+
 // A variable length record. Those of other users and numbers are passed over.
 void read_record(InputFile& in, LasHeader& header) {
   std::array<std::byte, kRecordHeader> head;
@@ -54,7 +56,33 @@ void read_record(InputFile& in, LasHeader& header) {
   std::vector<std::byte> data(bytes);
   in.read(data.data(), data.size());
   if (user == "LASF_Spec" && number == 4) header.extra_bytes = extra_bytes_of(data);
+  if (user == kProjection) header.crs.take(number, data);
   if (user == "laszip encoded" && number == 22204) header.laszip = std::move(data);
+}
+
+// Of LAS 1.4, behind the points: `count` records, the first at byte `place`.
+void read_extended_records(const std::filesystem::path& file, std::uint64_t place, std::uint32_t count,
+                           LasHeader& header) {
+  constexpr std::size_t kHead = 60;
+  constexpr std::uint64_t kLongestText = 1 << 20;
+  InputFile in(file, kHead);
+  in.skip(std::min(place, in.remaining()));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::array<std::byte, kHead> head;
+    in.read(head.data(), head.size());
+    const auto number = value_at<std::uint16_t>(head, 18);
+    const auto bytes = value_at<std::uint64_t>(head, 20);
+    if (bytes > in.remaining())
+      in.fail_at_byte(in.position() - kHead, "an extended record of " + std::to_string(bytes) +
+                                                 " bytes goes on beyond the end of the file");
+    if (text_at(head, 2, 16) != kProjection || bytes > kLongestText) {
+      in.skip(bytes);
+      continue;
+    }
+    std::vector<std::byte> data(bytes);
+    in.read(data.data(), data.size());
+    header.crs.take(number, data);
+  }
 }
 
 void check_points(const InputFile& in, const LasHeader& header) {
@@ -122,6 +150,9 @@ LasHeader read_las_header(InputFile& in) {
                       std::to_string(records) + " variable length records do not fit before the first point");
     read_record(in, header);
   }
+  if (minor == 4)
+    read_extended_records(in.file(), value_at<std::uint64_t>(head, 235), value_at<std::uint32_t>(head, 243),
+                          header);
   in.skip(header.points_at - in.position());
   return header;
 }

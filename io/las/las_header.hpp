@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/input_file.hpp"
+#include "io/las/las_crs.hpp"
 
 #include <array>
 #include <cstddef>
@@ -31,12 +32,14 @@ struct LasHeader {
   std::array<double, 3> scale{}, offset{};
   std::vector<LasExtraBytes> extra_bytes;
   std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty: none
+  LasCrs crs;
 };
 
 // Bytes of a point in this format, without extra bytes.
 std::size_t las_point_bytes(int point_format);
 
-// Reads up to `points_at`. Throws `Error` where the header contradicts itself or the file.
+// Reads up to `points_at`; `in` is at the file's beginning. Extended records behind the points are read for
+// the coordinate reference system alone. Throws `Error` where the header contradicts itself or the file.
 LasHeader read_las_header(InputFile& in);
 
 }  // namespace lacuna

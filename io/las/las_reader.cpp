@@ -28,6 +28,7 @@ class LasReader final : public ScanReader {
   }
   const RowLayout& layout() const override { return columns_.layout(); }
   std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
+  std::string crs() const override { return header_.crs.text(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);

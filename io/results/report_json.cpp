@@ -54,6 +54,7 @@ Json inputs(const FileScan& scan) {
     Json file = Json::object();
     file["file"] = scan.files()[i].string();
     if (const auto& pose = scan.poses()[i]) file["pose"] = rows_of(*pose);
+    if (!scan.crs()[i].empty()) file["crs"] = scan.crs()[i];
     const auto& rows = scan.expected_rows()[i];
     file["points"] = rows ? Json(*rows) : Json(nullptr);
     Json::object_t properties;  // names differ, so none is searched for
@@ -112,6 +113,8 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["lacuna"] = LACUNA_VERSION;
   json["parameters"] = parameter_values(config);
   json["inputs"] = inputs(scan);
+  json["crs"] = nullptr;
+  if (const std::string crs = scan.common_crs(); !crs.empty()) json["crs"] = crs;
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
   json["bounds"] = nullptr;
   if (!summary.bounds.isEmpty()) {

@@ -89,6 +89,32 @@ double value(const Table& table, std::size_t row, const std::string& column) {
   return 0;
 }
 
+TEST_CASE("the coordinate reference system comes from records before the points or behind them", "[io]") {
+  const ScratchFolder folder;
+  const std::string name("GEOGCS[\"B\"]");
+  LasFile before{.points = {point(20, 1, 2, 3)}, .records = {record("LASF_Projection", 2112, name)}};
+  CHECK(open_scan(folder.write("before.las", before.bytes()), {})->crs() == name);
+  before.records = {record("other", 2112, name)};
+  CHECK(open_scan(folder.write("other.las", before.bytes()), {})->crs().empty());
+
+  std::string behind = LasFile{.minor = 4, .points = {point(20, 1, 2, 3)}}.bytes();
+  put(behind, 235, static_cast<std::uint64_t>(behind.size()));
+  put<std::uint32_t>(behind, 243, 2);
+  for (const std::string user : {"other", "LASF_Projection"}) {
+    std::string head(60, '\0');
+    std::memcpy(&head[2], user.data(), user.size());
+    put<std::uint16_t>(head, 18, 2112);
+    put<std::uint64_t>(head, 20, name.size());
+    behind += head + name;
+  }
+  const auto file = folder.write("behind.las", behind);
+  CHECK(open_scan(file, {})->crs() == name);
+  CHECK(read_table(file).rows.size() == 1);
+  behind.pop_back();
+  CHECK_THAT(read_error(folder.write("cut.las", behind)),
+             Contains("an extended record of 11 bytes goes on beyond the end of the file"));
+}
+
 TEST_CASE("coordinates of LAS are stored numbers times scale plus offset", "[io]") {
   const ScratchFolder folder;
   LasFile las;

@@ -1,0 +1,45 @@
+#include "io/las/las_crs.hpp"
+
+#include "io/little_endian.hpp"
+
+#include <algorithm>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;                  // numbers of records
+constexpr std::uint16_t kGeographic = 2048, kProjected = 3072, kVertical = 4096;  // GeoTIFF keys
+constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
+
+}  // namespace
+
+void LasCrs::take(std::uint16_t record, std::span<const std::byte> data) {
+  if (record == kGeoKeys) take_keys(data);
+  if (record != kWellKnownText) return;
+  const auto* const first = reinterpret_cast<const char*>(data.data());
+  well_known_text_.assign(first, std::find(first, first + data.size(), '\0'));
+}
+
+// Four numbers of 16 bits for each key: the key, where its value is (0: here), a count, the value.
+void LasCrs::take_keys(std::span<const std::byte> data) {
+  constexpr std::size_t kEntry = 8;
+  for (data = data.subspan(std::min(kEntry, data.size())); data.size() >= kEntry;
+       data = data.subspan(kEntry)) {
+    const auto key = load<std::uint16_t>(&data[0]), place = load<std::uint16_t>(&data[2]);
+    const auto code = load<std::uint16_t>(&data[6]);
+    if (place != 0 || code >= kUserDefined) continue;
+    if (key == kGeographic) geographic_ = code;
+    if (key == kProjected) projected_ = code;
+    if (key == kVertical) vertical_ = code;
+  }
+}
+
+std::string LasCrs::text() const {
+  if (!well_known_text_.empty()) return well_known_text_;
+  const std::uint16_t horizontal = projected_ != 0 ? projected_ : geographic_;
+  if (horizontal == 0) return "";
+  const std::string code = "EPSG:" + std::to_string(horizontal);
+  return vertical_ != 0 ? code + "+" + std::to_string(vertical_) : code;
+}
+
+}  // namespace lacuna

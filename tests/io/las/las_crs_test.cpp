@@ -1,0 +1,59 @@
+#include "io/las/las_crs.hpp"
+
+#include "tests/io/io_support.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Key = std::array<std::uint16_t, 4>;  // key, place, count, value
+
+void take(LasCrs& crs, std::uint16_t record, const std::string& data) {
+  crs.take(record, std::as_bytes(std::span(data)));
+}
+
+std::string geo_keys(const std::vector<Key>& keys) {
+  Bytes bytes;
+  for (const std::uint16_t head : {1, 1, 0, static_cast<int>(keys.size())}) bytes << head;
+  for (const Key& key : keys) {
+    for (const std::uint16_t number : key) bytes << number;
+  }
+  return bytes.str();
+}
+
+std::string crs_of_keys(const std::vector<Key>& keys) {
+  LasCrs crs;
+  take(crs, 34735, geo_keys(keys));
+  return crs.text();
+}
+
+}  // namespace
+
+TEST_CASE("GeoTIFF keys give codes of EPSG, the projected before the geographic, with the vertical") {
+  CHECK(crs_of_keys({}).empty());
+  CHECK(crs_of_keys({{2048, 0, 1, 4258}}) == "EPSG:4258");
+  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}) == "EPSG:25832");
+  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}) == "EPSG:25832+7837");
+  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}) == "EPSG:4258");  // user-defined
+  CHECK(crs_of_keys({{3072, 34736, 1, 5}}).empty());                             // its value is elsewhere
+  CHECK(crs_of_keys({{4096, 0, 1, 7837}}).empty());
+}
+
+TEST_CASE("well-known text counts over keys, up to its first zero") {
+  LasCrs crs;
+  take(crs, 2112, std::string("PROJCS[\"A\"]\0\0", 13));
+  take(crs, 34735, geo_keys({{3072, 0, 1, 25832}}));
+  CHECK(crs.text() == "PROJCS[\"A\"]");
+}
+
+TEST_CASE("keys that are cut are passed over") {
+  const std::string keys = geo_keys({{3072, 0, 1, 25832}, {4096, 0, 1, 7837}});
+  for (std::size_t length = 0; length < keys.size(); ++length) {
+    LasCrs crs;
+    take(crs, 34735, keys.substr(0, length));
+    CHECK(crs.text() == (length < 16 ? "" : "EPSG:25832"));
+  }
+}
+
+}  // namespace lacuna::test
