@@ -165,11 +165,12 @@ E57Columns e57_columns(const PagedFile& pages, const E57Header& header) {
 E57ScanColumns e57_scan_columns(const E57Scan& scan, const E57Columns& columns) {
   E57ScanColumns result{.is_spherical = &position_names(scan) == &kSpherical,
                         .has_normals = normal_names(scan) != nullptr};
+  const std::string_view invalid_state = invalid_state_name(scan);
   std::vector<bool> is_given(columns.layout.properties.size());
   is_given.back() = true;  // scan
   for (const FieldColumn& column : field_columns(scan)) {
     const std::size_t property = columns.ranks.at(column.name);
-    if (scan.fields[result.fields.size()].name == invalid_state_name(scan)) result.invalid_state = property;
+    if (scan.fields[result.fields.size()].name == invalid_state) result.invalid_state = property;
     result.fields.push_back({.property = property, .added = column.added});
     is_given[property] = true;
   }
