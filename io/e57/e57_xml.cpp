@@ -59,10 +59,13 @@ T number(const Xml& xml, pugi::xml_node node, const char* name, std::optional<T>
 double element_value(const Xml& xml, pugi::xml_node node) {
   const std::string_view type = node.attribute("type").value();
   const std::string text = text_of(node);
+  const std::string_view digits = trimmed(text);
   double value = 0;
-  if ((type == "Float" || type == "Integer") && (trimmed(text).empty() || parse_number(trimmed(text), value)))
-    return value;
-  xml.fail(node, in_quotes(node.name()) + " must be a Float with a number");
+  const bool is_number = (digits.empty() || parse_number(digits, value)) && std::isfinite(value);
+  if ((type != "Float" && type != "Integer") || !is_number) {
+    xml.fail(node, in_quotes(node.name()) + " of a pose must be a Float with a finite number");
+  }
+  return value;
 }
 
 E57Field read_field(const Xml& xml, pugi::xml_node node) {

@@ -38,6 +38,7 @@ std::size_t FieldStream::ready(std::size_t most) const {
 }
 
 void FieldStream::append(std::span<const std::byte> bytes) {
+  if (field_.bits == 0) return;  // nothing takes them
   const auto taken = static_cast<std::size_t>(begin_bit_ / 8);
   const std::size_t kept = end_ - taken;
   if (taken >= kept) {  // so that each byte is moved once on average

@@ -332,6 +332,11 @@ TEST_CASE("what E57 may hold but is not read is named", "[e57]") {
   CHECK(folder.error({scan}).empty());
   scan.pose = e57_pose({0, 0, 0, 0}, {0, 0, 0});
   CHECK_THAT(folder.error({scan}), Contains("a quaternion must have the length 1"));
+  scan.pose = e57_pose({1, 0, 0, 0}, {0, NAN, 0});
+  const std::string error = folder.error({scan});
+  CHECK_THAT(error, Contains("'y' of a pose must be a Float with a finite number"));
+  const std::size_t byte = std::stoul(error.substr(error.find("byte ") + 5));
+  CHECK(read_file(folder.folder / "a.e57").substr(byte, 20) == "y type=\"Float\">nan</");
   CHECK_THAT(folder.error({{.fields = {e57_floats("cartesianX", {1}), e57_floats("cartesianY", {1})}}}),
              Contains("scan 0: its points have no position"));
   E57TestScan many = one_point();
