@@ -303,6 +303,7 @@ TEST_CASE("what is wrong in E57 is said with its place", "[e57]") {
   CHECK_THAT(patched(packet + 2, std::uint16_t{999}), Contains("byte 96: scan 0: a packet of 1000 bytes"));
   CHECK_THAT(patched(packet + 4, std::uint16_t{2}), Contains("a packet of 2 fields; its points have 3"));
   CHECK_THAT(patched(packet + 6, std::uint16_t{999}), Contains("longer than its 24 bytes"));
+  CHECK_THAT(patched(packet + 10, std::uint16_t{5}), Contains("longer than its 24 bytes"));
   CHECK_THAT(patched(packet, std::uint8_t{2}), Contains("its packets end here, 1 points too early"));
 }
 
@@ -368,6 +369,19 @@ TEST_CASE("points of E57 without bits are all the same, however many", "[e57]") 
   CHECK(table.rows.back() == Row{7, 3.5, 7, 0});
 }
 
+TEST_CASE("bytes of E57 that wait for those of other fields are few, and fields without bits need none",
+          "[e57]") {
+  const E57Folder folder;
+  const std::vector<std::int64_t> flags(2000, 1);
+  const std::vector<float> x(2000, 1.5f);
+  E57TestScan scan{.fields = position(x, x, x), .packets = 200};
+  scan.fields.push_back(e57_integers("isColorInvalid", 0, 1, flags));
+  scan.fields.back().bytes.resize(std::size_t{9} << 20);
+  CHECK_THAT(folder.error({scan}), Contains("scan 0: values of the same point are too far apart"));
+  scan.fields.back().attributes = "type=\"Integer\" minimum=\"1\" maximum=\"1\"";
+  CHECK(column(folder.read({scan}), "is_color_invalid") == Row(2000, 1.0));
+}
+
 // Two scans of a few packets, of all types.
 std::string small_file() {
   Random random(8);
@@ -390,11 +404,14 @@ TEST_CASE("E57 that is cut short anywhere is an error", "[e57]") {
   const std::string whole = small_file();
   REQUIRE(read_error(folder.write(whole)).empty());
   std::size_t silent = 0;
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    const std::string error = read_error(folder.write(whole.substr(0, length)));
+  const std::string file = folder.write(whole);
+  for (std::size_t length = whole.size(); length-- > 0;) {
+    std::filesystem::resize_file(file, length);
+    const std::string error = read_error(file);
     silent += error.empty() || error.find('\n') != std::string::npos;
-    // The same with a header that states the length.
-    if (length % kPage != 0 || length == 0) continue;
+  }
+  // With a header that states the length.
+  for (std::size_t length = kPage; length < whole.size(); length += kPage) {
     std::string consistent = whole.substr(0, length);
     store(reinterpret_cast<std::byte*>(&consistent[16]), std::uint64_t{length});
     repair_e57_checksums(consistent);
