@@ -8,6 +8,7 @@
 #include <limits>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
 namespace lacuna {
 namespace {

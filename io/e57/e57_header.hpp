@@ -46,7 +46,7 @@ struct E57Header {
 
 // Throws `Error` unless the version is 1.0, the sizes hold and the scans can be read. The number of records
 // of each is at most 2^40, and no more than the file could hold unless a record has no bits.
-// Memory: in proportion to the XML section, which may have up to 64 MiB and be no larger than the file.
+// Memory: up to 17 times the XML section, which may have up to 64 MiB and be no larger than the file.
 E57Header read_e57_header(const std::filesystem::path& file);
 
 // The scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of `pages`.

@@ -20,8 +20,7 @@ struct E57Rows {
 // beyond 1e6. The same bytes on every machine. Error: 1e-15 times the range.
 void spherical_to_cartesian(E57Rows rows);
 
-// Moves positions by the pose. A point exactly at the scanner stands for a ray without a return, and becomes
-// NaN.
+// Moves positions by the pose. A point exactly at the scanner is a ray without a return, and becomes NaN.
 void place_points(E57Rows rows, const E57Pose& pose);
 
 // Turns normals by the pose; columns of floats or doubles.

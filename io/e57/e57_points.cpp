@@ -30,8 +30,8 @@ E57Points::E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number)
   }
   const auto length = load<std::uint64_t>(&head[8]);
   if (length < kSectionHeader || length > pages_.size() - begin) {
-    fail(begin, "the section of its points has " + std::to_string(length) +
-                    " bytes; the file has room for 32 to " + std::to_string(pages_.size() - begin));
+    fail(begin, "the section of its points has " + std::to_string(length) + " bytes; 32 to " +
+                    std::to_string(pages_.size() - begin) + " are possible here");
   }
   end_ = begin + length;
   pages_.seek(load<std::uint64_t>(&head[16]), name);

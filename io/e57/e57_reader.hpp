@@ -14,8 +14,9 @@ namespace lacuna {
 
 bool looks_like_e57(const FileStart& start);
 
-// Read front to back in bounded memory: a few MiB, the XML section and the batch. Only pages that are read
-// have their checksums checked. Cost: linear, about 25 ns a point (Cartesian, single precision).
+// Read front to back in bounded memory: a few MiB, what the scans are, and the batch. Only pages that are
+// read have their checksums checked. Flags of packets are ignored, as libE57Format does. Cost: linear. A
+// point of three floats takes about 10 ns, half of them for the checksums; a spherical one takes 50 ns.
 std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna

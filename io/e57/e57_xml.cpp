@@ -1,6 +1,7 @@
 #include "io/e57/e57_header.hpp"
 #include "io/number.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

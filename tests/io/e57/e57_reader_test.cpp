@@ -1,3 +1,4 @@
+#include "io/e57/e57_header.hpp"
 #include "io/little_endian.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/draws.hpp"
@@ -358,6 +359,16 @@ TEST_CASE("an XML section of E57 with entities or elements without end is an err
   CHECK(folder.read({one_point()}, {.root = "<x>&lol9;&#0;</x>"}).rows.size() == 1);
 }
 
+TEST_CASE("the coordinate system of E57 is kept as it is written", "[e57]") {
+  const E57Folder folder;
+  const auto metadata = [&](const std::string& root) {
+    return read_e57_header(folder.write(encode_e57({one_point()}, {.root = root}))).coordinate_metadata;
+  };
+  CHECK(metadata("").empty());
+  CHECK(metadata("<coordinateMetadata type=\"String\"><![CDATA[PROJCS[\"a\",]]]]><![CDATA[>]]>&lt;"
+                 "</coordinateMetadata>") == "PROJCS[\"a\",]]><");
+}
+
 TEST_CASE("points of E57 without bits are all the same, however many", "[e57]") {
   const E57Folder folder;
   std::vector<std::int64_t> same(100000, 7);
@@ -369,8 +380,7 @@ TEST_CASE("points of E57 without bits are all the same, however many", "[e57]") 
   CHECK(table.rows.back() == Row{7, 3.5, 7, 0});
 }
 
-TEST_CASE("bytes of E57 that wait for those of other fields are few, and fields without bits need none",
-          "[e57]") {
+TEST_CASE("bytes of E57 held for other fields are few, and fields without bits need none", "[e57]") {
   const E57Folder folder;
   const std::vector<std::int64_t> flags(2000, 1);
   const std::vector<float> x(2000, 1.5f);
