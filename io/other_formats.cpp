@@ -17,7 +17,6 @@ constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert 
 constexpr std::string_view kUnpack = "unpack it first";
 
 constexpr std::array kOtherFormats = {
-    OtherFormat{"ASTM-E57"sv, "E57", kConvert},
     OtherFormat{"\x1f\x8b"sv, "a file packed by gzip", kUnpack},
     OtherFormat{"BZh"sv, "a file packed by bzip2", kUnpack},
     OtherFormat{"\xfd\x37zXZ"sv, "a file packed by xz", kUnpack},

@@ -1,5 +1,6 @@
 #include "io/scan_reader.hpp"
 
+#include "io/e57/e57_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
@@ -24,10 +25,15 @@ struct Format {
 
 // Tried in this order: those with a name of their own at the beginning come first.
 constexpr std::array kFormats = {
-    Format{"PLY", looks_like_ply, open_ply}, Format{"LAS", looks_like_las, open_las},
-    Format{"PCD", looks_like_pcd, open_pcd}, Format{"STL", looks_like_stl, open_stl},
-    Format{"OBJ", looks_like_obj, open_obj}, Format{"OFF", looks_like_off, open_off},
-    Format{"PTX", looks_like_ptx, open_ptx}, Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+    Format{"PLY", looks_like_ply, open_ply},
+    Format{"LAS", looks_like_las, open_las},
+    Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"E57", looks_like_e57, open_e57},
+    Format{"STL", looks_like_stl, open_stl},
+    Format{"OBJ", looks_like_obj, open_obj},
+    Format{"OFF", looks_like_off, open_off},
+    Format{"PTX", looks_like_ptx, open_ptx},
+    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
 constexpr std::size_t kFirstBytes = 4096;

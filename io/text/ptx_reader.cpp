@@ -2,6 +2,7 @@
 
 #include "io/input_file.hpp"
 #include "io/number.hpp"
+#include "io/pose.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -94,7 +95,8 @@ class PtxReader final : public ScanReader {
     for (int i = 0; i < 4; ++i) read_values(3);  // the scanner's place and axes, which the matrix has too
     for (std::size_t i = 0; i < 4; ++i) {
       read_values(4);
-      std::copy_n(line_.begin(), 4, matrix_[i].begin());
+      pose_.matrix().col(static_cast<Eigen::Index>(i)) =
+          Eigen::Vector4d::Map(line_.data());  // of row vectors
     }
     left_ = columns * rows;
     ++scan_;
@@ -138,14 +140,9 @@ class PtxReader final : public ScanReader {
 
   void put_ray(std::byte* to) const {
     const bool is_return = line_[0] != 0 || line_[1] != 0 || line_[2] != 0;
-    std::array<double, 3> place;
-    place.fill(std::numeric_limits<double>::quiet_NaN());
-    if (is_return) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        place[axis] = line_[0] * matrix_[0][axis] + line_[1] * matrix_[1][axis] +
-                      line_[2] * matrix_[2][axis] + matrix_[3][axis];
-      }
-    }
+    const Eigen::Vector3d place = is_return
+                                      ? pose_ * Eigen::Vector3d(line_[0], line_[1], line_[2])
+                                      : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     const auto put = [&](auto value) {
       std::memcpy(to, &value, sizeof value);
       to += sizeof value;
@@ -159,7 +156,7 @@ class PtxReader final : public ScanReader {
 
   InputFile in_;
   RowLayout layout_;
-  std::array<std::array<double, 4>, 4> matrix_{};
+  Pose pose_;
   std::uint64_t left_ = 0;   // rays of the block not yet read
   std::uint32_t scan_ = 0;   // blocks begun
   std::size_t values_ = 4;   // of each ray

@@ -48,8 +48,9 @@ TEST_CASE("a format is known by its first bytes, not by its name", "[io]") {
 TEST_CASE("a format that is known but not read is named, with a way out", "[io]") {
   const ScratchFolder folder;
   const auto error = [&](const std::string& bytes) { return read_error(folder.write("a.bin", bytes)); };
-  CHECK_THAT(error("ASTM-E57\1\0\0\0"),
-             Catch::Matchers::Contains("byte 0: this is E57, which is not read; CloudCompare"));
+  CHECK_THAT(
+      error("CCB2\1\0\0\0"),
+      Catch::Matchers::Contains("byte 0: this is CloudCompare's BIN, which is not read; CloudCompare"));
   CHECK_THAT(error("\x1f\x8b\x08"),
              Catch::Matchers::Contains("packed by gzip") && Catch::Matchers::Contains("unpack it first"));
   CHECK_THAT(error("# vtk DataFile Version 3.0\n"), Catch::Matchers::Contains("VTK"));

@@ -1,0 +1,49 @@
+// What an E57 file says of itself: its header, and the XML section that describes its scans. ASTM E2807-11.
+#pragma once
+
+#include "io/e57/paged_file.hpp"
+#include "io/pose.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// One element of the prototype of a scan's points.
+struct E57Field {
+  enum class Type : std::uint8_t { kFloat32, kFloat64, kInteger, kScaledInteger };
+  std::string name;  // as in the file, with the prefix of its extension
+  Type type = Type::kFloat64;
+  unsigned bits = 64;            // of a value; 0: each is the minimum
+  std::int64_t minimum = 0;      // of integers, which are stored less this
+  double scale = 1, offset = 0;  // a scaled integer i stands for i * scale + offset
+
+  bool operator==(const E57Field&) const = default;
+};
+
+// An entry of data3D.
+struct E57Scan {
+  std::uint64_t points_at = 0;  // physical offset of the section of its points
+  std::uint64_t records = 0;
+  std::vector<E57Field> fields;  // in the order of their bytestreams; none where there are no records
+  Pose pose = Pose::Identity();
+};
+
+struct E57Header {
+  std::size_t page_bytes = 0;
+  std::string coordinate_metadata;  // the coordinate system as WKT; empty: not stated
+  std::vector<E57Scan> scans;
+};
+
+// Throws `Error` unless the version is 1.0, the sizes hold and the scans can be read. The number of records
+// of each is at most 2^40, and no more than the file could hold unless a record has no bits.
+// Memory: up to 17 times the XML section, which may have up to 16 MiB and be no larger than the file.
+E57Header read_e57_header(const std::filesystem::path& file);
+
+// The scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of `pages`.
+void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header);
+
+}  // namespace lacuna

@@ -1,0 +1,32 @@
+// Points and normals of an E57 scan, from its own coordinates to those of the file.
+#pragma once
+
+#include "io/pose.hpp"
+#include "io/scalar.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace lacuna {
+
+// A row begins with three doubles: the position, as it is in the scan.
+struct E57Rows {
+  std::byte* data;
+  std::size_t stride;
+  std::size_t count;
+};
+
+// Range, azimuth and elevation, the angles in radians, become x y z. NaN where an angle is not finite or
+// beyond 1e6. The same bytes on every machine. Error: 1e-15 times the range.
+void spherical_to_cartesian(E57Rows rows);
+
+// Moves positions by the pose. A point exactly at the scanner is a ray without a return, and becomes NaN.
+void place_points(E57Rows rows, const Pose& pose);
+
+// Turns normals by the pose; columns of floats or doubles.
+void turn_normals(std::array<Column, 3> normals, std::size_t count, const Pose& pose);
+
+// NaN as the position of each row with a state other than 0: 1 is a direction alone, 2 nothing.
+void drop_invalid(E57Rows rows, ConstColumn state);
+
+}  // namespace lacuna

@@ -1,0 +1,105 @@
+#include "io/e57/e57_points.hpp"
+
+#include "io/little_endian.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kSectionHeader = 32, kPacketHeader = 4, kDataHeader = 6;
+constexpr std::size_t kMostHeld = std::size_t{8} << 20;
+
+enum PacketType : std::uint8_t { kIndex = 0, kData = 1, kEmpty = 2 };
+
+}  // namespace
+
+E57Points::E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number)
+    : pages_(pages), number_(number), left_(scan.records) {
+  for (const E57Field& field : scan.fields) streams_.emplace_back(field);
+  const std::string name = "the points of scan " + std::to_string(number);
+  pages_.seek(scan.points_at, name);
+  const std::uint64_t begin = pages_.position();
+  std::array<std::byte, kSectionHeader> head;
+  pages_.read(head.data(), head.size());
+  if (load<std::uint8_t>(head.data()) != 1) {
+    fail(begin, "its points begin with " + std::to_string(load<std::uint8_t>(head.data())) +
+                    "; 1 is needed, the mark of a section of points");
+  }
+  const auto length = load<std::uint64_t>(&head[8]);
+  if (length < kSectionHeader || length > pages_.size() - begin) {
+    fail(begin, "the section of its points has " + std::to_string(length) + " bytes; 32 to " +
+                    std::to_string(pages_.size() - begin) + " are possible here");
+  }
+  end_ = begin + length;
+  pages_.seek(load<std::uint64_t>(&head[16]), name);
+  if (pages_.position() < begin + kSectionHeader || pages_.position() > end_) {
+    fail(begin, "its first packet is not in the section of its points");
+  }
+}
+
+std::size_t E57Points::ready(std::size_t most) {
+  for (;;) {
+    auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, left_));
+    for (const FieldStream& stream : streams_) count = stream.ready(count);
+    if (count > 0 || left_ == 0) return count;
+    read_packet();
+  }
+}
+
+void E57Points::read_packet() {
+  const std::uint64_t place = pages_.position();
+  if (end_ - place < kPacketHeader) {
+    fail(place, "its packets end here, " + std::to_string(left_) + " points too early");
+  }
+  packet_.resize(kPacketHeader);
+  pages_.read(packet_.data(), kPacketHeader);
+  const auto type = load<std::uint8_t>(packet_.data());
+  const std::size_t bytes = load<std::uint16_t>(&packet_[2]) + std::size_t{1};
+  if (type > kEmpty) {
+    fail(place, "a packet of type " + std::to_string(type) + "; known are 0 to 2");
+  }
+  if (bytes < kPacketHeader || bytes > end_ - place) {
+    fail(place, "a packet of " + std::to_string(bytes) + " bytes; 4 to " + std::to_string(end_ - place) +
+                    " are possible here");
+  }
+  if (type == kData) {
+    read_data(place, bytes);
+  } else {
+    pages_.skip(bytes - kPacketHeader);
+  }
+}
+
+void E57Points::read_data(std::uint64_t place, std::size_t bytes) {
+  packet_.resize(bytes);
+  pages_.read(packet_.data() + kPacketHeader, bytes - kPacketHeader);
+  const std::size_t fields = bytes < kDataHeader ? 0 : load<std::uint16_t>(&packet_[kPacketHeader]);
+  if (fields != streams_.size()) {
+    fail(place, "a packet of " + std::to_string(fields) + " fields; its points have " +
+                    std::to_string(streams_.size()));
+  }
+  std::size_t at = kDataHeader + 2 * fields;
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < fields; ++i) {
+    const std::size_t length =
+        at > bytes ? bytes : load<std::uint16_t>(&packet_[kDataHeader + 2 * i]);  // fails below
+    if (at + length > bytes) {
+      fail(place, "the fields of a packet are longer than its " + std::to_string(bytes) + " bytes");
+    }
+    streams_[i].append(std::span(packet_).subspan(at, length));
+    at += length;
+    held += streams_[i].held_bytes();
+  }
+  if (held > kMostHeld) {
+    fail(place, "values of the same point are too far apart; up to " + std::to_string(kMostHeld) +
+                    " bytes may be between them");
+  }
+}
+
+void E57Points::fail(std::uint64_t place, const std::string& reason) const {
+  pages_.fail(place, "scan " + std::to_string(number_) + ": " + reason);
+}
+
+}  // namespace lacuna

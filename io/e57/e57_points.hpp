@@ -1,0 +1,50 @@
+// The points of one E57 scan, front to back.
+//
+// Its section begins with 32 bytes: a 1, 7 bytes of zero, the section's length, the offsets of its data and
+// of its index. Packets follow. Each begins with its type, flags and its length less 1, in 1, 1 and 2 bytes.
+// A data packet, type 1, has the number of fields in 2 bytes, the length of each field's part in 2 bytes, and
+// the parts. Packets of an index, type 0, and empty ones, type 2, are passed over. ASTM E2807-11.
+#pragma once
+
+#include "io/e57/e57_header.hpp"
+#include "io/e57/field_stream.hpp"
+#include "io/e57/paged_file.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// Holds one packet, and the values of fields that come before those of the others: at most 8 MiB of them.
+class E57Points {
+ public:
+  // `number`: of the scan in the file. Throws `Error` unless the section of its points can be read.
+  E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number);
+
+  std::uint64_t left() const { return left_; }
+
+  // How many points can be taken, at least 1 and at most `most`, while points are left. Reads packets for
+  // them. Throws `Error` where these are damaged or end too early.
+  std::size_t ready(std::size_t most);
+  // The values of a field for the next `count` points, which are ready. Once for each field, then `pass`.
+  void take(std::size_t field, std::size_t count, Column to, std::int64_t added) {
+    streams_[field].take(count, to, added);
+  }
+  void pass(std::size_t count) { left_ -= count; }
+
+ private:
+  void read_packet();
+  void read_data(std::uint64_t place, std::size_t bytes);
+  [[noreturn]] void fail(std::uint64_t place, const std::string& reason) const;
+
+  PagedFile& pages_;
+  std::size_t number_;
+  std::uint64_t left_;
+  std::uint64_t end_ = 0;  // of the section, logical
+  std::vector<FieldStream> streams_;
+  std::vector<std::byte> packet_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,115 @@
+#include "io/e57/e57_reader.hpp"
+
+#include "io/e57/e57_columns.hpp"
+#include "io/e57/e57_header.hpp"
+#include "io/e57/e57_place.hpp"
+#include "io/e57/e57_points.hpp"
+#include "io/little_endian.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
+constexpr std::size_t kMostRows = std::size_t{1} << 16;
+constexpr std::size_t kTogether = 512;  // rows that stay in the cache while field after field is filled
+
+class E57Reader final : public ScanReader {
+ public:
+  explicit E57Reader(const std::filesystem::path& file)
+      : header_(read_e57_header(file)),
+        pages_(file, header_.page_bytes),
+        columns_(e57_columns(pages_, header_)) {}
+
+  std::string format() const override {
+    const std::size_t scans = header_.scans.size();
+    return "E57 1.0, " + std::to_string(scans) + (scans == 1 ? " scan" : " scans");
+  }
+  const RowLayout& layout() const override { return columns_.layout; }
+  std::optional<std::uint64_t> expected_rows() const override {
+    std::uint64_t rows = 0;
+    for (const E57Scan& scan : header_.scans) rows += scan.records;
+    return rows;
+  }
+
+  std::string crs() const override { return header_.coordinate_metadata; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t stride = columns_.layout.stride;
+    const std::size_t rows = std::min({max_rows, kMostRows, std::max<std::size_t>(1, kBatchBytes / stride)});
+    batch.bytes.resize(rows * stride);
+    batch.count = 0;
+    while (batch.count < rows && begin_scan()) {
+      const std::size_t count = points_->ready(std::min(rows - batch.count, kTogether));
+      put({.data = batch.bytes.data() + batch.count * stride, .stride = stride, .count = count});
+      points_->pass(count);
+      batch.count += count;
+    }
+    batch.bytes.resize(batch.count * stride);
+    return batch.count > 0;
+  }
+
+ private:
+  // To a scan with points left; false at the end.
+  bool begin_scan() {
+    while (!points_ || points_->left() == 0) {
+      if (next_scan_ == header_.scans.size()) return false;
+      const E57Scan& scan = header_.scans[next_scan_++];
+      if (scan.records == 0) continue;
+      points_.emplace(pages_, scan, next_scan_ - 1);
+      scan_columns_ = e57_scan_columns(scan, columns_);
+    }
+    return true;
+  }
+
+  void put(E57Rows rows) {
+    const auto column = [&](std::size_t rank) {
+      const Property& property = columns_.layout.properties[rank];
+      return Column{.data = rows.data + property.offset, .stride = rows.stride, .type = property.type};
+    };
+    for (std::size_t i = 0; i < scan_columns_.fields.size(); ++i) {
+      const auto& [property, added] = scan_columns_.fields[i];
+      points_->take(i, rows.count, column(property), added);
+    }
+    for (const std::size_t property : scan_columns_.missing) fill_missing(column(property), rows.count);
+    const Pose& pose = header_.scans[next_scan_ - 1].pose;
+    if (scan_columns_.is_spherical) spherical_to_cartesian(rows);
+    place_points(rows, pose);
+    if (scan_columns_.invalid_state) {
+      const Column state = column(*scan_columns_.invalid_state);
+      drop_invalid(rows, {.data = state.data, .stride = state.stride, .type = state.type});
+    }
+    if (scan_columns_.has_normals) {
+      const auto rank = [&](const char* name) { return columns_.ranks.at(name); };
+      turn_normals({column(rank("nx")), column(rank("ny")), column(rank("nz"))}, rows.count, pose);
+    }
+    const Column scan = column(columns_.layout.properties.size() - 1);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      store(scan.data + i * scan.stride, static_cast<std::uint32_t>(next_scan_ - 1));
+    }
+  }
+
+  E57Header header_;
+  PagedFile pages_;
+  E57Columns columns_;
+  std::size_t next_scan_ = 0;
+  std::optional<E57Points> points_;  // of the scan before the next one
+  E57ScanColumns scan_columns_;
+};
+
+}  // namespace
+
+bool looks_like_e57(const FileStart& start) {
+  return start.first_bytes.starts_with("ASTM-E57");
+}
+
+std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions&) {
+  return std::make_unique<E57Reader>(file);
+}
+
+}  // namespace lacuna

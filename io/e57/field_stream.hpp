@@ -1,0 +1,41 @@
+// The bytes of one field of an E57 scan, as its packets bring them, and the values that they hold.
+//
+// Values follow each other bit by bit, from the lowest bit of a byte on, without regard to bytes or packets.
+// An integer is stored less its minimum, in as many bits as its maximum needs. ASTM E2807-11, bitPackCodec.
+#pragma once
+
+#include "io/e57/e57_header.hpp"
+#include "io/scalar.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+
+class FieldStream {
+ public:
+  explicit FieldStream(E57Field field) : field_(std::move(field)) {}
+
+  // The values that can be taken, at most `most`.
+  std::size_t ready(std::size_t most) const;
+  std::size_t held_bytes() const { return static_cast<std::size_t>(held_bits() / 8); }
+
+  // Adds bytes behind those held. Cost: linear, whatever is held.
+  void append(std::span<const std::byte> bytes);
+  // The next `count` values, which must be ready. `to` has a type that holds them; integers of more than 32
+  // bits and scaled integers become doubles. `added` is added to integers.
+  void take(std::size_t count, Column to, std::int64_t added = 0);
+
+ private:
+  std::uint64_t held_bits() const { return end_ * std::uint64_t{8} - begin_bit_; }
+
+  E57Field field_;
+  std::vector<std::byte> bytes_;  // with padding, so that a value can be loaded as whole words
+  std::size_t end_ = 0;           // of those held
+  std::uint64_t begin_bit_ = 0;   // of the next value
+};
+
+}  // namespace lacuna
