@@ -1,0 +1,73 @@
+// How fast each format is read from the page cache, as the engine reads it: positions, in batches. Counters:
+// points and bytes of the file per second.
+#include "bench/sample.hpp"
+#include "bench/scan_files.hpp"
+#include "io/file_scan.hpp"
+#include "io/temporary_folder.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint32_t kPoints = 2'000'000;
+
+const std::filesystem::path& folder() {
+  static const TemporaryFolder made(std::filesystem::temp_directory_path(), "lacuna-formats-");
+  return made.path();
+}
+
+const PointBatch& sample() {
+  static const PointBatch batch = sample_surface(kPoints, SampleOrder::kScanline);
+  return batch;
+}
+
+std::uint64_t read_positions(FileScan& scan) {
+  std::uint64_t points = 0;
+  scan.rewind();
+  for (PointBatch batch; scan.next(batch);) {
+    points += batch.size();
+    benchmark::DoNotOptimize(batch.positions.data());
+  }
+  return points;
+}
+
+void read_format(benchmark::State& state, const SampleFormat& format) {
+  const auto file = folder() / ("sample." + std::string(format.ending));
+  format.write(sample(), file);
+  FileScan scan({file}, {});
+  const auto threads = static_cast<int>(state.range(0));
+  tbb::task_arena arena(threads);
+  std::uint64_t points = 0;
+  arena.execute([&] {
+    for (auto _ : state) points = read_positions(scan);
+  });
+  state.SetItemsProcessed(static_cast<std::int64_t>(points) * state.iterations());
+  state.SetBytesProcessed(static_cast<std::int64_t>(std::filesystem::file_size(file)) * state.iterations());
+  std::filesystem::remove(file);
+}
+
+void register_formats() {
+  for (const SampleFormat& format : sample_formats()) {
+    benchmark::RegisterBenchmark(format.name,
+                                 [&format](benchmark::State& state) { read_format(state, format); })
+        ->ArgName("threads")
+        ->Arg(1)
+        ->Arg(2)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna
+
+int main(int argc, char** argv) {
+  lacuna::register_formats();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
