@@ -106,12 +106,20 @@ void InputFile::skip(std::uint64_t count) {
   end_position_ = target;
 }
 
+void InputFile::accept_lone_returns() {
+  constexpr std::size_t kLongestFirstLine = 4096;
+  const std::string_view start = peek(kLongestFirstLine);
+  const std::size_t end = start.find_first_of("\r\n");
+  if (end != std::string_view::npos && start[end] == '\r' && !start.substr(end + 1).starts_with('\n'))
+    line_end_ = '\r';
+}
+
 std::optional<std::string_view> InputFile::next_line() {
   std::size_t searched = 0;
   for (;;) {
     const char* start = buffer_.data() + begin_;
     const std::size_t have = end_ - begin_;
-    const void* found = std::memchr(start + searched, '\n', have - searched);
+    const void* found = std::memchr(start + searched, line_end_, have - searched);
     if (found == nullptr) {
       searched = have;
       if (have == buffer_.size()) {
@@ -131,7 +139,7 @@ std::optional<std::string_view> InputFile::next_line() {
 
 void InputFile::pass_blanks() {
   do {
-    while (begin_ < end_ && is_blank(buffer_[begin_])) ++begin_;
+    while (begin_ < end_ && buffer_[begin_] != line_end_ && is_blank(buffer_[begin_])) ++begin_;
   } while (begin_ == end_ && fill());
 }
 
@@ -139,7 +147,7 @@ bool InputFile::next_row() {
   for (;;) {
     pass_blanks();
     if (begin_ == end_) return false;
-    if (buffer_[begin_] != '\n') return true;
+    if (buffer_[begin_] != line_end_) return true;
     ++begin_;
     ++line_;
   }
@@ -151,7 +159,7 @@ std::optional<std::string_view> InputFile::next_word() {
   for (;;) {
     const char* start = buffer_.data() + begin_;
     const std::size_t have = end_ - begin_;
-    while (length < have && !is_blank(start[length]) && start[length] != '\n') ++length;
+    while (length < have && !is_blank(start[length]) && start[length] != line_end_) ++length;
     if (length < have || have == buffer_.size() || !fill()) break;
   }
   if (length == 0) return std::nullopt;
@@ -162,7 +170,7 @@ std::optional<std::string_view> InputFile::next_word() {
 
 bool InputFile::end_row() {
   pass_blanks();
-  if (begin_ < end_ && buffer_[begin_] != '\n') return false;
+  if (begin_ < end_ && buffer_[begin_] != line_end_) return false;
   if (begin_ < end_) ++begin_;
   ++line_;
   return true;

@@ -33,6 +33,10 @@ class InputFile {
   void read(std::byte* to, std::size_t count);
   void skip(std::uint64_t count);
 
+  // Lines end with a carriage return alone if the first one does. Must be called at the beginning of the
+  // file.
+  void accept_lone_returns();
+
   // The next line without its end (LF or CR LF), valid until the next call; none at the end of the file.
   std::optional<std::string_view> next_line();
 
@@ -59,6 +63,7 @@ class InputFile {
   std::size_t end_ = 0;
   std::uint64_t end_position_ = 0;  // in the file, of the buffer's end
   std::uint64_t line_ = 0;
+  char line_end_ = '\n';
 };
 
 inline constexpr std::string_view kBlanks = " \t\r\n\v\f";

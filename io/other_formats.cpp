@@ -16,6 +16,8 @@ struct OtherFormat {
 constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
 constexpr std::string_view kUnpack = "unpack it first";
 
+constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
+
 constexpr std::array kOtherFormats = {
     OtherFormat{"\x1f\x8b"sv, "a file packed by gzip", kUnpack},
     OtherFormat{"BZh"sv, "a file packed by bzip2", kUnpack},
@@ -30,6 +32,8 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
                 "`git lfs pull` fetches the file itself"},
     OtherFormat{"<?xml"sv, "XML", kConvert},
+    OtherFormat{"\xff\xfe"sv, "text in UTF-16", kSaveAsUtf8},
+    OtherFormat{"\xfe\xff"sv, "text in UTF-16", kSaveAsUtf8},
     OtherFormat{"<!DOCTYPE"sv, "a web page", "a download may have failed"},
     OtherFormat{"<html"sv, "a web page", "a download may have failed"},
 };

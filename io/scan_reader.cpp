@@ -50,6 +50,12 @@ const Format* find_format(const FileStart& start) {
   return nullptr;
 }
 
+// A binary STL has no beginning of its own, and is recognised by its size.
+bool is_named_stl(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".stl" || ending == ".STL";
+}
+
 std::string format_names() {
   std::string names;
   for (const Format& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
@@ -73,6 +79,7 @@ std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const R
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
   if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);
   if (const Format* const format = find_format(start)) return format->open(file, options);
+  if (is_named_stl(file)) return open_stl(file, options);  // says which size it must have
   in.fail_at_byte(
       0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }

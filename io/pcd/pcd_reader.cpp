@@ -51,9 +51,7 @@ class PcdReader final : public ScanReader {
     batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
     batch.bytes.resize(batch.count * layout_.stride);
     if (batch.count == 0) {
-      // PCL reserves more than the compressed block needs, and leaves the rest zero.
-      const bool is_compressed = header_.encoding == PcdEncoding::kCompressed;
-      require_end(in_, is_compressed ? std::string_view("\0", 1) : kBlanks);
+      require_end(in_, padding());
       return false;
     }
     raw_.resize(batch.count * raw_stride_);
@@ -73,6 +71,13 @@ class PcdReader final : public ScanReader {
   }
 
  private:
+  // PCL reserves more than the rows or the compressed block need, up to a page, and leaves the rest zero.
+  std::string_view padding() const {
+    using std::string_view_literals::operator""sv;
+    if (header_.encoding == PcdEncoding::kAscii) return kBlanks;
+    return header_.encoding == PcdEncoding::kBinary ? "\0 \t\r\n\v\f"sv : "\0"sv;
+  }
+
   // The rows of an uncompressed file.
   void require_size() const {
     const bool is_text = header_.encoding == PcdEncoding::kAscii;

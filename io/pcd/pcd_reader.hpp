@@ -14,7 +14,7 @@ bool looks_like_pcd(const FileStart& start);
 // that those above 2^53 are rounded; normal_x normal_y normal_z become nx ny nz; the packed colours `rgb` and
 // `rgba` become red green blue and red green blue alpha, bytes. Fields named `_` are padding and left out.
 // VIEWPOINT is ignored: coordinates are as they stand. Points that are NaN are rows like any others. A file
-// too short for its header, or with more data behind it (zeros behind a compressed block apart), is an
+// too short for its header, or with more data behind it (zeros behind the rows of a binary file apart), is an
 // `Error`.
 // A compressed file stores each field for all points, one field after the other: it is unpacked twice, by one
 // stream for each field, at most 256 of them. Memory beside the batch: 70 KiB a field, whatever the number of

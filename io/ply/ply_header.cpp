@@ -113,6 +113,8 @@ void set_known_names(PlyHeader& header) {
 // False at the end of the header.
 bool parse_line(Parser& parser, Words words) {
   if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
+  if (words[0] == "Created" && words.size() > 1 && words[1] == "by")
+    return true;  // of Blender 2.4, without "comment"
   if (words[0] == "end_header") return false;
   if (words[0] == "format") {
     parse_format(parser, words);
@@ -165,6 +167,7 @@ RowLayout PlyElement::layout() const {
 }
 
 PlyHeader read_ply_header(InputFile& in) {
+  in.accept_lone_returns();  // of Rhinoceros
   const auto magic = in.next_line();
   if (!magic || split(*magic) != std::vector<std::string_view>{"ply"}) {
     in.fail_at_line(1, "'ply' alone on the first line expected");

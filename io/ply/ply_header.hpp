@@ -35,10 +35,11 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-// Reads up to and with "end_header" and its line end. Names of position and normal may be capitals: X is x. A
-// line "bye", which Stanford's archive has in some headers, is a warning to the log, once in a run. Names are
-// unique among the elements and within each element. The counts are as declared: nothing may be allocated by
-// them. Throws `Error` with the line.
+// Reads up to and with "end_header" and its line end. All lines of the file end with a carriage return alone
+// if the first one does (Rhinoceros). Names of position and normal may be capitals: X is x. A line "bye",
+// which Stanford's archive has in some headers, is a warning to the log, once in a run. "Created by ..." is a
+// comment (Blender 2.4). Names are unique among the elements and within each element. The counts are as
+// declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);
 
 // The header as text, "\n" at line ends, with one comment.

@@ -229,7 +229,16 @@ class TextReader final : public ScanReader {
     return true;
   }
 
+  // A header line may be divided by something else than the rows.
+  void find_row_separator(std::string_view row) {
+    const std::size_t columns = layout_.properties.size();
+    const char found = find_separator(row);
+    if (split(row, separator_).size() != columns && split(row, found).size() == columns) separator_ = found;
+    is_separator_of_rows_ = true;
+  }
+
   void add_row(std::string_view row, RowBatch& batch) {
+    if (!is_separator_of_rows_) find_row_separator(row);
     if (rows_ == block_rows_) fail_number_of_rows("more");
     parse_row(row, batch.bytes.data() + batch.count * layout_.stride);
     ++batch.count;
@@ -261,6 +270,7 @@ class TextReader final : public ScanReader {
 
   InputFile in_;
   char separator_ = ' ';
+  bool is_separator_of_rows_ = false;
   RowLayout layout_;
   std::optional<std::uint64_t> block_rows_;  // of the current block, where its rows are counted
   std::uint64_t rows_ = 0;                   // of it so far

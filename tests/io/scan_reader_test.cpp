@@ -56,6 +56,25 @@ TEST_CASE("a format that is known but not read is named, with a way out", "[io]"
   CHECK_THAT(error("# vtk DataFile Version 3.0\n"), Catch::Matchers::Contains("VTK"));
   CHECK_THAT(error("version https://git-lfs.github.com/spec/v1\noid sha256:1\n"),
              Catch::Matchers::Contains("git lfs pull"));
+  CHECK_THAT(error(std::string("\xff\xfe"
+                               "1\0 \0",
+                               6)),
+             Catch::Matchers::Contains("text in UTF-16"));
+  CHECK_THAT(error(std::string("\xfe\xff"
+                               "\0001",
+                               4)),
+             Catch::Matchers::Contains("saves it as UTF-8"));
+}
+
+TEST_CASE("a file named STL of a size that does not fit is an error with the size that does", "[io]") {
+  const ScratchFolder folder;
+  const std::string bytes = "made by hand" + std::string(68, '\0') + std::string("\2\0\0\0", 4);
+  for (const char* name : {"a.stl", "a.STL"}) {
+    CHECK_THAT(read_error(folder.write(name, bytes + std::string(99, '\1'))),
+               Catch::Matchers::Contains("byte 183: ") &&
+                   Catch::Matchers::Contains("2 triangles, which has 184 bytes"));
+    CHECK(read_table(folder.write(name, bytes + std::string(100, '\1'))).rows.size() == 6);
+  }
 }
 
 }  // namespace lacuna::test

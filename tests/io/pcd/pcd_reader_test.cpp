@@ -410,12 +410,16 @@ TEST_CASE("PCD: a compressed frame of a depth camera is read as PCL wrote it", "
                                                    0x3e, 0x2b, 0x07, 255});
 }
 
-TEST_CASE("PCD: zeros behind a compressed block are padding, anything else is data", "[io]") {
+TEST_CASE("PCD: zeros behind the rows of a binary file are padding, anything else is data", "[io]") {
   const ScratchFolder folder;
-  const std::string whole = crowded_files()[2];
-  CHECK(read_table(folder.write("a.pcd", whole + std::string(5000, '\0'))).rows == kCrowdedRows);
-  CHECK_THAT(read_error(folder.write("a.pcd", whole + std::string(10, '\0') + "1")),
-             Catch::Contains("byte " + std::to_string(whole.size() + 10) + ": more data"));
+  for (const std::size_t encoding : {1, 2}) {
+    const std::string whole = crowded_files()[encoding];
+    CHECK(read_table(folder.write("a.pcd", whole + std::string(5000, '\0'))).rows == kCrowdedRows);
+    CHECK_THAT(read_error(folder.write("a.pcd", whole + std::string(10, '\0') + "1")),
+               Catch::Contains("byte " + std::to_string(whole.size() + 10) + ": more data"));
+  }
+  CHECK_THAT(read_error(folder.write("a.pcd", crowded_files()[0] + std::string(10, '\0'))),
+             Catch::Contains("more data"));
 }
 
 }  // namespace lacuna::test

@@ -167,6 +167,34 @@ TEST_CASE("CR LF, blank lines, tabs and a missing last line end are accepted", "
   CHECK(read_table(folder.write("c.ply", binary)).rows == Rows{{1, 2, 3}});
 }
 
+TEST_CASE("lines may end with a carriage return alone, as those of Rhinoceros do", "[io]") {
+  const ScratchFolder folder;
+  const auto with_returns = [](std::string text) {
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    return text;
+  };
+  CHECK(read_table(folder.write("a.ply", with_returns(kCrowdedAscii))).rows == kCrowdedRows);
+  CHECK(read_table(folder.write("b.ply", with_returns("ply\n" + kCrowdedAscii.substr(4) + "\n \n"))).rows ==
+        kCrowdedRows);
+  CHECK_THAT(read_error(folder.write("c.ply", with_returns(kCrowdedAscii) + "1\r")),
+             Catch::Contains("more data"));
+  // The first byte of the rows is a line feed: no part of the header's last line end.
+  Bytes bytes;
+  bytes << std::int8_t{'\n'} << std::int8_t{'\r'} << std::int8_t{1};
+  const std::string head = with_returns(header(
+      "binary_little_endian", "element vertex 1\nproperty char x\nproperty char y\nproperty char z\n"));
+  CHECK(read_table(folder.write("d.ply", head + bytes.str())).rows == Rows{{'\n', '\r', 1}});
+}
+
+TEST_CASE("the comment of Blender 2.4 may lack its keyword", "[io]") {
+  const ScratchFolder folder;
+  const std::string body = "element vertex 1\n" + kXyz;
+  const std::string line = "Created by Blender3D 247 - www.blender.org, source file: a.blend\n";
+  CHECK(read_table(folder.write("a.ply", header("ascii", line + body) + "1 2 3\n")).rows == Rows{{1, 2, 3}});
+  CHECK_THAT(read_error(folder.write("a.ply", header("ascii", "Created\n" + body) + "1 2 3\n")),
+             Catch::Contains("unknown keyword 'Created'"));
+}
+
 TEST_CASE("a header without rows is an empty scan", "[io]") {
   const ScratchFolder folder;
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {

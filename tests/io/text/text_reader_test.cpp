@@ -37,6 +37,20 @@ TEST_CASE("columns are named by the options, else by a header line, else by plac
   CHECK(read_table(folder.write("a.csv", "\"x\",\"y\",\"z\"\n1,2,3\n")).names == Names{"x", "y", "z"});
 }
 
+TEST_CASE("a header line may be divided by something else than the rows", "[io]") {
+  const ScratchFolder folder;
+  const std::string files[] = {"\"X\",\"Y\",\"Z\"\n1 2 3\n4 5 6\n", "x y z\n1,2,3\n4,5,6\n",
+                               "x;y;z\n\n1\t2\t3\n4\t5\t6\n", "x,y,z\n1;2;3\n4;5;6\n"};
+  for (const std::string& text : files) {
+    const Table table = read_table(folder.write("a.csv", text));
+    CHECK(table.names == std::vector<std::string>{"x", "y", "z"});
+    CHECK(table.rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  }
+  CHECK(read_table(folder.write("a.csv", "x;y;z\n1,5 2 3\n")).rows == Rows{{1.5, 2, 3}});
+  CHECK_THAT(read_error(folder.write("a.csv", "x,y,z\n1 2 3\n4,5,6\n")), Catch::Contains("line 3"));
+  CHECK_THAT(read_error(folder.write("a.csv", "x,y,z\n1 2 3 4\n")), Catch::Contains("line 2"));
+}
+
 TEST_CASE("comments are passed over, but may name the columns of the first row", "[io]") {
   const ScratchFolder folder;
   const Table plain =
