@@ -1,5 +1,6 @@
 // How fast each format is read from the page cache, as the engine reads it: positions, in batches. Counters:
-// points and bytes of the file per second.
+// points and bytes of the file per second. `lacuna_formats write FOLDER POINTS` writes one file in each
+// format instead, for whole runs.
 #include "bench/sample.hpp"
 #include "bench/scan_files.hpp"
 #include "io/file_scan.hpp"
@@ -63,10 +64,29 @@ void register_formats() {
   }
 }
 
+// A format's name, as part of a file name: "LAZ 1.4, format 7" is laz-1.4-format-7.
+std::string file_name(const SampleFormat& format) {
+  std::string name;
+  for (const char c : std::string_view(format.name)) {
+    if (c == ' ') name += '-';
+    if (c != ' ' && c != ',') name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return name + "." + format.ending;
+}
+
+void write_samples(const std::filesystem::path& folder, std::uint32_t points) {
+  const PointBatch sample = sample_surface(points, SampleOrder::kScanline);
+  for (const SampleFormat& format : sample_formats()) format.write(sample, folder / file_name(format));
+}
+
 }  // namespace
 }  // namespace lacuna
 
 int main(int argc, char** argv) {
+  if (argc == 4 && argv[1] == std::string_view("write")) {
+    lacuna::write_samples(argv[2], static_cast<std::uint32_t>(std::stoul(argv[3])));
+    return 0;
+  }
   lacuna::register_formats();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
