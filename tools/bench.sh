@@ -209,8 +209,8 @@ if ((real)); then
 fi
 
 if ((formats)); then
-  order=scanline
-  kind=jittered
+  order=file
+  kind=file
   samples=$work/formats-10M
   if [[ ! -d $samples ]]; then
     mkdir -p "$samples.new"
