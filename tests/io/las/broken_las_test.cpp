@@ -91,6 +91,16 @@ std::vector<WholeFile> all_files() {
   return files;
 }
 
+TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an error at once", "[io]") {
+  const ScratchFolder folder;
+  std::string bytes = compressed(1, 0, 1, {12}, false).bytes;
+  const std::size_t points_at = 227 + 54 + 192 + 54 + 46;
+  put(bytes, 107, std::uint32_t{10'000'000});
+  CHECK(error_of([&] { open_scan(folder.write("a.laz", bytes), {}); })
+            .ends_with("a.laz: byte " + std::to_string(points_at) + ": 10000000 points in only " +
+                       std::to_string(bytes.size() - points_at) + " bytes"));
+}
+
 TEST_CASE("LAS and LAZ: a broken file gives one error or all its points", "[io]") {
   check_broken_files(some_files(), 9);
 }

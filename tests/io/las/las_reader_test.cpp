@@ -5,6 +5,7 @@
 #include "tests/io/las/las_file.hpp"
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -147,6 +148,35 @@ TEST_CASE("extra bytes of LAS are columns by their descriptors, others by their 
   CHECK(value(table, 0, "x_2") == static_cast<double>(1ull << 40));
   CHECK(value(table, 0, "extra_0") == 5);
   CHECK(value(table, 0, "extra_1") == 6);
+}
+
+TEST_CASE("extra bytes of LAS without a name, or with the name of others, have names of their own", "[io]") {
+  const ScratchFolder folder;
+  const LasFile las{.points = {las_point(20 + 5, 1, 2, 3)},
+                    .records = {las_record("LASF_Spec", 4,
+                                           las_extra_descriptor("", 1) + las_extra_descriptor("x_2", 1) +
+                                               las_extra_descriptor("x", 1) + las_extra_descriptor("", 1))}};
+  const std::vector<std::string> names = read_table(folder.write("a.las", las.bytes())).names;
+  CHECK(std::vector<std::string>(names.end() - 5, names.end()) ==
+        std::vector<std::string>{"extra", "x_2", "x_3", "extra_2", "extra_0"});
+}
+
+TEST_CASE("LAS with the longest points: batches are bounded in bytes, and columns are named at once",
+          "[io]") {
+  const ScratchFolder folder;
+  constexpr std::size_t kPoints = 600;
+  const LasFile las{.points = std::vector<std::string>(kPoints, las_point(65'535, 1, 2, 3))};
+  const auto begin = std::chrono::steady_clock::now();
+  const auto reader = open_scan(folder.write("a.las", las.bytes()), {});
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(3));
+  CHECK(reader->layout().properties.back().name == "extra_65514");
+  RowBatch batch;
+  std::size_t rows = 0;
+  while (reader->next(batch, 65'536)) {
+    CHECK(batch.bytes.size() <= 32u << 20);
+    rows += batch.count;
+  }
+  CHECK(rows == kPoints);
 }
 
 LasFile small_file() {

@@ -63,6 +63,8 @@ TEST_CASE("what is wrong in PTX is said with its line", "[io]") {
              Contains("line 12: a ray needs 4 numbers"));
   CHECK_THAT(error("1\n1\n0 0 0\n1 0\n" + kStill), Contains("line 4: a pose needs 3 numbers"));
   CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4\nhello\n"), Contains("line 12: 'hello' is no number"));
+  CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4 5 nan 7\n"),
+             Contains("line 11: a colour is not a number; 0 to 255 are allowed"));
   CHECK_THAT(error("9999999999999\n9999999999999\n" + kStill), Contains("a grid of"));
 }
 
