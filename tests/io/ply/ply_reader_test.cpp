@@ -52,7 +52,13 @@ const Rows kCrowdedRows = {{-300, 0.5, 1e300}, {301, -0.25, 2}};
 // Without its last line's end the text is complete.
 std::vector<WholeFile> whole_files() {
   const std::string little = crowded_binary(std::endian::little), big = crowded_binary(std::endian::big);
-  return {{.name = "ascii.ply", .bytes = kCrowdedAscii, .complete_from = kCrowdedAscii.size() - 1},
+  const std::string plain = header("ascii", "element vertex 2\n" + kXyz) + "1 2 3\n4 5 6\n";
+  const std::string without_lists =
+      header("binary_big_endian", "element camera 1\nproperty int id\nelement vertex 1\n" + kXyz) +
+      std::string(4 + 12, '\1');
+  return {{.name = "plain.ply", .bytes = plain, .complete_from = plain.size() - 1},
+          {.name = "without_lists.ply", .bytes = without_lists, .complete_from = without_lists.size()},
+          {.name = "ascii.ply", .bytes = kCrowdedAscii, .complete_from = kCrowdedAscii.size() - 1},
           {.name = "little.ply", .bytes = little, .complete_from = little.size()},
           {.name = "big.ply", .bytes = big, .complete_from = big.size()}};
 }
