@@ -36,9 +36,9 @@ struct WholeFile {
   // From this length on a beginning of it is complete, and has all points. 0: the format has no count, so
   // that any beginning may be complete; it has the first points of the whole.
   std::size_t complete_from = static_cast<std::size_t>(-1);
-  // No file of the format may give more. Nothing but compression takes less than a byte for a point.
+  // No file of the format may give more. Only compressed or packed bits take less than a byte for a point.
   std::uint64_t points_in_a_byte = 1;
-  std::uint64_t megabytes = 64;  // that reading it may take, however broken it is
+  std::uint64_t megabytes = 64;  // of memory for reading it, however broken it is
   Reading read = read_scan;
 };
 
