@@ -34,7 +34,8 @@ std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_
 
 }  // namespace
 
-InputFile::InputFile(std::filesystem::path file, std::size_t buffer_bytes) : file_(std::move(file)) {
+InputFile::InputFile(std::filesystem::path file, std::size_t buffer_bytes)
+    : file_(std::move(file)), buffer_bytes_(buffer_bytes) {
   // Looked at before it is opened: to open a named pipe would wait for a writer.
   struct stat status {};
   if (::stat(file_.c_str(), &status) != 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
@@ -43,7 +44,7 @@ InputFile::InputFile(std::filesystem::path file, std::size_t buffer_bytes) : fil
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
   size_ = static_cast<std::uint64_t>(status.st_size);
-  buffer_.resize(buffer_bytes);
+  buffer_ = std::make_unique_for_overwrite<char[]>(buffer_bytes);
 }
 
 InputFile::~InputFile() {
@@ -55,10 +56,10 @@ std::uint64_t InputFile::remaining() const {
 }
 
 bool InputFile::fill() {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t got = read_fully(*this, descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  const std::size_t got = read_fully(*this, descriptor_, buffer_.get() + end_, buffer_bytes_ - end_);
   end_ += got;
   end_position_ += got;
   return got > 0;
@@ -66,17 +67,17 @@ bool InputFile::fill() {
 
 std::string_view InputFile::peek(std::size_t count) {
   if (end_ - begin_ < count) fill();
-  return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
+  return {buffer_.get() + begin_, std::min(count, end_ - begin_)};
 }
 
 void InputFile::read(std::byte* to, std::size_t count) {
   if (count == 0) return;  // `to` may be null
   const std::size_t buffered = std::min(count, end_ - begin_);
-  std::memcpy(to, buffer_.data() + begin_, buffered);
+  std::memcpy(to, buffer_.get() + begin_, buffered);
   begin_ += buffered;
   std::size_t missing = count - buffered;
   if (missing == 0) return;
-  if (missing < buffer_.size() / 4) {
+  if (missing < buffer_bytes_ / 4) {
     fill();
     if (end_ >= missing) return read(to + buffered, missing);
     begin_ = end_;
@@ -117,19 +118,19 @@ void InputFile::accept_lone_returns() {
 std::optional<std::string_view> InputFile::next_line() {
   std::size_t searched = 0;
   for (;;) {
-    const char* start = buffer_.data() + begin_;
+    const char* start = buffer_.get() + begin_;
     const std::size_t have = end_ - begin_;
     const void* found = std::memchr(start + searched, line_end_, have - searched);
     if (found == nullptr) {
       searched = have;
-      if (have == buffer_.size()) {
-        fail_at_line(line_ + 1, "longer than the " + std::to_string(buffer_.size()) + " bytes allowed");
+      if (have == buffer_bytes_) {
+        fail_at_line(line_ + 1, "longer than the " + std::to_string(buffer_bytes_) + " bytes allowed");
       }
       if (fill()) continue;
       if (have == 0) return std::nullopt;
     }
     const std::size_t length = found ? static_cast<const char*>(found) - start : have;
-    std::string_view line(buffer_.data() + begin_, length);
+    std::string_view line(buffer_.get() + begin_, length);
     begin_ += length + (found ? 1 : 0);
     ++line_;
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -157,15 +158,15 @@ std::optional<std::string_view> InputFile::next_word() {
   pass_blanks();
   std::size_t length = 0;
   for (;;) {
-    const char* start = buffer_.data() + begin_;
+    const char* start = buffer_.get() + begin_;
     const std::size_t have = end_ - begin_;
     while (length < have && !is_blank(start[length]) && start[length] != line_end_) ++length;
-    if (length < have || have == buffer_.size() || !fill()) break;
+    if (length < have || have == buffer_bytes_ || !fill()) break;
   }
   if (length == 0) return std::nullopt;
-  if (length == buffer_.size()) fail_at_line(line_ + 1, "a value without an end");
+  if (length == buffer_bytes_) fail_at_line(line_ + 1, "a value without an end");
   begin_ += length;
-  return std::string_view(buffer_.data() + begin_ - length, length);
+  return std::string_view(buffer_.get() + begin_ - length, length);
 }
 
 bool InputFile::end_row() {

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace lacuna {
 
@@ -58,7 +58,8 @@ class InputFile {
   std::filesystem::path file_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
-  std::vector<char> buffer_;
+  std::size_t buffer_bytes_;
+  std::unique_ptr<char[]> buffer_;  // not set to zero: a small file touches little of it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t end_position_ = 0;  // in the file, of the buffer's end

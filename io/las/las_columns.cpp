@@ -126,7 +126,7 @@ LasColumns::LasColumns(const LasHeader& header) : record_bytes_(header.record_by
 void LasColumns::add(std::string name, Scalar type, Source source) {
   const std::string given = property_name(name);
   name = given;
-  for (int number = 2; layout_.find(name) != nullptr; ++number) name = given + "_" + std::to_string(number);
+  while (!names_.emplace(name, 1).second) name = given + "_" + std::to_string(++names_[given]);
   layout_.properties.push_back({.name = std::move(name), .type = type, .offset = layout_.stride});
   layout_.stride += size_of(type);
   sources_.push_back(source);
@@ -141,7 +141,8 @@ void LasColumns::add_extra(const LasExtraBytes& extra, std::size_t& offset) {
   const std::size_t values = is_typed ? (extra.type - 1u) / 10 + 1 : extra.options;
   const std::size_t bytes = kExtraTypes[type].bytes;
   for (std::size_t i = 0; i < values && offset + bytes <= record_bytes_; ++i, offset += bytes) {
-    const std::string name = values > 1 ? extra.name + "_" + std::to_string(i) : extra.name;
+    const std::string given = extra.name.empty() ? "extra" : extra.name;
+    const std::string name = values > 1 ? given + "_" + std::to_string(i) : given;
     const bool is_scaled = extra.scale != 1 || extra.offset != 0 || type == kUint64 || type == kInt64;
     if (is_scaled) {
       add(name, Scalar::kFloat64,

@@ -7,13 +7,14 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace lacuna {
 
 // Every field of the point format, then the extra bytes; x, y and z as doubles in units of the scan. Values
 // of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes that the header does
-// not describe are the columns extra_0, extra_1 and so on.
+// not describe are the columns extra_0, extra_1 and so on. Names differ: a number is added to a second one.
 class LasColumns {
  public:
   explicit LasColumns(const LasHeader& header);
@@ -36,7 +37,8 @@ class LasColumns {
 
   std::size_t record_bytes_;
   RowLayout layout_;
-  std::vector<Source> sources_;  // of each column
+  std::vector<Source> sources_;                         // of each column
+  std::unordered_map<std::string, std::size_t> names_;  // of columns, and how many were given each
 };
 
 }  // namespace lacuna

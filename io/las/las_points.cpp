@@ -74,7 +74,10 @@ class CompressedPoints final : public LasPoints {
     if (points == 0) return;
     const std::uint64_t end = file_bytes(in_);
     if (layout_.compressor == laz::compressor::kPointwise) {
-      chunks_ = {{points_at_, end - points_at_, points}};
+      const std::uint64_t bytes = end - points_at_;
+      if (points > laz::kMostPointsInAByte * bytes)
+        throw laz::Corrupt(std::to_string(points) + " points in only " + std::to_string(bytes) + " bytes");
+      chunks_ = {{points_at_, bytes, points}};
     } else {
       const std::uint64_t table_at = find_table(file, end);
       InputFile again(file);

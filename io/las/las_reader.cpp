@@ -18,8 +18,8 @@ class LasReader final : public ScanReader {
   explicit LasReader(const std::filesystem::path& file)
       : in_(file),
         header_(read_las_header(in_)),
-        columns_(header_),
         points_(las_points(file, in_, header_)),
+        columns_(header_),
         left_(header_.points) {}
 
   std::string format() const override {
@@ -32,7 +32,8 @@ class LasReader final : public ScanReader {
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
-    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, kMostRows)));
+    const std::size_t fitting = kBatchBytes / std::max<std::size_t>(layout().stride, header_.record_bytes);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
     batch.bytes.resize(batch.count * layout().stride);
     if (batch.count == 0) return false;
     records_.resize(batch.count * header_.record_bytes);
@@ -43,12 +44,13 @@ class LasReader final : public ScanReader {
   }
 
  private:
-  static constexpr std::size_t kMostRows = 1 << 16;
+  // A batch is no larger than this, nor its records; one row is below 1 MiB.
+  static constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
   InputFile in_;
   LasHeader header_;
-  LasColumns columns_;
   std::unique_ptr<LasPoints> points_;
+  LasColumns columns_;
   std::uint64_t left_;  // points not yet read
   std::vector<std::byte> records_;
 };

@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t kHeaderBytes = 8;
 constexpr unsigned kPointsContext = 0, kBytesContext = 1;
 
-// No encoder gets more points into a byte: each point takes at least the symbol that says what changed, of 64
-// symbols or more with at least one count each of at most 2^15, which is 0.0027 bits.
-constexpr std::uint64_t kMostPointsInAByte = 4096;
-
 std::uint32_t chunk_count(std::span<const std::byte> table) {
   if (table.size() < kHeaderBytes) throw Corrupt("the chunk table is cut");
   const auto version = load<std::uint32_t>(table.data());

@@ -69,6 +69,10 @@ struct Layout {
 // not supported.
 Layout parse_layout(std::span<const std::byte> record);
 
+// No encoder gets more points into a byte: each point takes at least the symbol that says what changed, of 64
+// symbols or more with at least one count each of at most 2^15, which is 0.0027 bits.
+inline constexpr std::uint64_t kMostPointsInAByte = 4096;
+
 struct Chunk {
   std::uint64_t offset;  // in the file, bytes
   std::uint64_t bytes;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -149,8 +150,11 @@ class PtxReader final : public ScanReader {
     };
     for (const double coordinate : place) put(coordinate);
     put(static_cast<float>(line_[3]));
-    for (std::size_t i = 4; i < values_; ++i)
+    for (std::size_t i = 4; i < values_; ++i) {
+      if (std::isnan(line_[i]))
+        in_.fail_at_line(in_.line(), "a colour is not a number; 0 to 255 are allowed");
       put(static_cast<std::uint8_t>(std::clamp(line_[i], 0.0, 255.0)));
+    }
     put(scan_ - 1);
   }
 

@@ -1,6 +1,7 @@
 #include "io/laz/laz.hpp"
 
 #include "io/little_endian.hpp"
+#include "tests/io/mutation.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/laz_encoder.hpp"
 #include "tests/support/skip.hpp"
@@ -12,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <span>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -119,6 +121,13 @@ LazBytes decoded(const Layout& layout, const LazBytes& chunk, std::uint64_t poin
   LazBytes records(points * layout.record_bytes());
   laz::decode_chunk(layout, chunk, points, records);
   return records;
+}
+
+LazBytes mutated_bytes(const LazBytes& whole, std::uint32_t seed, std::uint32_t number) {
+  const std::string changed =
+      mutated({reinterpret_cast<const char*>(whole.data()), whole.size()}, seed, number);
+  const auto bytes = std::as_bytes(std::span(changed));
+  return {bytes.begin(), bytes.end()};
 }
 
 std::string message(const std::function<void()>& run) {
@@ -288,14 +297,10 @@ TEST_CASE("a chunk with changed bytes gives records or an error", "[laz]") {
   for (const Case& c : kCases) {
     const Layout layout = layout_of(c);
     const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
-    for (std::uint64_t i = 0; i < draws(200); ++i) {
-      LazBytes changed = chunk;
-      for (unsigned changes = 1 + below(random, 3); changes > 0; --changes) {
-        const unsigned at = layout.record_bytes() + below(random, changed.size() - layout.record_bytes());
-        changed[at] = below(random, 3) ? static_cast<std::byte>(random()) : std::byte{0xff};
-      }
+    for (std::uint32_t i = 0; i < draws(200); ++i) {
+      const LazBytes changed = mutated_bytes(chunk, 5, i);
       // More points than there are must end, too.
-      errors += message([&] { decoded(layout, changed, below(random, 2) ? 40 : 4000); }) != "";
+      errors += message([&] { decoded(layout, changed, i % 2 ? 40 : 4000); }) != "";
     }
   }
   CHECK(errors > 0);
@@ -398,12 +403,7 @@ TEST_CASE("chunk tables that do not fit the file are errors", "[laz]") {
   store(&many[4], 0xffffffffu);
   CHECK(read(many, 100, std::uint64_t{1} << 60, std::uint64_t{1} << 60) ==
         "the compressed points end too early");
-  Random random(7);
-  for (int i = 0; i < 2000; ++i) {
-    LazBytes changed = table;
-    changed[8 + below(random, static_cast<unsigned>(table.size() - 8))] = static_cast<std::byte>(random());
-    read(changed, 100, 1020, 51);
-  }
+  for (std::uint32_t i = 0; i < 2000; ++i) read(mutated_bytes(table, 7, i), 100, 1020, 51);
 }
 
 }  // namespace lacuna::test

@@ -1,6 +1,4 @@
-#include "tests/io/io_support.hpp"
-
-#include <random>
+#include "tests/io/broken_files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,6 +11,14 @@ using Names = std::vector<std::string>;
 const std::string kMesh =
     "# by hand, from C:\\scans\\\nmtllib a.mtl\no thing\nv 1 2 3\nv 4 5 \\\n6\nvt 0 1\nvn 0 0 1\nv 7 8 9\n"
     "vn 0 1 0\nvn 1 0 0\nusemtl grey\ns off\nf 1/1/1 2/1/2 \\\n 3/1/3\n";
+
+// Any beginning may be complete: nothing says how many vertices there are.
+std::vector<WholeFile> whole_files() {
+  return {{.name = "normals.obj", .bytes = kMesh, .complete_from = 0},
+          {.name = "colours.obj",
+           .bytes = "v 1 2 3 0.5 0 1\nv 4.5 -5e-1 6 1 1 0.25 # a vertex\nv 7 8 9 0 0 0\nf 1 2 -1\n",
+           .complete_from = 0}};
+}
 
 }  // namespace
 
@@ -106,36 +112,6 @@ TEST_CASE("OBJ: a wrong vertex is an error that names its line", "[io]") {
   }
 }
 
-TEST_CASE("OBJ: a file cut at any byte gives whole vertices or an error", "[io]") {
-  const ScratchFolder folder;
-  const Rows whole = read_table(folder.write("a.obj", kMesh)).rows;
-  for (std::size_t length = 0; length < kMesh.size(); ++length) {
-    INFO("cut at byte " << length);
-    const auto file = folder.write("cut.obj", kMesh.substr(0, length));
-    const std::string error = read_error(file);
-    CHECK(error.find('\n') == std::string::npos);
-    if (!error.empty()) continue;
-    const Rows rows = read_table(file).rows;
-    REQUIRE(rows.size() <= whole.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      CHECK(std::equal(rows[i].begin(), rows[i].end(), whole[i].begin()));
-  }
-}
-
-TEST_CASE("OBJ: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  std::mt19937 random(1);
-  const std::string letters = "v nf/\\#\n\r-10.e ";
-  for (int round = 0; round < 1500; ++round) {
-    std::string changed = kMesh;
-    for (auto left = 1 + random() % 3; left > 0; --left) {
-      const char c = round % 3 == 0 ? static_cast<char>(random()) : letters[random() % letters.size()];
-      changed[random() % changed.size()] = c;
-    }
-    CHECK(read_error(folder.write("a.obj", changed)).find('\n') == std::string::npos);
-  }
-}
-
 TEST_CASE("OBJ: rows stay whole across buffers and batches", "[io]") {
   const ScratchFolder folder;
   constexpr int kRows = 60'000;
@@ -153,6 +129,14 @@ TEST_CASE("OBJ: rows stay whole across buffers and batches", "[io]") {
       all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1, 0, 0, 1.0 * i};
     CHECK(all);
   }
+}
+
+TEST_CASE("OBJ: a broken file gives one error or whole vertices", "[io]") {
+  check_broken_files(whole_files(), 5);
+}
+
+TEST_CASE("OBJ: many broken files give one error or whole vertices", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 5);
 }
 
 }  // namespace lacuna::test

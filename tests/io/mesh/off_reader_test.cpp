@@ -1,6 +1,4 @@
-#include "tests/io/io_support.hpp"
-
-#include <random>
+#include "tests/io/broken_files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,6 +11,12 @@ using Names = std::vector<std::string>;
 const std::string kMesh =
     "# by hand\nCNOFF\n3 2 0 # counts\n\n1 2 3 0 0 1 9 8 7 1 # first\n#\n4 5 6 0 1 0 6 5 4 1\n"
     "7 8 9 1 0 0 3 2 1 0\n3 0 1 2\n3 2 1 0 255 0 0\n";
+
+std::vector<WholeFile> whole_files() {
+  const std::string plain = "OFF 3 2 0\n1 2 3\n4 5 6.5\n7 8 -9e2\n3 0 1 2\n4 0 1 2 0\n";
+  return {{.name = "colours.off", .bytes = kMesh, .complete_from = kMesh.rfind(" 255")},  // of the last face
+          {.name = "plain.off", .bytes = plain, .complete_from = plain.size() - 1}};
+}
 
 }  // namespace
 
@@ -94,37 +98,6 @@ TEST_CASE("OFF: what does not hold is an error that names its line", "[io]") {
   }
 }
 
-TEST_CASE("OFF: a file cut at any byte is an error, unless only its last line's end or colour is cut",
-          "[io]") {
-  const ScratchFolder folder;
-  const Rows whole = read_table(folder.write("a.off", kMesh)).rows;
-  for (std::size_t length = 0; length < kMesh.size(); ++length) {
-    INFO("cut at byte " << length);
-    const auto file = folder.write("cut.off", kMesh.substr(0, length));
-    const std::string error = read_error(file);
-    CHECK(error.find('\n') == std::string::npos);
-    if (length <= kMesh.rfind(" 255") - 1) {
-      CHECK(error != "");
-    } else {
-      CHECK(read_table(file).rows == whole);
-    }
-  }
-}
-
-TEST_CASE("OFF: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  std::mt19937 random(1);
-  const std::string letters = "OFCN4 #\n\r-10.e ";
-  for (int round = 0; round < 1500; ++round) {
-    std::string changed = kMesh;
-    for (auto left = 1 + random() % 3; left > 0; --left) {
-      const char c = round % 3 == 0 ? static_cast<char>(random()) : letters[random() % letters.size()];
-      changed[random() % changed.size()] = c;
-    }
-    CHECK(read_error(folder.write("a.off", changed)).find('\n') == std::string::npos);
-  }
-}
-
 TEST_CASE("OFF: rows stay whole across buffers and batches", "[io]") {
   const ScratchFolder folder;
   constexpr int kRows = 60'000;
@@ -138,6 +111,14 @@ TEST_CASE("OFF: rows stay whole across buffers and batches", "[io]") {
       all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1, 10, 20, 30, 255};
     CHECK(all);
   }
+}
+
+TEST_CASE("OFF: a broken file gives one error or all its rows", "[io]") {
+  check_broken_files(whole_files(), 6);
+}
+
+TEST_CASE("OFF: many broken files give one error or all their rows", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 6);
 }
 
 }  // namespace lacuna::test

@@ -1,6 +1,4 @@
-#include "tests/io/io_support.hpp"
-
-#include <random>
+#include "tests/io/broken_files.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -28,6 +26,14 @@ std::string binary(const std::string& title) {
   std::string header = title;
   header.resize(80, ' ');
   return header + bytes.str();
+}
+
+std::vector<WholeFile> whole_files() {
+  const std::string plain = binary("made by hand"), like_text = binary("solid, yet binary");
+  // Without its last words, the name of the solid, an ASCII file is complete.
+  return {{.name = "plain.stl", .bytes = plain, .complete_from = plain.size()},
+          {.name = "like_text.stl", .bytes = like_text, .complete_from = like_text.size()},
+          {.name = "ascii.stl", .bytes = kAscii, .complete_from = kAscii.rfind("endsolid") + 8}};
 }
 
 }  // namespace
@@ -92,42 +98,11 @@ TEST_CASE("STL: what stands at a wrong place is an error that names its line", "
   }
 }
 
-TEST_CASE("STL: a file cut at any byte is an error, and never a crash", "[io]") {
+TEST_CASE("STL: a binary file whose size does not fit is an error that names both", "[io]") {
   const ScratchFolder folder;
-  for (const std::string& whole : {binary("made by hand"), binary("solid, yet binary"), kAscii}) {
-    // Without its last words, the name of the solid, an ASCII file is complete.
-    const std::size_t least = whole == kAscii ? whole.rfind("endsolid") + 8 : whole.size();
-    for (std::size_t length = 0; length < whole.size(); ++length) {
-      INFO("cut at byte " << length);
-      const auto file = folder.write("cut.stl", whole.substr(0, length));
-      const std::string error = read_error(file);
-      CHECK(error.find('\n') == std::string::npos);
-      if (length < least) {
-        CHECK(error != "");
-      } else {
-        CHECK(read_table(file).rows == kRows);
-      }
-    }
-  }
   CHECK_THAT(
       read_error(folder.write("a.stl", binary("solid") + "1")),
       Catch::Contains("a.stl: byte 185: neither ASCII nor a binary STL of 2 triangles, which has 184 bytes"));
-}
-
-TEST_CASE("STL: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  std::mt19937 random(1);
-  const std::string letters = "solidfacetvertex \n-10.e ";
-  for (const std::string& whole : {binary("solid, yet binary"), kAscii}) {
-    for (int round = 0; round < 700; ++round) {
-      std::string changed = whole;
-      for (auto left = 1 + random() % 3; left > 0; --left) {
-        const char c = round % 2 == 0 ? static_cast<char>(random()) : letters[random() % letters.size()];
-        changed[random() % changed.size()] = c;
-      }
-      CHECK(read_error(folder.write("a.stl", changed)).find('\n') == std::string::npos);
-    }
-  }
 }
 
 TEST_CASE("STL: rows stay whole across buffers and batches", "[io]") {
@@ -149,6 +124,14 @@ TEST_CASE("STL: rows stay whole across buffers and batches", "[io]") {
       all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1};
     CHECK(all);
   }
+}
+
+TEST_CASE("STL: a broken file gives one error or all its rows", "[io]") {
+  check_broken_files(whole_files(), 4);
+}
+
+TEST_CASE("STL: many broken files give one error or all their rows", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 4);
 }
 
 }  // namespace lacuna::test

@@ -1,5 +1,5 @@
 #include "io/pcd/lzf.hpp"
-#include "tests/io/io_support.hpp"
+#include "tests/io/broken_files.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"
 
@@ -133,6 +133,18 @@ std::vector<std::string> crowded_files() {
           header(kCrowded, 2, "binary_compressed") + block(crowded_columns(true))};
 }
 
+std::vector<WholeFile> whole_files() {
+  std::vector<WholeFile> files;
+  for (const std::string& bytes : crowded_files()) {
+    const bool has_last_line = bytes.ends_with('\n');
+    files.push_back({.name = "a.pcd",
+                     .bytes = bytes,
+                     .complete_from = bytes.size() - has_last_line,
+                     .points_in_a_byte = kLzfLargestRatio});
+  }
+  return files;
+}
+
 }  // namespace
 
 TEST_CASE("PCD: every field is kept in every encoding, padding apart", "[io]") {
@@ -184,39 +196,6 @@ TEST_CASE("PCD: headers of old versions are understood", "[io]") {
   }
   for (const std::string data : {"ascii", "binary", "binary_compressed"}) {
     CHECK(read_table(folder.write("a.pcd", header(kXyz, 0, data))).rows.empty());
-  }
-}
-
-TEST_CASE("PCD: a file cut at any byte is an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  for (const std::string& whole : crowded_files()) {
-    for (std::size_t length = 0; length < whole.size(); ++length) {
-      INFO("cut at byte " << length);
-      const auto file = folder.write("cut.pcd", whole.substr(0, length));
-      const std::string error = read_error(file);
-      if (length + 1 == whole.size() && whole.ends_with('\n')) {
-        CHECK(read_table(file).rows.size() == 2);
-      } else {
-        CHECK(error.find("cut.pcd: ") != std::string::npos);
-        CHECK(error.find('\n') == std::string::npos);
-      }
-    }
-  }
-}
-
-TEST_CASE("PCD: a file with any bytes changed gives rows or an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  std::mt19937 random(1);
-  for (const std::string& whole : crowded_files()) {
-    for (int round = 0; round < 500; ++round) {
-      std::string changed = whole;
-      for (auto left = 1 + random() % 3; left > 0; --left) {
-        changed[random() % changed.size()] =
-            static_cast<char>(round % 2 == 0 ? random() : '0' + random() % 10);
-      }
-      const std::string error = read_error(folder.write("a.pcd", changed));
-      CHECK(error.find('\n') == std::string::npos);
-    }
   }
 }
 
@@ -420,6 +399,14 @@ TEST_CASE("PCD: zeros behind the rows of a binary file are padding, anything els
   }
   CHECK_THAT(read_error(folder.write("a.pcd", crowded_files()[0] + std::string(10, '\0'))),
              Catch::Contains("more data"));
+}
+
+TEST_CASE("PCD: a broken file gives one error or all its rows", "[io]") {
+  check_broken_files(whole_files(), 3);
+}
+
+TEST_CASE("PCD: many broken files give one error or all their rows", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 3);
 }
 
 }  // namespace lacuna::test

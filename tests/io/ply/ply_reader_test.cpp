@@ -1,4 +1,4 @@
-#include "tests/io/io_support.hpp"
+#include "tests/io/broken_files.hpp"
 
 #include <cmath>
 #include <limits>
@@ -49,6 +49,20 @@ const std::string kCrowdedAscii = header("ascii", kCrowded) +
 
 const Rows kCrowdedRows = {{-300, 0.5, 1e300}, {301, -0.25, 2}};
 
+// Without its last line's end the text is complete.
+std::vector<WholeFile> whole_files() {
+  const std::string little = crowded_binary(std::endian::little), big = crowded_binary(std::endian::big);
+  const std::string plain = header("ascii", "element vertex 2\n" + kXyz) + "1 2 3\n4 5 6\n";
+  const std::string without_lists =
+      header("binary_big_endian", "element camera 1\nproperty int id\nelement vertex 1\n" + kXyz) +
+      std::string(4 + 12, '\1');
+  return {{.name = "plain.ply", .bytes = plain, .complete_from = plain.size() - 1},
+          {.name = "without_lists.ply", .bytes = without_lists, .complete_from = without_lists.size()},
+          {.name = "ascii.ply", .bytes = kCrowdedAscii, .complete_from = kCrowdedAscii.size() - 1},
+          {.name = "little.ply", .bytes = little, .complete_from = little.size()},
+          {.name = "big.ply", .bytes = big, .complete_from = big.size()}};
+}
+
 }  // namespace
 
 TEST_CASE("lists and other elements are passed over in every encoding", "[io]") {
@@ -58,46 +72,6 @@ TEST_CASE("lists and other elements are passed over in every encoding", "[io]") 
     const Table table = read_table(folder.write("a.ply", content));
     CHECK(table.names == std::vector<std::string>{"x", "y", "z"});
     CHECK(table.rows == kCrowdedRows);
-  }
-}
-
-TEST_CASE("a file cut at any byte is an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  for (const std::string& whole : {crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
-    for (std::size_t length = 0; length < whole.size(); ++length) {
-      INFO("cut at byte " << length);
-      const std::string error = read_error(folder.write("cut.ply", whole.substr(0, length)));
-      CHECK(error.find("cut.ply: ") != std::string::npos);
-      CHECK(error.find('\n') == std::string::npos);
-    }
-  }
-  // Only the last line's end can be missed without notice, the last number being one digit.
-  for (std::size_t length = 0; length < kCrowdedAscii.size(); ++length) {
-    INFO("cut at byte " << length);
-    const auto file = folder.write("cut.ply", kCrowdedAscii.substr(0, length));
-    if (length + 1 < kCrowdedAscii.size()) {
-      CHECK(read_error(file) != "");
-    } else {
-      CHECK(read_table(file).rows == kCrowdedRows);
-    }
-  }
-}
-
-TEST_CASE("a file with any byte changed gives rows or an error, and never a crash", "[io]") {
-  const ScratchFolder folder;
-  for (const std::string& whole :
-       {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
-    for (std::size_t place = 0; place < whole.size(); ++place) {
-      for (const char c : {'\0', '\n', ' ', '9', '-', '\xff'}) {
-        std::string changed = whole;
-        changed[place] = c;
-        const auto file = folder.write("a.ply", changed);
-        const std::string error = read_error(file);
-        INFO("byte " << place << ": " << error);
-        CHECK(error.find('\n') == std::string::npos);
-        if (error.empty()) CHECK(read_table(file).rows.size() == 2);
-      }
-    }
   }
 }
 
@@ -404,6 +378,14 @@ TEST_CASE("a batch is bounded in bytes, however many properties a row has", "[io
   std::size_t rows = batch.count;
   while (reader->next(batch, 65536)) rows += batch.count;
   CHECK(rows == 4000);
+}
+
+TEST_CASE("PLY: a broken file gives one error or all its rows", "[io]") {
+  check_broken_files(whole_files(), 1);
+}
+
+TEST_CASE("PLY: many broken files give one error or all their rows", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 1);
 }
 
 }  // namespace lacuna::test

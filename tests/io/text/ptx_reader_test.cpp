@@ -1,4 +1,4 @@
-#include "tests/io/io_support.hpp"
+#include "tests/io/broken_files.hpp"
 
 #include <cmath>
 #include <string>
@@ -13,6 +13,16 @@ using Catch::Matchers::Contains;
 // Turned by a quarter about z, and moved.
 const std::string kPose = "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
 const std::string kStill = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+
+// A beginning is complete where a block ends.
+std::vector<WholeFile> whole_files() {
+  return {{.name = "grey.ptx",
+           .bytes = "2\n1\n" + kPose + "1 2 3 0.5\n0 0 0 0.25\n1\n1\n" + kStill + "4 5 6 1\n",
+           .complete_from = 0},
+          {.name = "colours.ptx",
+           .bytes = "1\n2\n" + kStill + "1 2 3 0.5 255 0 300\n4 5 6 0.5 1 2 3\n0\n5\n" + kPose,
+           .complete_from = 0}};
+}
 
 TEST_CASE("rays of PTX have the pose of their block, and those without a return no coordinates", "[io]") {
   const ScratchFolder folder;
@@ -44,7 +54,7 @@ TEST_CASE("an empty grid of PTX is no point, and another block may follow", "[io
         1);
 }
 
-TEST_CASE("what is wrong in PTX is said with its line, and any cut is an error or a shorter scan", "[io]") {
+TEST_CASE("what is wrong in PTX is said with its line", "[io]") {
   const ScratchFolder folder;
   const auto error = [&](const std::string& text) { return read_error(folder.write("a.ptx", text)); };
   CHECK_THAT(error("2\n1\n" + kStill + "1 2 3 4\n"), Contains("line 12: the file ends here, too early"));
@@ -53,14 +63,17 @@ TEST_CASE("what is wrong in PTX is said with its line, and any cut is an error o
              Contains("line 12: a ray needs 4 numbers"));
   CHECK_THAT(error("1\n1\n0 0 0\n1 0\n" + kStill), Contains("line 4: a pose needs 3 numbers"));
   CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4\nhello\n"), Contains("line 12: 'hello' is no number"));
+  CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4 5 nan 7\n"),
+             Contains("line 11: a colour is not a number; 0 to 255 are allowed"));
   CHECK_THAT(error("9999999999999\n9999999999999\n" + kStill), Contains("a grid of"));
-  const std::string whole = "2\n1\n" + kPose + "1 2 3 0.5\n0 0 0 0.25\n1\n1\n" + kStill + "4 5 6 1\n";
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    const auto file = folder.write("a.ptx", whole.substr(0, length));
-    const std::string said = read_error(file);
-    CHECK(said.find('\n') == std::string::npos);
-    if (said.empty()) CHECK(read_table(file).rows.size() <= 3);
-  }
+}
+
+TEST_CASE("PTX: a broken file gives one error or whole rays", "[io]") {
+  check_broken_files(whole_files(), 7);
+}
+
+TEST_CASE("PTX: many broken files give one error or whole rays", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 7);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "tests/io/io_support.hpp"
+#include "tests/io/broken_files.hpp"
 
 #include <cmath>
 
@@ -9,6 +9,19 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 using Names = std::vector<std::string>;
+
+// A beginning is complete where a row ends, and a counted block.
+std::vector<WholeFile> whole_files() {
+  const std::pair<const char*, const char*> files[] = {
+      {"header.csv", "# c\nx;y;z;w\n1;2;3;4\n// d\n-5e1;nan;7.25;8\n"},
+      {"quotes.csv", "\"Intensity\",\"X\",\"Y\",\"Z\"\r\n9,1,2,3\r\n10,-4,5.5,6e-1\r\n"},
+      {"plain.xyz", "// by hand\n1 2 3 0.5\n\n4.25\t-5 6 7\n 7 8 9 inf\n"},
+      {"blocks.pts", "2\n1 2 3 40\n4 5 6 41\n1 \r\n7 8 9 42\n"},
+      {"commas.txt", "1,5 2,25 3\n4,5 -5 6,0\n1.0D+02 2.5d-1 -1.#IND\n"}};
+  std::vector<WholeFile> whole;
+  for (const auto& [name, bytes] : files) whole.push_back({.name = name, .bytes = bytes, .complete_from = 0});
+  return whole;
+}
 
 }  // namespace
 
@@ -170,17 +183,6 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
         std::string::npos);
 }
 
-TEST_CASE("text cut at any byte gives rows or an error", "[io]") {
-  const ScratchFolder folder;
-  const std::string whole = "# c\nx;y;z;w\n1;2;3;4\n// d\n-5e1;nan;7.25;8\n";
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    const auto file = folder.write("a.txt", whole.substr(0, length));
-    const std::string error = read_error(file);
-    if (error.empty()) CHECK(read_table(file).rows.size() <= 2);
-    CHECK(error.find('\n') == std::string::npos);
-  }
-}
-
 TEST_CASE("lines of text stay whole across buffers and batches", "[io]") {
   const ScratchFolder folder;
   constexpr int kRows = 120'000;
@@ -194,6 +196,14 @@ TEST_CASE("lines of text stay whole across buffers and batches", "[io]") {
     for (int i = 0; i < kRows; ++i) all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1.0 * i};
     CHECK(all);
   }
+}
+
+TEST_CASE("text that is broken gives one error or whole rows", "[io]") {
+  check_broken_files(whole_files(), 8);
+}
+
+TEST_CASE("many broken files of text give one error or whole rows", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 8);
 }
 
 }  // namespace lacuna::test

@@ -1,0 +1,172 @@
+#include "tests/io/broken_files.hpp"
+
+#include "tests/io/mutation.hpp"
+#include "tests/support/draws.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+#include <sys/resource.h>
+
+namespace lacuna::test {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+void check_layout(const RowLayout& layout) {
+  std::set<std::string> names;
+  std::size_t bytes = 0;
+  for (const Property& property : layout.properties) {
+    require(!property.name.empty() && names.insert(property.name).second, "names of properties differ");
+    require(property.offset == bytes, "properties are packed");
+    bytes += size_of(property.type);
+  }
+  require(layout.stride == bytes, "rows are packed");
+  require(layout.find("x") && layout.find("y") && layout.find("z"), "rows have x, y and z");
+}
+
+double value_of(const std::byte* row, const Property& property) {
+  double value = 0;
+  copy_column({.data = row + property.offset, .stride = 0, .type = property.type},
+              {.data = reinterpret_cast<std::byte*>(&value), .stride = 0, .type = Scalar::kFloat64}, 1);
+  return value;
+}
+
+// One line that names the file and gives a reason, without control characters.
+void check_message(const std::string& message, const std::filesystem::path& file) {
+  constexpr std::size_t kLongestReason = 1000;
+  INFO("the message: " << message);
+  const std::string begin = file.string() + ": ";
+  CHECK(message.starts_with(begin));
+  CHECK(message.size() > begin.size() + 10);
+  CHECK(message.size() < begin.size() + kLongestReason);
+  CHECK(std::none_of(message.begin(), message.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }));
+}
+
+std::uint64_t most_megabytes_so_far() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) / 1024;
+}
+
+// The sanitizers slow down and take memory of their own.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+constexpr auto kLongest = std::chrono::seconds(kIsSanitized ? 60 : 5);
+
+// Writes `bytes` and reads them. None where that was an error.
+std::optional<std::vector<Point>> read_broken(const WholeFile& whole, const ScratchFolder& folder,
+                                              const std::string& bytes, std::size_t max_rows,
+                                              bool keeps_points) {
+  const std::filesystem::path file = folder.write(whole.name, bytes);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::uint64_t before = most_megabytes_so_far();
+  std::optional<std::vector<Point>> points(std::in_place);
+  std::string wrong;
+  try {
+    whole.read(file, max_rows, bytes.size() * whole.points_in_a_byte, [&](const Point& point) {
+      if (keeps_points) points->push_back(point);
+    });
+  } catch (const Error& error) {
+    check_message(error.what(), file);
+    points.reset();
+  } catch (const std::exception& other) {
+    wrong = other.what();
+  }
+  std::filesystem::remove(file);  // a new file is written faster than an old one anew, which ext4 flushes
+  CHECK(wrong == "");
+  CHECK(std::chrono::steady_clock::now() - begin < kLongest);
+  if (!kIsSanitized) CHECK(most_megabytes_so_far() - before <= whole.megabytes);
+  return points;
+}
+
+bool is_same(const Point& a, const Point& b) {
+  return std::memcmp(a.data(), b.data(), sizeof a) == 0;  // NaN equals itself
+}
+
+// The last point of text may have lost digits.
+bool is_beginning(const std::vector<Point>& some, const std::vector<Point>& all) {
+  return some.size() <= all.size() &&
+         (some.empty() || std::equal(some.begin(), some.end() - 1, all.begin(), is_same));
+}
+
+void check_cuts(const WholeFile& whole, const ScratchFolder& folder) {
+  const auto all = read_broken(whole, folder, whole.bytes, 1000, true);
+  REQUIRE(all);
+  for (std::size_t length = 0; length < whole.bytes.size(); ++length) {
+    INFO(whole.name << " cut to " << length << " of " << whole.bytes.size() << " bytes");
+    const auto some = read_broken(whole, folder, whole.bytes.substr(0, length), 1 + length % 3, true);
+    if (length >= whole.complete_from && whole.complete_from > 0) {
+      REQUIRE(some);
+      CHECK(std::equal(some->begin(), some->end(), all->begin(), all->end(), is_same));
+    } else if (some) {
+      CHECK(whole.complete_from == 0);
+      CHECK(is_beginning(*some, *all));
+    }
+  }
+}
+
+void check_changes(const WholeFile& whole, const ScratchFolder& folder, std::uint32_t seed,
+                   std::uint64_t count) {
+  constexpr std::array<std::size_t, 4> kMaxRows = {1, 2, 7, 1000};
+  for (std::uint32_t number = 0; number < count; ++number) {
+    INFO(whole.name << " of " << whole.bytes.size() << " bytes, changed: seed " << seed << ", number "
+                    << number);
+    read_broken(whole, folder, mutated(whole.bytes, seed, number), kMaxRows[number % kMaxRows.size()], false);
+  }
+}
+
+}  // namespace
+
+void read_scan(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
+               const PointVisitor& visit) {
+  const auto reader = open_scan(file, {});
+  const RowLayout& layout = reader->layout();
+  check_layout(layout);
+  const std::array<const Property*, 3> axes = {layout.find("x"), layout.find("y"), layout.find("z")};
+  const auto expected = reader->expected_rows();
+  require(!expected || *expected <= most_points, "no more rows are expected than the file can hold");
+  std::uint64_t rows = 0;
+  RowBatch batch;
+  while (reader->next(batch, max_rows)) {
+    require(batch.count > 0 && batch.count <= max_rows, "batches have rows, but not too many");
+    require(batch.bytes.size() == batch.count * layout.stride, "batches have the bytes of their rows");
+    rows += batch.count;
+    require(rows <= most_points, "there are no more rows than the file can hold");
+    for (std::size_t row = 0; row < batch.count; ++row) {
+      const std::byte* const bytes = batch.bytes.data() + row * layout.stride;
+      visit({value_of(bytes, *axes[0]), value_of(bytes, *axes[1]), value_of(bytes, *axes[2])});
+    }
+  }
+  require(!expected || *expected == rows, "there are as many rows as expected");
+}
+
+void check_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed) {
+  constexpr std::uint64_t kChanges = 300;
+  const ScratchFolder folder;
+  for (const WholeFile& whole : files) {
+    check_cuts(whole, folder);
+    check_changes(whole, folder, seed, kChanges / files.size());
+  }
+}
+
+void check_many_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed) {
+  constexpr std::uint64_t kChanges = 10'000;
+  const ScratchFolder folder;
+  for (const WholeFile& whole : files) {
+    check_cuts(whole, folder);
+    check_changes(whole, folder, seed, draws(kChanges));
+  }
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,53 @@
+// Every reader on broken files: cut at every length, and changed at random.
+//
+// A broken file gives one clear `Error`, or a right answer. A reader of any format is covered by one list of
+// small files, and two test cases that hand it to the functions below.
+#pragma once
+
+#include "tests/io/io_support.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lacuna::test {
+
+using Point = std::array<double, 3>;
+using PointVisitor = std::function<void(const Point&)>;
+
+// Reads a file and hands on its points, in batches of at most `max_rows`. Throws `Error`, or std::logic_error
+// where the reader contradicts itself.
+using Reading = std::function<void(const std::filesystem::path& file, std::size_t max_rows,
+                                   std::uint64_t most_points, const PointVisitor& visit)>;
+
+// By `open_scan`. The rows are packed and have x, y and z, properties differ in name, batches have the bytes
+// of their rows, and the rows come to the number expected: never more than `most_points`.
+void read_scan(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
+               const PointVisitor& visit);
+
+// A file that can be read, with as much in it as its format has.
+struct WholeFile {
+  std::string name;
+  std::string bytes;
+  // From this length on a beginning of it is complete, and has all points. 0: the format has no count, so
+  // that any beginning may be complete; it has the first points of the whole.
+  std::size_t complete_from = static_cast<std::size_t>(-1);
+  // No file of the format may give more. Only compressed or packed bits take less than a byte for a point.
+  std::uint64_t points_in_a_byte = 1;
+  std::uint64_t megabytes = 64;  // of memory for reading it, however broken it is
+  Reading read = read_scan;
+};
+
+// Every length of each file, and 300 changed files in all. A failure names the seed and the number of the
+// change: mutated() gives the same file again, and after a crash it is left in the folder for temporary
+// files.
+void check_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed);
+
+// Every length of each file, and 10,000 changed ones of each. For slow tests.
+void check_many_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed);
+
+}  // namespace lacuna::test

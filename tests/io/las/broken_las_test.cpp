@@ -1,0 +1,114 @@
+// Broken files of every point format, compressed and not.
+#include "io/las/las_header.hpp"
+#include "tests/io/broken_files.hpp"
+#include "tests/io/las/las_file.hpp"
+#include "tests/support/laz_encoder.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <span>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+// Points alike, as in a scan: a few bytes of each differ from the one before.
+std::vector<std::string> some_points(std::size_t bytes, std::size_t count) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(bytes));
+  std::vector<std::string> points = {las_point(bytes, 1000, -2000, 300)};
+  while (points.size() < count) {
+    std::string next = points.back();
+    for (int changes = 0; changes < 5; ++changes) next[random() % bytes] = static_cast<char>(random());
+    points.push_back(next);
+  }
+  return points;
+}
+
+// With two extra bytes, and a record that describes them.
+LasFile las_file(int minor, int format, std::size_t points) {
+  return {.minor = minor,
+          .format = format,
+          .points = some_points(las_point_bytes(format) + 2, points),
+          .records = {las_record("LASF_Spec", 4, las_extra_descriptor("width", 3, 8 + 16, 0.5, 100))}};
+}
+
+WholeFile plain(int minor, int format) {
+  const std::string bytes = las_file(minor, format, 3).bytes();
+  return {.name = "format_" + std::to_string(format) + ".las", .bytes = bytes, .complete_from = bytes.size()};
+}
+
+std::string as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// `version` of the items; `chunks`: the points of each. Points of compressor 1 are one chunk without a table.
+WholeFile compressed(int minor, int format, std::uint16_t version, const std::vector<std::uint64_t>& chunks,
+                     bool has_table = true) {
+  LasFile las = las_file(minor, format, std::accumulate(chunks.begin(), chunks.end(), std::uint64_t{0}));
+  const bool varies = chunks.front() < *std::max_element(chunks.begin(), chunks.end());
+  const auto chunk_points = varies ? laz::kVariableChunks : static_cast<std::uint32_t>(chunks.front());
+  laz::Layout layout = laz_layout(format, 2, chunk_points, version);
+  if (!has_table) layout.compressor = laz::compressor::kPointwise;
+  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz_record(layout))));
+
+  std::string bytes = las.bytes();
+  const std::string points = bytes.substr(bytes.size() - las.points.size() * las.points[0].size());
+  bytes.resize(bytes.size() - points.size());
+  put(bytes, 104, static_cast<std::uint8_t>(format | 0x80));
+  const std::span records = std::as_bytes(std::span(points));
+  bytes +=
+      as_text(has_table ? laz_point_data(layout, records, chunks, bytes.size()) : laz_chunk(layout, records));
+  // LASzip codes a point in as little as 1/4096 byte: a file of 1 KB may have 4 million points of 40 bytes.
+  return {.name = "format_" + std::to_string(format) + "_version_" + std::to_string(version) + ".laz",
+          .bytes = bytes,
+          .complete_from = bytes.size(),
+          .points_in_a_byte = 4096,
+          .megabytes = 300};
+}
+
+const std::vector<std::uint64_t> kFixed = {8, 8, 3}, kVarying = {2, 9, 1};
+
+std::vector<WholeFile> some_files() {
+  return {plain(0, 1), plain(4, 7), compressed(2, 3, 2, kFixed), compressed(4, 7, 3, kVarying)};
+}
+
+std::vector<WholeFile> all_files() {
+  std::vector<WholeFile> files;
+  for (int format = 0; format <= 10; ++format) files.push_back(plain(format < 6 ? format % 4 : 4, format));
+  for (const int format : {0, 1, 2, 3}) {
+    files.push_back(compressed(1, format, 1, {12}, false));
+    for (const std::uint16_t version : {1, 2}) {
+      for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(2, format, version, chunks));
+    }
+  }
+  for (const int format : {6, 7, 8}) {
+    for (const std::uint16_t version : {3, 4}) {
+      for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(4, format, version, chunks));
+    }
+  }
+  return files;
+}
+
+TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an error at once", "[io]") {
+  const ScratchFolder folder;
+  std::string bytes = compressed(1, 0, 1, {12}, false).bytes;
+  const std::size_t points_at = 227 + 54 + 192 + 54 + 46;
+  put(bytes, 107, std::uint32_t{10'000'000});
+  CHECK(error_of([&] { open_scan(folder.write("a.laz", bytes), {}); })
+            .ends_with("a.laz: byte " + std::to_string(points_at) + ": 10000000 points in only " +
+                       std::to_string(bytes.size() - points_at) + " bytes"));
+}
+
+TEST_CASE("LAS and LAZ: a broken file gives one error or all its points", "[io]") {
+  check_broken_files(some_files(), 9);
+}
+
+TEST_CASE("LAS and LAZ: many broken files of every point format give one error or all their points",
+          "[io][.slow]") {
+  check_many_broken_files(all_files(), 9);
+}
+
+}  // namespace
+}  // namespace lacuna::test

@@ -1,0 +1,56 @@
+#include "tests/io/las/las_file.hpp"
+
+namespace lacuna::test {
+
+std::string las_record(const std::string& user, std::uint16_t number, const std::string& data) {
+  std::string bytes(54, '\0');
+  std::memcpy(&bytes[2], user.data(), user.size());
+  put<std::uint16_t>(bytes, 18, number);
+  put<std::uint16_t>(bytes, 20, static_cast<std::uint16_t>(data.size()));
+  return bytes + data;
+}
+
+std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std::uint8_t options,
+                                 double scale, double offset) {
+  std::string bytes(192, '\0');
+  put(bytes, 2, type);
+  put(bytes, 3, options);
+  std::memcpy(&bytes[4], name.data(), name.size());
+  put(bytes, 112, scale);
+  put(bytes, 136, offset);
+  return bytes;
+}
+
+std::string las_point(std::size_t bytes, std::int32_t x, std::int32_t y, std::int32_t z) {
+  std::string point(bytes, '\0');
+  put(point, 0, x);
+  put(point, 4, y);
+  put(point, 8, z);
+  return point;
+}
+
+std::string LasFile::bytes() const {
+  constexpr std::array<std::uint16_t, 5> kHeader = {227, 227, 227, 235, 375};
+  std::string file(kHeader.at(static_cast<std::size_t>(minor)), '\0');
+  const auto header_bytes = static_cast<std::uint16_t>(file.size());
+  std::memcpy(file.data(), "LASF", 4);
+  put<std::uint8_t>(file, 24, 1);
+  put(file, 25, static_cast<std::uint8_t>(minor));
+  put(file, 94, header_bytes);
+  put(file, 100, static_cast<std::uint32_t>(records.size()));
+  put(file, 104, static_cast<std::uint8_t>(format));
+  put(file, 105, static_cast<std::uint16_t>(points.empty() ? 20 : points[0].size()));
+  const bool is_long = minor == 4;
+  put(file, 107, static_cast<std::uint32_t>(is_long ? 0 : points.size()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(file, 131 + 8 * axis, scale[axis]);
+    put(file, 155 + 8 * axis, offset[axis]);
+  }
+  if (is_long) put(file, 247, static_cast<std::uint64_t>(points.size()));
+  for (const std::string& r : records) file += r;
+  put(file, 96, static_cast<std::uint32_t>(file.size()));
+  for (const std::string& p : points) file += p;
+  return file;
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,40 @@
+// LAS files drawn as bytes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace lacuna::test {
+
+// Sets the bytes of a value; the file grows where it must.
+template <class T>
+void put(std::string& bytes, std::size_t offset, T value) {
+  if (bytes.size() < offset + sizeof value) bytes.resize(offset + sizeof value);
+  std::memcpy(&bytes[offset], &value, sizeof value);
+}
+
+// A variable length record.
+std::string las_record(const std::string& user, std::uint16_t number, const std::string& data);
+
+// Of the record "Extra Bytes".
+std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std::uint8_t options = 0,
+                                 double scale = 0, double offset = 0);
+
+// All zero, but for the coordinates.
+std::string las_point(std::size_t bytes, std::int32_t x, std::int32_t y, std::int32_t z);
+
+struct LasFile {
+  int minor = 2;
+  int format = 0;
+  std::vector<std::string> points;   // their records, of one size
+  std::vector<std::string> records;  // of variable length
+  std::array<double, 3> scale{0.01, 0.01, 0.001}, offset{500'000, 5'400'000, 0};
+
+  std::string bytes() const;
+};
+
+}  // namespace lacuna::test

@@ -1,0 +1,14 @@
+// Files changed at random, the same for the same seed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lacuna::test {
+
+// `whole` with one to four random changes: bytes set, bits flipped, spans removed, repeated, inserted or
+// swapped, integers set to extreme values, numbers of text changed or replaced, the end cut off. Each
+// `number` gives a file of its own, on every machine the same.
+std::string mutated(const std::string& whole, std::uint32_t seed, std::uint32_t number);
+
+}  // namespace lacuna::test
