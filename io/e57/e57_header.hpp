@@ -39,7 +39,7 @@ struct E57Header {
 };
 
 // Throws `Error` unless the version is 1.0, the sizes hold and the scans can be read. The number of records
-// of each is at most 2^40, and no more than the file could hold unless a record has no bits.
+// of each is no more than the file could hold, one of no bits counted as one bit.
 // Memory: up to 17 times the XML section, which may have up to 16 MiB and be no larger than the file.
 E57Header read_e57_header(const std::filesystem::path& file);
 

@@ -13,7 +13,6 @@
 namespace lacuna {
 namespace {
 
-constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 40;
 // A packet of 64 KiB begins with 6 bytes, and 2 for each field.
 constexpr std::size_t kMostFields = 32765;
 
@@ -158,10 +157,10 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node) {
     scan.fields.push_back(read_field(xml, field));
     bits += scan.fields.back().bits;
   }
-  const std::uint64_t most = bits == 0 ? kMostRecords : xml.pages.size() * 8 / bits;
-  if (scan.records > std::min(kMostRecords, most)) {
+  const std::uint64_t most = xml.pages.size() * 8 / std::max<std::uint64_t>(bits, 1);
+  if (scan.records > most) {
     xml.fail(points, std::to_string(scan.records) + " points of " + std::to_string(bits) +
-                         " bits; the file holds at most " + std::to_string(std::min(kMostRecords, most)));
+                         " bits; the file holds at most " + std::to_string(most));
   }
   scan.pose = read_pose(xml, node.child("pose"));
   return scan;

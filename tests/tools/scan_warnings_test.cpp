@@ -1,6 +1,7 @@
 #include "tools/scan_warnings.hpp"
 
-#include "tests/io/io_support.hpp"
+#include "tests/io/las/las_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,19 +11,7 @@ namespace {
 using Catch::Matchers::Contains;
 
 std::string las(const std::string& crs) {
-  std::string file(227 + 54, '\0');
-  const auto put = [&](std::size_t at, auto value) { std::memcpy(&file[at], &value, sizeof value); };
-  std::memcpy(file.data(), "LASF", 4);
-  put(24, std::uint16_t{0x0201});
-  put(94, std::uint16_t{227});
-  put(96, static_cast<std::uint32_t>(file.size() + crs.size()));
-  put(100, std::uint32_t{1});
-  put(105, std::uint16_t{20});
-  for (const std::size_t axis : {0, 1, 2}) put(131 + 8 * axis, 1.0);
-  std::memcpy(&file[229], "LASF_Projection", 15);
-  put(227 + 18, std::uint16_t{2112});
-  put(227 + 20, static_cast<std::uint16_t>(crs.size()));
-  return file + crs;
+  return LasFile{.records = {las_record("LASF_Projection", 2112, crs)}}.bytes();
 }
 
 }  // namespace

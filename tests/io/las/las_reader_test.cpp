@@ -28,12 +28,12 @@ double value(const Table& table, std::size_t row, const std::string& column) {
 TEST_CASE("the coordinate reference system comes from records before the points or behind them", "[io]") {
   const ScratchFolder folder;
   const std::string name("GEOGCS[\"B\"]");
-  LasFile before{.points = {point(20, 1, 2, 3)}, .records = {record("LASF_Projection", 2112, name)}};
+  LasFile before{.points = {las_point(20, 1, 2, 3)}, .records = {las_record("LASF_Projection", 2112, name)}};
   CHECK(open_scan(folder.write("before.las", before.bytes()), {})->crs() == name);
-  before.records = {record("other", 2112, name)};
+  before.records = {las_record("other", 2112, name)};
   CHECK(open_scan(folder.write("other.las", before.bytes()), {})->crs().empty());
 
-  std::string behind = LasFile{.minor = 4, .points = {point(20, 1, 2, 3)}}.bytes();
+  std::string behind = LasFile{.minor = 4, .points = {las_point(20, 1, 2, 3)}}.bytes();
   put(behind, 235, static_cast<std::uint64_t>(behind.size()));
   put<std::uint32_t>(behind, 243, 2);
   for (const std::string user : {"other", "LASF_Projection"}) {
