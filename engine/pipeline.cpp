@@ -12,6 +12,7 @@
 #include "engine/results/represented.hpp"
 #include "engine/thin/bucket_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -145,7 +146,9 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   // clean surfaces; noisy scans took up to three times the whole.
   const auto exchanged =
       static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(bucketed.tile_points)));
-  estimate.workspace_bytes = points * (stored + exchanged + normals + orientation + results + voxels);
+  const std::uint64_t kept = scan.reads_slowly() ? (scan.has_normals() ? 6 : 3) * sizeof(double) : 0;
+  estimate.workspace_bytes =
+      points * (stored + normals + std::max(kept, exchanged + orientation + results + voxels));
   if (bucketed.thinned) {
     const std::uint64_t represented = config.output.points ? sizeof(Represented) + sizeof(PointResult) : 0;
     estimate.workspace_bytes += 2 * points * sizeof(Representative) + bucketed.thinned->points * represented;

@@ -1,10 +1,12 @@
 #include "io/file_scan.hpp"
 
+#include "engine/run/error.hpp"
 #include "io/posed_reader.hpp"
 #include "io/vectors.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace lacuna {
@@ -24,6 +26,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     const RowFilter filter(config_, files_.back(), *reader);
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
+    reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     expected_rows_.push_back(reader->expected_rows());
     if (expected_points_ && expected_rows_.back()) {
@@ -44,6 +47,18 @@ void FileScan::check_unchanged() const {
   for (std::size_t i = 0; i < files_.size(); ++i) lacuna::check_unchanged(files_[i], states_[i]);
 }
 
+// The engine does so too, but knows no files.
+void FileScan::refuse_too_far(const PointBatch& batch) const {
+  const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
+  if (found == batch.positions.end()) return;
+  const std::uint64_t row =
+      next_id_ - first_id_ + static_cast<std::uint64_t>(found - batch.positions.begin());
+  std::ostringstream message;
+  message << files_[file_].string() << ": point " << row << " lies at " << found->x() << " " << found->y()
+          << " " << found->z() << "; coordinates must be within 1e153";
+  throw Error(message.str());
+}
+
 void FileScan::rewind() {
   file_ = 0;
   next_id_ = 0;
@@ -58,6 +73,7 @@ bool FileScan::next(PointBatch& batch) {
   for (; file_ < files_.size(); ++file_, reader_.reset()) {
     if (!reader_) {
       reader_ = open(file_);
+      first_id_ = next_id_;
       filter_.emplace(config_, files_[file_], *reader_);
     }
     if (!reader_->next(rows_, kBatchRows)) continue;
@@ -69,6 +85,7 @@ bool FileScan::next(PointBatch& batch) {
     } else if (has_normals_) {
       batch.normals.assign(rows_.count, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
+    refuse_too_far(batch);
     next_id_ += rows_.count;
     return true;
   }
@@ -87,6 +104,10 @@ std::string FileScan::common_crs() const {
   const bool is_common =
       std::all_of(crs_.begin(), crs_.end(), [&](const auto& crs) { return crs == crs_.front(); });
   return is_common && !crs_.empty() ? crs_.front() : "";
+}
+
+bool FileScan::reads_slowly() const {
+  return reads_slowly_;
 }
 
 bool FileScan::single_precision() const {

@@ -37,7 +37,8 @@ class FileScan : public PointSource {
   void rewind() override;
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override;
-  bool has_normals() const override;  // any file has nx ny nz
+  bool has_normals() const override;   // any file has nx ny nz
+  bool reads_slowly() const override;  // any file does
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   const std::vector<std::optional<Pose>>& poses() const { return poses_; }  // one per file
@@ -58,17 +59,20 @@ class FileScan : public PointSource {
   bool single_precision() const;  // x, y and z are 32-bit floats in every file
 
  private:
+  void refuse_too_far(const PointBatch& batch) const;
+
   std::vector<std::filesystem::path> files_;
   std::vector<std::optional<Pose>> poses_;  // one per file
   InputConfig config_;
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_;
-  bool has_normals_ = false;
+  bool has_normals_ = false, reads_slowly_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
   // where reading stands
   std::size_t file_ = 0;
+  std::uint64_t first_id_ = 0;  // of the file
   std::uint64_t next_id_ = 0;
   std::unique_ptr<ScanReader> reader_;
   std::optional<RowFilter> filter_;

@@ -27,6 +27,7 @@ class PosedReader final : public ScanReader {
   std::string format() const override { return reader_->format(); }
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return reader_->expected_rows(); }
+  bool is_slow() const override { return reader_->is_slow(); }
   std::vector<Eigen::Vector3d> no_return_places() const override {
     std::vector<Eigen::Vector3d> places = reader_->no_return_places();
     for (Eigen::Vector3d& place : places) place = pose_ * place;

@@ -48,6 +48,8 @@ class ScanReader {
   virtual std::optional<std::uint64_t> expected_rows() const = 0;
   // The next rows, at most `max_rows`; false at the end, when the file was found complete.
   virtual bool next(RowBatch& batch, std::size_t max_rows) = 0;
+  // Slower than a file of plain numbers, so that what is read more than once had better be kept.
+  virtual bool is_slow() const { return false; }
   // The coordinate reference system, as well-known text or by a code such as "EPSG:25832"; empty: not known.
   virtual std::string crs() const { return {}; }
   // Positions that stand for a ray without return: 0 0 0, and the scanner's own where the file has it.

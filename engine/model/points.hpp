@@ -11,6 +11,12 @@
 
 namespace lacuna {
 
+// Coordinates beyond it are an `Error`: squared distances between points would overflow.
+inline constexpr double kFarthest = 1e153;
+inline bool is_too_far(const Eigen::Vector3d& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() > kFarthest;
+}
+
 // Points of the input in ascending id, non-finite ones included.
 struct PointBatch {
   PointId first{};
@@ -36,6 +42,8 @@ class PointSource {
   // Number of points where headers have it, for progress and buffer sizes; text files do not.
   virtual std::optional<std::uint64_t> expected_points() const = 0;
   virtual bool has_normals() const = 0;
+  // Whether a pass costs more than to write and read a file of plain numbers: compressed formats.
+  virtual bool reads_slowly() const { return false; }
 };
 
 }  // namespace lacuna

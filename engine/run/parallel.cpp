@@ -179,11 +179,11 @@ std::size_t threads_here() {
   return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
-// Isolated, or a thread that waits here could begin another body of the loop outside.
+// Not isolated: a thread within in_arena takes no tasks of another isolation, and would not help here.
 void for_each_here(std::size_t count, const std::function<void(std::size_t)>& body) {
   FirstError error;
   const auto work = [&](std::size_t i) { error.run([&] { body(i); }); };
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  tbb::parallel_for(std::size_t{0}, count, work);
   error.rethrow();
 }
 

@@ -41,7 +41,8 @@ class TaskArena {
 
 // Of the arena that the calling thread works in, for code that is called by a body and knows no arena.
 std::size_t threads_here();
-// As `for_each`, in that arena.
+// As `for_each`, in that arena. A thread that waits here may meanwhile run another body of the loop outside,
+// so the caller holds no lock and no share of a budget.
 void for_each_here(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace lacuna

@@ -94,15 +94,8 @@ std::uint64_t few_points(std::uint64_t points) {
   return std::min<std::uint64_t>(256, points / 1024);
 }
 
-// Squared distances between points within it do not overflow.
-constexpr double kFarthest = 1e153;
-
-bool lies_beyond(const Eigen::Vector3d& point) {
-  return finite(point) && point.cwiseAbs().maxCoeff() > kFarthest;
-}
-
 void refuse_beyond(const PointBatch& batch) {
-  const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), lies_beyond);
+  const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
   if (found == batch.positions.end()) return;
   std::ostringstream message;
   message << "point " << value(batch.id(static_cast<std::size_t>(found - batch.positions.begin())))
@@ -139,7 +132,7 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
       ++counts.runs.back().points;
     }
   }
-  if (!counts.bounds.isEmpty() && (lies_beyond(counts.bounds.min()) || lies_beyond(counts.bounds.max())))
+  if (!counts.bounds.isEmpty() && (is_too_far(counts.bounds.min()) || is_too_far(counts.bounds.max())))
     refuse_beyond(batch);
   return counts;
 }

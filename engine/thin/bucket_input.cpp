@@ -2,6 +2,7 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/store/kept_scan.hpp"
 #include "engine/survey/survey_scan.hpp"
 #include "engine/thin/choose_resolution.hpp"
 
@@ -30,6 +31,10 @@ Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) 
 }  // namespace
 
 Bucketed bucket_input(PointSource& input, Job& job) {
+  if (input.reads_slowly()) {
+    KeptScan kept(input, job.file("input"));
+    return bucket_input(kept, job);
+  }
   const ScaleConfig& scale = job.config.scale;
   if (scale.resolution > 0) return bucket_representatives(input, scale.resolution, job);
   std::optional<Bucketed> all = bucket_points(input, job);

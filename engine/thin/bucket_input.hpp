@@ -20,9 +20,9 @@ struct Bucketed {
 };
 
 // At the resolution that the config has, or that the lines of the scan leave (docs/method.md, D). By the
-// paper every point counts unless the config has a resolution. Reads the
-// input twice: for the survey and the tiles, or for the representatives. Four times where a resolution is
-// chosen. Throws `Error`.
+// paper every point counts unless the config has a resolution. Reads the input twice: for the survey and the
+// tiles, or for the representatives. Four times where a resolution is chosen. An input that reads slowly is
+// read once, and kept in the workspace meanwhile (engine/store/kept_scan.hpp). Throws `Error`.
 Bucketed bucket_input(PointSource& input, Job& job);
 
 }  // namespace lacuna

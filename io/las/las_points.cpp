@@ -117,12 +117,15 @@ class CompressedPoints final : public LasPoints {
     return static_cast<std::uint64_t>(offset);
   }
 
-  // The next chunks, one for each thread.
+  // The next chunks, a few for each thread, so that none waits long for the others.
   void decode_next() {
+    constexpr std::size_t kForEachThread = 4;
+    constexpr std::size_t kEnough = std::size_t{16} << 20;  // bytes of records
     const std::size_t first = next_chunk_;
     std::vector<std::vector<std::byte>> bytes;
     std::vector<std::size_t> places = {0};  // of the chunks' records
-    while (next_chunk_ < chunks_.size() && bytes.size() < threads_here()) {
+    while (next_chunk_ < chunks_.size() && bytes.size() < kForEachThread * threads_here() &&
+           (bytes.size() < threads_here() || places.back() < kEnough)) {
       const laz::Chunk& chunk = chunks_[next_chunk_++];
       if (chunk.offset < in_.position()) in_.fail_at_byte(chunk.offset, "a chunk within the one before");
       in_.skip(chunk.offset - in_.position());

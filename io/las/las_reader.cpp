@@ -1,5 +1,6 @@
 #include "io/las/las_reader.hpp"
 
+#include "engine/run/parallel.hpp"
 #include "io/input_file.hpp"
 #include "io/las/las_columns.hpp"
 #include "io/las/las_header.hpp"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ class LasReader final : public ScanReader {
   }
   const RowLayout& layout() const override { return columns_.layout(); }
   std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
+  bool is_slow() const override { return header_.is_compressed; }
   std::string crs() const override { return header_.crs.text(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
@@ -38,12 +41,22 @@ class LasReader final : public ScanReader {
     if (batch.count == 0) return false;
     records_.resize(batch.count * header_.record_bytes);
     points_->read(records_);
-    columns_.unpack(records_, batch.bytes.data());
+    unpack(batch);
     left_ -= batch.count;
     return true;
   }
 
  private:
+  void unpack(RowBatch& batch) const {
+    constexpr std::size_t kTogether = 4096;  // rows
+    for_each_here((batch.count + kTogether - 1) / kTogether, [&](std::size_t i) {
+      const std::size_t first = i * kTogether, count = std::min(kTogether, batch.count - first);
+      columns_.unpack(
+          std::span(records_).subspan(first * header_.record_bytes, count * header_.record_bytes),
+          batch.bytes.data() + first * layout().stride);
+    });
+  }
+
   // A batch is no larger than this, nor its records; one row is below 1 MiB.
   static constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 

@@ -183,7 +183,7 @@ TEST_CASE("points whose squared distances overflow or vanish end the program wit
   const fs::path out = scratch / "out";
   check_failure(detect_quietly(scratch.write("far.txt", "0 0 0\n1 0 0\n1e200 0 0\n"), out), "1e153");
   check_failure(detect_quietly(scratch.write("far.txt", "0 0 0\n1 0 0\n1e200 0 0\n"), out),
-                "point 2 lies at 1e+200 ");
+                "far.txt: point 2 lies at 1e+200 ");
   check_failure(detect_quietly(scratch.write("near.txt", "0 0 0\n1e-200 0 0\n1 0 0\n"), out), "underflow");
   CHECK_FALSE(fs::exists(out));
 }

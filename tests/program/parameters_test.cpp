@@ -126,21 +126,25 @@ void set_other(const Parameter& parameter, const std::string& workspace) {
 
 TEST_CASE("a parameter changes the results unless what it needs is missing or it is about the run") {
   Runs runs;
-  for (const LoopMethod method : {LoopMethod::kTangential, LoopMethod::kPaper}) {
-    for (const bool with_points : {false, true}) {
-      Config config;
-      config.loops.method = method;
-      config.output.points = config.output.normals = with_points;
-      const std::string before = runs.results(config);
-      for (std::size_t i = 0; i < parameters(config).size(); ++i) {
-        Config changed = config;
-        const Parameter parameter = parameters(changed)[i];
-        if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
-        set_other(parameter, runs.workspace());
-        const bool has_effect = parameter.needs.is_given(changed) && parameter.section != "run";
-        INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
-        CHECK((runs.results(changed) != before) == has_effect);
-      }
+  struct Setting {
+    LoopMethod method;
+    bool with_points;
+  };
+  constexpr Setting kSettings[] = {
+      {LoopMethod::kTangential, false}, {LoopMethod::kTangential, true}, {LoopMethod::kPaper, true}};
+  for (const auto& [method, with_points] : kSettings) {
+    Config config;
+    config.loops.method = method;
+    config.output.points = config.output.normals = with_points;
+    const std::string before = runs.results(config);
+    for (std::size_t i = 0; i < parameters(config).size(); ++i) {
+      Config changed = config;
+      const Parameter parameter = parameters(changed)[i];
+      if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
+      set_other(parameter, runs.workspace());
+      const bool has_effect = parameter.needs.is_given(changed) && parameter.section != "run";
+      INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
+      CHECK((runs.results(changed) != before) == has_effect);
     }
   }
 }

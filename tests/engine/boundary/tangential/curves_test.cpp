@@ -177,7 +177,7 @@ TEST_CASE("a curve is split where it passes a point again, into curves that pass
 TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
   Random random(11);
   for (int round = 0; round < 60; ++round) {
-    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, round < 50 ? 200 : 30'000)));
+    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, round < 56 ? 200 : 30'000)));
     const auto points = static_cast<std::int64_t>(passed.size()) / random.whole(1, 8) + 3;
     for (auto& p : passed) p = static_cast<std::uint64_t>(random.whole(0, points));
     const std::vector<CurvePoint> curve = curve_of(passed);

@@ -1,0 +1,38 @@
+// A scan that is decoded once: its points are kept in the workspace for all later passes.
+#pragma once
+
+#include "engine/model/points.hpp"
+#include "engine/store/scratch_file.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// For sources that are slower to read than a file of plain numbers. The first pass reads the source and
+// writes 24 bytes a point, 48 with normals; later passes read these, and never the source. Points have the
+// ids of the source, which must count from 0 without gaps.
+class KeptScan final : public PointSource {
+ public:
+  // `scan` must outlive it. `file`: a name in the workspace that is free.
+  KeptScan(PointSource& scan, const std::filesystem::path& file);
+
+  void rewind() override;
+  bool next(PointBatch& batch) override;
+  std::optional<std::uint64_t> expected_points() const override { return scan_.expected_points(); }
+  bool has_normals() const override { return scan_.has_normals(); }
+
+ private:
+  bool next_of_source(PointBatch& batch);
+  bool next_kept(PointBatch& batch);
+
+  PointSource& scan_;
+  ScratchFile positions_, normals_;
+  std::uint64_t next_ = 0;  // point
+  std::uint64_t points_ = 0;
+  bool is_kept_ = false;  // all of them
+};
+
+}  // namespace lacuna
