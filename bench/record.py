@@ -22,7 +22,7 @@ def read_report(report_file):
     with open(report_file, encoding="utf-8") as file:
         report = json.load(file)
     phases = {phase["name"]: phase["seconds"] for phase in report["phases"]}
-    return (report["counts"]["points"], report["tiling"]["memory_limit_bytes"], phases,
+    return (report["points"], report["tiling"]["memory_limit_bytes"], phases,
             report["peak_memory_bytes"], 0.0)
 
 

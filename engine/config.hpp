@@ -112,9 +112,10 @@ struct InputConfig {
 };
 
 struct OutputConfig {
-  bool points = false;   // write points.ply
-  bool vdb = false;      // write probability.vdb
-  bool normals = false;  // with nx ny nz where they were estimated
+  bool points = false;          // write points.ply
+  bool vdb = false;             // write probability.vdb
+  bool normals = false;         // with nx ny nz where they were estimated
+  bool no_coordinates = false;  // loops of holes.json have ids alone
 };
 
 struct RunConfig {

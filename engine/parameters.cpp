@@ -155,6 +155,9 @@ std::vector<Parameter> parameters(Config& config) {
        kNothing},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to points.ply, unless a scan brings its own.", kPoints},
+      {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
+       "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone.",
+       kNothing},
 
       {"run", "threads", &run.threads, 0, 1024, "a whole number from 0 (one per core) to 1024",
        "Threads at work; 0: one per core.", kNothing},

@@ -28,6 +28,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     crs_.push_back(reader->crs());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
+    rows_read_.push_back(0);
     expected_rows_.push_back(reader->expected_rows());
     if (expected_points_ && expected_rows_.back()) {
       *expected_points_ += *expected_rows_.back();
@@ -74,6 +75,7 @@ bool FileScan::next(PointBatch& batch) {
     if (!reader_) {
       reader_ = open(file_);
       first_id_ = next_id_;
+      rows_read_[file_] = 0;
       filter_.emplace(config_, files_[file_], *reader_);
     }
     if (!reader_->next(rows_, kBatchRows)) continue;
@@ -86,6 +88,7 @@ bool FileScan::next(PointBatch& batch) {
       batch.normals.assign(rows_.count, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
     refuse_too_far(batch);
+    rows_read_[file_] += rows_.count;
     next_id_ += rows_.count;
     return true;
   }

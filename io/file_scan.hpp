@@ -49,6 +49,8 @@ class FileScan : public PointSource {
   const std::vector<std::string>& crs() const { return crs_; }
   // The one that all files share; empty: they differ, or name none.
   std::string common_crs() const;
+  // Of a file: as its header declares, else as many as the last pass has read of it.
+  std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   // From its first row on, moved by its pose, without filters.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
   // Of the points read since the last rewind.
@@ -70,6 +72,7 @@ class FileScan : public PointSource {
   bool has_normals_ = false, reads_slowly_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
+  std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
   // where reading stands
   std::size_t file_ = 0;
   std::uint64_t first_id_ = 0;  // of the file

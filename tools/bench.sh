@@ -152,7 +152,7 @@ run_once() {
   [[ $run != warm-up ]] || return 0
   python3 bench/record.py --csv "$csv" --case "$case" --positions "$kind" --order "$order" \
     --program "$program" --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
-    --time "$work/time" --printed "$work/printed" --report "$work/out/holes.json"
+    --time "$work/time" --printed "$work/printed" --report "$work/out/run.json"
 }
 
 failures=()

@@ -8,7 +8,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libhwy-dev libpugixml-dev catch2
   # OpenVDB's headers include Boost's, and its CMake module asks for these:
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev
-  python3  # scripts of tests and benchmarks
+  python3 python3-jsonschema  # scripts of tests and benchmarks
 )
 
 missing=()

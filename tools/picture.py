@@ -142,8 +142,8 @@ def main():
     arguments = parser.parse_args()
     points = read_points(arguments.folder / "points.ply")
     report = json.loads((arguments.folder / "holes.json").read_text(encoding="utf-8"))
-    loops = [(loop["kind"], loop["points"]) for loop in report["loops"]]
-    lengths = sorted(loop["perimeter"] / len(loop["points"]) for loop in report["loops"])
+    loops = [(loop["kind"], loop["ids"]) for loop in report["loops"]]
+    lengths = sorted(loop["perimeter"] / loop["points"] for loop in report["loops"])
     spacing = lengths[len(lengths) // 2] if lengths else 0.01
     canvas = draw(points, loops, View(arguments.azimuth, arguments.elevation), arguments.width, arguments.height, spacing)
     canvas.write(arguments.picture)

@@ -94,9 +94,9 @@ std::string print_loops(const Detection& detection) {
       {"kind", "points", "perimeter", "area", "diameter", "planarity", "confidence", "centroid", "first id"}};
   for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
     const LoopMeasures& loop = loops[order[i]];
-    rows.push_back({loop.kind == LoopKind::kHole ? "hole" : "outer", print_count(loop.points),
-                    print_measure(loop.perimeter), print_measure(loop.area), print_measure(loop.diameter),
-                    print_share(loop.planarity), print_share(loop.confidence), print_position(loop.centroid),
+    rows.push_back({name_of(loop.kind), print_count(loop.points), print_measure(loop.perimeter),
+                    print_measure(loop.area), print_measure(loop.diameter), print_share(loop.planarity),
+                    print_share(loop.confidence), print_position(loop.centroid),
                     std::to_string(value(detection.read_loop(order[i]).points.front().id))});
   }
   std::string text = print_table(rows);

@@ -76,7 +76,7 @@ def count_reported(points, report, diameter):
     """Holes that a loop is around, and loops around none. The outer edge counts for neither."""
     holes, reported, false = middles(), set(), 0
     for record in report["loops"]:
-        loop = [points[i] for i in record["points"]]
+        loop = [points[i] for i in record["ids"]]
         x, y = (sum(p[axis] for p in loop) / len(loop) for axis in (0, 1))
         area = area_of(loop)
         if not (1 < x < WIDTH - 1 and 1 < y < HEIGHT - 1) or area > WIDTH * HEIGHT / 2:

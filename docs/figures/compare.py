@@ -42,7 +42,7 @@ def found_by(program, folder, run, weights, threshold):
         options += ["--min-confidence", min_confidence, "--every-point"]
     subprocess.run([str(word) for word in [program, "detect", folder / "scan.ply", *options]], check=True)
     report = json.loads((folder / method / "holes.json").read_text(encoding="utf-8"))
-    return [(loop["points"], loop["confidence"]) for loop in report["loops"]]
+    return [(loop["ids"], loop["confidence"]) for loop in report["loops"]]
 
 
 def expected(scan):

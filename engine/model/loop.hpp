@@ -23,9 +23,12 @@ struct LoopPoint {
 using Loop = std::vector<LoopPoint>;
 
 enum class LoopKind : std::uint8_t {
-  kHole,  // the surface lies outside of the loop
-  kOuter,   // the surface lies inside: the outer edge of an open surface
+  kHole,   // the surface lies outside of the loop
+  kOuter,  // the surface lies inside: the outer edge of an open surface
 };
+constexpr const char* name_of(LoopKind kind) {
+  return kind == LoopKind::kHole ? "hole" : "outer";
+}
 
 // What a user sorts and filters loops by. Lengths in units of the scan.
 struct LoopMeasures {

@@ -35,7 +35,9 @@ const std::vector<ResultFile>& all_results() {
        [](C c) { return c.output.points; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
        [](C c) { return c.output.vdb; }},
-      {"holes.json", kReportMark, write_report, always}};
+      {"holes.csv", kTableHeader, [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
+      {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
+      {"holes.json", kJsonMark, write_holes, always}};
   return results;
 }
 

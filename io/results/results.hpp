@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, holes.json, and points.ply and probability.vdb where
-// the config wants them.
+// The files that a run writes: loops.ply, boundary.ply, holes.csv, run.json, holes.json, and points.ply and
+// probability.vdb where the config wants them.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
@@ -28,12 +28,22 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
 
-// How a report begins: an earlier one is recognised by it.
-inline constexpr std::string_view kReportMark = "{\n  \"lacuna\": \"";
+// How a file of JSON begins: an earlier one is recognised by it.
+inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
 
-// The report: parameters, counts, times, and one line for each loop, in order. A loop's line depends on the
-// loop alone. What is not finite is null.
-void write_report(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+// holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
+// Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
+// which changes with it. What is not finite is null.
+inline constexpr std::string_view kHolesSchema = "holes 1";
+void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+
+// run.json: what may differ between runs with the same answer: threads, tiles, times, memory.
+void write_run(const Detection& detection, const Config& config, OutputFile& out);
+
+// holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
+inline constexpr std::string_view kTableHeader =
+    "id,kind,points,confidence,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz";
+void write_table(const Detection& detection, OutputFile& out);
 
 // Element vertex: x y z, id, loop (an index into the report's loops). Element edge: vertex1 vertex2, closing
 // each loop.

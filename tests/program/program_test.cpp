@@ -159,7 +159,7 @@ TEST_CASE("a run makes its folder, tells what it found and leaves nothing else")
                              Contains("first id") && Contains((out / "holes.json").string()));
   CHECK_THAT(result.err, Contains("done in") && !Contains("\r"));
   CHECK(fs::exists(out / "holes.json"));
-  CHECK(count_entries(out) == 3);  // and no workspace
+  CHECK(count_entries(out) == 5);  // and no workspace
 }
 
 TEST_CASE("a quiet run says nothing") {
@@ -201,7 +201,7 @@ TEST_CASE("one run at a time writes to a folder, and tells of what a killed one 
   const ProgramResult result = run_program({"detect", scan, "--out", out.string(), "--quiet"});
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.err, Contains(".lacuna-killed") && Contains("left by a run that was killed"));
-  CHECK(count_entries(out) == 4);
+  CHECK(count_entries(out) == 6);
 }
 
 TEST_CASE("a file that the program did not write is refused before the work, and replaced on request") {
@@ -216,14 +216,14 @@ TEST_CASE("a file that the program did not write is refused before the work, and
     const std::string before = test::read_file(mine);
     check_failure(run_program(arguments), 1, "points.ply: exists, and this command did not write it");
     CHECK(test::read_file(mine) == before);
-    CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 4 : 1));
+    CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 6 : 1));
     arguments.push_back("--overwrite");
     CHECK(run_program(arguments).exit_code == 0);
     CHECK(test::read_file(mine) != before);
     arguments.pop_back();
     CHECK(run_program(arguments).exit_code == 0);  // its own file
     if (arguments == synth) {
-      for (const char* name : {"loops.ply", "boundary.ply", "holes.json", "points.loops.txt"})
+      for (const char* name : {"loops.ply", "boundary.ply", "holes.csv", "holes.json", "run.json", "points.loops.txt"})
         fs::remove(scratch / "out" / name);
     }
   }
@@ -252,7 +252,7 @@ TEST_CASE("files, links, folders and pipes of like names are not touched, by a s
   CHECK(count_entries(out) == 4);
   CHECK(is_untouched());
   CHECK(run_program(arguments).exit_code == 0);
-  CHECK(count_entries(out) == 8);
+  CHECK(count_entries(out) == 10);
   CHECK(is_untouched());
 }
 
@@ -286,7 +286,7 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
       continue;
     }
     CHECK(result.exit_code == 128 + signal);
-    CHECK(count_entries(out) == (signal == SIGKILL ? 6 : 4));  // the workspace, and the results half-written
+    CHECK(count_entries(out) == (signal == SIGKILL ? 8 : 6));  // the workspace, and the results half-written
   }
 }
 
@@ -297,7 +297,7 @@ TEST_CASE("a workspace whose name takes a detour leaves none of it behind") {
                      (scratch / "b/../c/../work").string()})
             .exit_code == 0);
   CHECK(scratch.names() == std::vector<std::string>{"out", "scan.txt"});
-  CHECK(count_entries(scratch / "out") == 3);
+  CHECK(count_entries(scratch / "out") == 5);
 }
 
 TEST_CASE("a signal while a scan is made leaves nothing") {

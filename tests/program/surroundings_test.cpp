@@ -62,7 +62,7 @@ TEST_CASE("messages never go into a file, whichever standard descriptors are clo
     const ProgramResult result = detect("out" + closed, closed);
     CHECK(result.exit_code == (Contains(">&- ").match(closed) ? 1 : 0));  // without stdout, no summary
     CHECK(test::read_file(scratch / ("out" + closed) / "points.ply") == points);
-    CHECK(count_entries(scratch / ("out" + closed)) == 4);
+    CHECK(count_entries(scratch / ("out" + closed)) == 6);
   }
 }
 

@@ -11,6 +11,7 @@
 namespace lacuna::test {
 namespace {
 
+using Catch::Matchers::Contains;
 using Rows = std::vector<std::vector<double>>;
 using Names = std::vector<std::string>;
 
@@ -85,6 +86,9 @@ const std::string kWide = "property double x\nproperty double y\nproperty double
 nlohmann::json report(const std::filesystem::path& folder) {
   return nlohmann::json::parse(read_file(folder / "holes.json"));
 }
+nlohmann::json run_of(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(read_file(folder / "run.json"));
+}
 
 }  // namespace
 
@@ -99,8 +103,9 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
   const auto json = report(out);
   CHECK(json.at("loops").empty());
   CHECK(json.at("bounds").is_null());
-  CHECK(json.at("points_per_second").is_null());
-  CHECK(json.at("peak_memory_bytes") > 0);
+  CHECK(read_file(out / "holes.csv").ends_with("nx,ny,nz\n"));
+  CHECK(run_of(out).at("points_per_second").is_null());
+  CHECK(run_of(out).at("peak_memory_bytes") > 0);
   CHECK(json.at("inputs")[0].at("points") == 1);
   CHECK(json.at("inputs")[0].at("properties").at("z") == "float");
 }
@@ -122,27 +127,37 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
 
   const auto json = report(folder.path());
   CHECK(json.at("lacuna") == "0.1.0");
+  CHECK(json.at("schema") == "holes 1");
   for (const Parameter& parameter : parameters(config)) {
-    CHECK(json.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
+    const auto run = run_of(folder.path());
+    const auto& place = parameter.section == "run" ? run : json;
+    CHECK(place.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
   }
+  CHECK_FALSE(json.at("parameters").contains("run"));
   CHECK(json.at("parameters").at("neighbourhood").at("k") == 21);
   CHECK(json.at("parameters").at("selection").at("holes_only") == true);
-  CHECK(json.at("inputs")[0].at("points").is_null());
+  CHECK(json.at("inputs")[0].at("points") == 0);  // a text, not read yet
   CHECK(json.at("counts").at("candidates") == 7);
   CHECK(json.at("counts").at("loops") == 2);
   CHECK(json.at("counts").at("holes") == 1);
   CHECK(json.at("counts").at("outer") == 1);
   CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
-  CHECK(json.at("phases")[0].at("points_per_second") == 5);
-  CHECK(json.at("total_seconds") == 5);
-  CHECK(json.at("loops")[0].at("points") == nlohmann::json{1, 5, 3});
+  CHECK(run_of(folder.path()).at("phases")[0].at("points_per_second") == 5);
+  CHECK(run_of(folder.path()).at("total_seconds") == 5);
+  CHECK(json.at("loops")[0].at("ids") == nlohmann::json{1, 5, 3});
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
-  CHECK(
-      read_file(folder / "holes.json")
-          .find("\n    {\"kind\":\"hole\",\"points\":[1,5,3],\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,"
-                "\"centroid\":[1.0,2.0,3.0],\"normal\":[0.0,0.0,1.0],\"planarity\":0.0,"
-                "\"mean_probability\":0.0,\"confidence\":1.0,\"tiles\":0},\n") != std::string::npos);
+  CHECK_THAT(
+      read_file(folder / "holes.json"),
+      Contains("\n    {\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"perimeter\":0.1,\"area\":0.0,"
+               "\"diameter\":0.0,\"planarity\":0.0,\"mean_probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
+               "\"normal\":[0.0,0.0,1.0],\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
+               "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
+  CHECK_THAT(read_file(folder / "holes.csv"),
+             Contains("\n0,hole,3,1,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0.1,0,0,0,0,1,2,3,0,0,1\n"));
+  config.output.no_coordinates = true;
+  write_results(detection, scan, config, folder.path());
+  CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
@@ -248,11 +263,11 @@ TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[
   const auto detection = FakeDetection().with_results(1);
   Config with_points;
   with_points.output.points = true;
-  const Names all{"a.ply", "boundary.ply", "holes.json", "loops.ply", "points.ply"};
+  const Names all{"a.ply", "boundary.ply", "holes.csv", "holes.json", "loops.ply", "points.ply", "run.json"};
   for (const Config& config : {with_points, with_points, Config{}, Config{}, with_points}) {
     write_results(detection, scan, config, folder.path());
     Names expected = all;
-    if (!config.output.points) expected.pop_back();
+    if (!config.output.points) std::erase(expected, "points.ply");
     CHECK(folder.names() == expected);
   }
 }

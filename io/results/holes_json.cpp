@@ -1,26 +1,9 @@
+#include "io/results/json.hpp"
 #include "io/results/results.hpp"
 #include "io/scalar.hpp"
 
-#include <fstream>
-#include <sstream>
-#include <variant>
-
-#include <nlohmann/json.hpp>
-
 namespace lacuna {
 namespace {
-
-using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
-
-// A path need not be UTF-8, the report must be.
-std::string print(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-template <class Vector>
-Json list(const Vector& vector) {
-  return Json{vector[0], vector[1], vector[2]};
-}
 
 // Its 4 x 4 matrix, row by row.
 Json rows_of(const Pose& pose) {
@@ -31,32 +14,17 @@ Json rows_of(const Pose& pose) {
   return rows;
 }
 
-template <class Value>
-Json json_value(const Value* value) {
-  return *value;
-}
-Json json_value(const NamedValue& value) {
-  return value.names[*value.value];
-}
-
-Json parameter_values(Config config) {
-  Json sections = Json::object();
-  for (const Parameter& parameter : parameters(config)) {
-    Json& entry = sections[std::string(parameter.section)][std::string(parameter.key)];
-    std::visit([&](const auto& value) { entry = json_value(value); }, parameter.value);
-  }
-  return sections;
-}
-
 Json inputs(const FileScan& scan) {
   Json files = Json::array();
+  std::uint64_t first_id = 0;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     Json file = Json::object();
     file["file"] = scan.files()[i].string();
     if (const auto& pose = scan.poses()[i]) file["pose"] = rows_of(*pose);
     if (!scan.crs()[i].empty()) file["crs"] = scan.crs()[i];
-    const auto& rows = scan.expected_rows()[i];
-    file["points"] = rows ? Json(*rows) : Json(nullptr);
+    file["first_id"] = first_id;
+    file["points"] = scan.rows(i);
+    first_id += scan.rows(i);
     Json::object_t properties;  // names differ, so none is searched for
     for (const Property& property : scan.layouts()[i].properties) {
       properties.emplace_back(property.name, ply_name(property.type));
@@ -91,30 +59,13 @@ Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector
           {"undefined_normals", counts.undefined_normals}};
 }
 
-double points_per_second(std::uint64_t points, double seconds) {
-  return static_cast<double>(points) / seconds;
-}
-
-// The most memory this process has held so far.
-Json peak_memory_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    std::istringstream words(line);
-    std::string key;
-    std::uint64_t kilobytes = 0;
-    if (words >> key && key == "VmHWM:" && words >> kilobytes) return kilobytes * 1024;
-  }
-  return nullptr;
-}
-
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
   const Summary& summary = detection.summary();
-  Json json;
-  json["lacuna"] = LACUNA_VERSION;
-  json["parameters"] = parameter_values(config);
-  json["inputs"] = inputs(scan);
+  Json json = begin_json(kHolesSchema);
   json["crs"] = nullptr;
   if (const std::string crs = scan.common_crs(); !crs.empty()) json["crs"] = crs;
+  json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
+  json["inputs"] = inputs(scan);
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
   json["bounds"] = nullptr;
   if (!summary.bounds.isEmpty()) {
@@ -125,52 +76,41 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["mean_edge_length"] = summary.mean_edge_length;
   json["eps"] = summary.eps;
   json["e"] = summary.e;
-  json["tiling"] = {{"tiles", summary.tiles},
-                    {"tile_points", summary.tile_points},
-                    {"threads", summary.threads},
-                    {"memory_limit_bytes", summary.memory_limit}};
-  json["phases"] = Json::array();
-  double total_seconds = 0;
-  for (const PhaseTime& phase : summary.phases) {
-    json["phases"].push_back(
-        {{"name", phase.name},
-         {"seconds", phase.seconds},
-         {"points_per_second", points_per_second(summary.counts.points, phase.seconds)}});
-    total_seconds += phase.seconds;
-  }
-  json["total_seconds"] = total_seconds;
-  json["points_per_second"] = points_per_second(summary.counts.points, total_seconds);
-  json["peak_memory_bytes"] = peak_memory_bytes();
   return json;
 }
 
-Json record(const ReportedLoop& loop) {
+Json record(std::size_t id, const ReportedLoop& loop, bool with_coordinates) {
   const LoopMeasures& measures = loop.measures;
-  Json ids = Json::array();
+  Json record = {{"id", id},
+                 {"kind", name_of(measures.kind)},
+                 {"confidence", measures.confidence},
+                 {"perimeter", measures.perimeter},
+                 {"area", measures.area},
+                 {"diameter", measures.diameter},
+                 {"planarity", measures.planarity},
+                 {"mean_probability", measures.mean_probability},
+                 {"centroid", list(measures.centroid)},
+                 {"normal", list(measures.normal)},
+                 {"tiles", measures.tiles},
+                 {"points", loop.points.size()}};
+  Json& ids = record["ids"] = Json::array();
   for (const LoopPoint& point : loop.points) ids.push_back(value(point.id));
-  return {{"kind", measures.kind == LoopKind::kHole ? "hole" : "outer"},
-          {"points", std::move(ids)},
-          {"perimeter", measures.perimeter},
-          {"area", measures.area},
-          {"diameter", measures.diameter},
-          {"centroid", list(measures.centroid)},
-          {"normal", list(measures.normal)},
-          {"planarity", measures.planarity},
-          {"mean_probability", measures.mean_probability},
-          {"confidence", measures.confidence},
-          {"tiles", measures.tiles}};
+  if (!with_coordinates) return record;
+  Json& coordinates = record["coordinates"] = Json::array();
+  for (const LoopPoint& point : loop.points) coordinates.push_back(list(point.position));
+  return record;
 }
 
 }  // namespace
 
-void write_report(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
   std::string text = print(head(detection, scan, config), 2);
   text.resize(text.size() - 2);  // without its "\n}": the loops follow, one in memory at a time
   out.write(text);
   out.write(",\n  \"loops\": [");
   for (std::size_t i = 0; i < detection.loops().size(); ++i) {
     out.write(i == 0 ? "\n    " : ",\n    ");
-    out.write(print(record(detection.read_loop(i)), -1));
+    out.write(print(record(i, detection.read_loop(i), !config.output.no_coordinates), -1));
   }
   out.write(detection.loops().empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
