@@ -69,7 +69,8 @@ struct SetFromText {
   void operator()(const NamedValue& target) const {
     const auto name = std::find(target.names.begin(), target.names.end(), text);
     if (name == target.names.end()) {
-      refuse(parameter, text == kFormerTangential ? "stars (now called tangential)" : text);
+      const bool is_method = parameter.key == "method";
+      refuse(parameter, is_method && text == kFormerTangential ? "stars (now called tangential)" : text);
     }
     *target.value = static_cast<std::uint8_t>(name - target.names.begin());
   }

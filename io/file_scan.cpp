@@ -52,8 +52,7 @@ void FileScan::check_unchanged() const {
 void FileScan::refuse_too_far(const PointBatch& batch) const {
   const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
   if (found == batch.positions.end()) return;
-  const std::uint64_t row =
-      next_id_ - first_id_ + static_cast<std::uint64_t>(found - batch.positions.begin());
+  const std::uint64_t row = rows_read_[file_] + static_cast<std::uint64_t>(found - batch.positions.begin());
   std::ostringstream message;
   message << files_[file_].string() << ": point " << row << " lies at " << found->x() << " " << found->y()
           << " " << found->z() << "; coordinates must be within 1e153";
@@ -74,7 +73,6 @@ bool FileScan::next(PointBatch& batch) {
   for (; file_ < files_.size(); ++file_, reader_.reset()) {
     if (!reader_) {
       reader_ = open(file_);
-      first_id_ = next_id_;
       rows_read_[file_] = 0;
       filter_.emplace(config_, files_[file_], *reader_);
     }

@@ -75,7 +75,6 @@ class FileScan : public PointSource {
   std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
   // where reading stands
   std::size_t file_ = 0;
-  std::uint64_t first_id_ = 0;  // of the file
   std::uint64_t next_id_ = 0;
   std::unique_ptr<ScanReader> reader_;
   std::optional<RowFilter> filter_;

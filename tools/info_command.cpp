@@ -3,6 +3,7 @@
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
+#include "io/results/json.hpp"
 #include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
@@ -22,13 +23,11 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // Measured: points per second of a whole `lacuna detect` with default parameters, on two threads.
 constexpr double kPointsPerSecond = 1'900'000;
@@ -137,10 +136,6 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
 }
 
-Json point_json(const Eigen::Vector3d& point) {
-  return Json::array({point.x(), point.y(), point.z()});
-}
-
 void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
@@ -159,14 +154,9 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   const bool has_bounds = !summary.bounds.isEmpty();
   root["points"] = summary.counts.points;
   root["dropped"] = summary.counts.dropped - filtered.total();
-  root["filtered_out"] = {{"origin", filtered.origin},
-                          {"bounds", filtered.bounds},
-                          {"classes", filtered.classes},
-                          {"returns", filtered.returns}};
+  root["filtered_out"] = counts_of(filtered);
   root["bounds"] =
-      has_bounds
-          ? Json({{"min", point_json(summary.bounds.min())}, {"max", point_json(summary.bounds.max())}})
-          : Json();
+      has_bounds ? Json({{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}}) : Json();
   root["resolution"] = summary.resolution;
   root["thinned_out"] = summary.counts.thinned_out;
   root["tiles"] = summary.tiles;
@@ -179,8 +169,7 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   root["points_ply_bytes"] = run.points_ply_bytes;
   root["estimated_seconds"] = run.seconds;
   root["estimate"] = assumption();
-  // Names of files need not be UTF-8.
-  std::cout << root.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+  std::cout << print(root, 2) << "\n";
 }
 
 void run_info(const InfoArguments& arguments) {

@@ -40,11 +40,7 @@ Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector
   for (const LoopMeasures& loop : loops) holes += loop.kind == LoopKind::kHole ? 1 : 0;
   return {{"points", counts.points},
           {"dropped", counts.dropped - filtered.total()},
-          {"filtered_out",
-           {{"origin", filtered.origin},
-            {"bounds", filtered.bounds},
-            {"classes", filtered.classes},
-            {"returns", filtered.returns}}},
+          {"filtered_out", counts_of(filtered)},
           {"thinned_out", counts.thinned_out},
           {"duplicates", counts.duplicates},
           {"candidates", counts.candidates},

@@ -27,6 +27,13 @@ Json list(const Eigen::Vector3d& vector) {
   return Json::array({vector.x(), vector.y(), vector.z()});
 }
 
+Json counts_of(const FilteredOut& filtered) {
+  return {{"origin", filtered.origin},
+          {"bounds", filtered.bounds},
+          {"classes", filtered.classes},
+          {"returns", filtered.returns}};
+}
+
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted) {
   Json sections = Json::object();
   for (const Parameter& parameter : parameters(config)) {

@@ -3,6 +3,7 @@
 
 #include "engine/config.hpp"
 #include "engine/model/points.hpp"
+#include "io/row_filter.hpp"
 
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@ Json begin_json(std::string_view schema);
 std::string print(const Json& json, int indent);
 
 Json list(const Eigen::Vector3d& vector);
+Json counts_of(const FilteredOut& filtered);  // by filter
 
 // Of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);

@@ -58,7 +58,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"tile_points", "150"},
 };
 
-// A rough sheet with two holes, and pairs of sheets that meet in creases; of two classes and returns, with
+// A rough sheet with two holes, and pairs of sheets that join in creases; of two classes and returns, with
 // one point at 0 0 0.
 std::string scan_text() {
   Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
