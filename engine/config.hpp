@@ -111,11 +111,21 @@ struct InputConfig {
   bool drop_origin = false;  // without points at 0 0 0 or at the scanner
 };
 
+// How the annotated scan is written.
+enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv };
+
 struct OutputConfig {
-  bool points = false;          // write points.ply
-  bool vdb = false;             // write probability.vdb
-  bool normals = false;         // with nx ny nz where they were estimated
-  bool no_coordinates = false;  // loops of holes.json have ids alone
+  bool points = false;  // write the annotated scan: every point of the input with its results
+  PointsFormat points_format = PointsFormat::kInput;
+  bool normals = false;                  // with nx ny nz where they were estimated
+  bool vdb = false;                      // write probability.vdb
+  bool obj = false, dxf = false;         // write the loops for CAD
+  bool vtp = false;                      // for VTK and ParaView
+  bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
+  bool shp = false;                      // Shapefile
+  bool no_coordinates = false;           // loops of holes.json have ids alone
+  std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none
+  bool report = false;                   // write report.html
 };
 
 struct RunConfig {

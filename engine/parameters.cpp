@@ -14,6 +14,7 @@ constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 // In the order of their enumerations.
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
+constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv"};
 
 template <class Enum>
 NamedValue named(Enum& value, std::span<const std::string_view> names) {
@@ -149,15 +150,36 @@ std::vector<Parameter> parameters(Config& config) {
        "Points at 0 0 0, or at the scanner where a file has its place, do not take part.", kNothing},
 
       {"output", "points", &output.points, 0, 1, "true or false",
-       "Write points.ply too: every point of the input with its probabilities.", kNothing},
+       "Write the annotated scan too: every point of the input with its probabilities.", kNothing},
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 4,
+       "input, ply, las, pcd or csv",
+       "Format of the annotated scan; input: that of the scan, LAS for LAZ, PLY where it cannot be written.",
+       kPoints},
+      {"output", "normals", &output.normals, 0, 1, "true or false",
+       "Add the estimated normals to the annotated scan, unless a scan brings its own.", kPoints},
       {"output", "vdb", &output.vdb, 0, 1, "true or false",
        "Write probability.vdb too: the boundary probability as a grid of OpenVDB, for Houdini and Blender.",
        kNothing},
-      {"output", "normals", &output.normals, 0, 1, "true or false",
-       "Add the estimated normals to points.ply, unless a scan brings its own.", kPoints},
+      {"output", "obj", &output.obj, 0, 1, "true or false",
+       "Write loops.obj too: the loops as polylines, for CAD and Blender.", kNothing},
+      {"output", "dxf", &output.dxf, 0, 1, "true or false",
+       "Write loops.dxf too: the loops as closed 3D polylines, for CAD.", kNothing},
+      {"output", "vtp", &output.vtp, 0, 1, "true or false",
+       "Write loops.vtp too: the loops with their measures, for ParaView and VTK.", kNothing},
+      {"output", "gpkg", &output.gpkg, 0, 1, "true or false",
+       "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS.", kNothing},
+      {"output", "geojson", &output.geojson, 0, 1, "true or false",
+       "Write loops.geojson too: the loops as GeoJSON, for GIS and the web.", kNothing},
+      {"output", "shp", &output.shp, 0, 1, "true or false",
+       "Write loops.shp too, with its .shx, .dbf and .prj: the loops as a Shapefile.", kNothing},
       {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone.",
        kNothing},
+      {"output", "sample_points", &output.sample_points, 0, 1e8, "a whole number from 0 to 100000000",
+       "Points of sample.ply at most, spread evenly over the surface, for report and render; 0: no sample.",
+       kNothing},
+      {"output", "report", &output.report, 0, 1, "true or false",
+       "Write report.html too: the scan and its holes in 3D, for a browser.", kNothing},
 
       {"run", "threads", &run.threads, 0, 1024, "a whole number from 0 (one per core) to 1024",
        "Threads at work; 0: one per core.", kNothing},

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -53,6 +54,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"bounds", "2,2,100,300"},
     {"classes", "2"},
     {"returns", "first"},
+    {"points_format", "pcd"},
+    {"sample_points", "200"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},
@@ -79,7 +82,8 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results; of the report the loops only, since it has the parameters and times, too.
+  // All bytes of the results. Of files with the parameters or times in them: of holes.json the loops, of the
+  // others the name.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
@@ -87,8 +91,12 @@ class Runs {
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     std::string bytes;
-    for (const char* name : {"loops.ply", "boundary.ply", "points.ply", "probability.vdb"}) {
-      if (fs::exists(out / name)) bytes += name + test::read_file(out / name);
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(out)) files.insert(entry.path());
+    for (const fs::path& file : files) {
+      const std::string name = file.filename().string();
+      bytes += name;
+      if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += test::read_file(file);
     }
     bytes += nlohmann::json::parse(test::read_file(out / "holes.json"))["loops"].dump();
     fs::remove_all(out);
