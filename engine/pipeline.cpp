@@ -10,6 +10,7 @@
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
+#include "engine/results/scan_sample.hpp"
 #include "engine/thin/bucket_input.hpp"
 
 #include <algorithm>
@@ -57,6 +58,24 @@ std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Jo
   return std::make_unique<TangentialBoundary>(store, job);
 }
 
+// Of the workspace, for a clean scan.
+std::uint64_t bytes_per_point(const PointSource& scan, const Config& config, Precision precision,
+                              std::uint64_t tile_points) {
+  const std::uint64_t stored = precision == Precision::kSingle ? 16 : sizeof(StoredPoint);
+  const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
+  // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on clean
+  // surfaces; noisy scans took up to three times the whole.
+  const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
+  // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
+  const std::uint64_t orientation =
+      config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
+  const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
+  const std::uint64_t voxels = config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20
+                                                 : 0;  // at most one for each point, sorted
+  const std::uint64_t kept = scan.reads_slowly() ? (scan.has_normals() ? 6 : 3) * sizeof(double) : 0;
+  return stored + normals + std::max(kept, exchanged + orientation + results + voxels);
+}
+
 void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
   Counts& counts = summary.counts;
   counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
@@ -67,6 +86,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, double eps, Sum
   counts.raw_loops = found.raw;
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
+  summary.probabilities = totals.probabilities;
   summary.eps = eps;
   summary.e = found.minimum_loop;
 }
@@ -94,10 +114,13 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
   std::optional<PointResults> points;
   std::optional<ProbabilityVoxels> voxels;
+  std::optional<ScanSample> sampler;
   std::optional<OrientationGraph> orientation;
   std::vector<TileConsumer*> consumers = {&candidates, boundary.get()};
   if (config.output.points) consumers.push_back(&points.emplace(summary.counts.points, store, job));
   if (config.output.vdb) consumers.push_back(&voxels.emplace(job));
+  if (const std::int64_t most = config.output.sample_points; most > 0)
+    consumers.push_back(&sampler.emplace(static_cast<std::uint64_t>(most), job));
   if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
   const Totals totals = evaluate_tiles(store, std::move(halo), eps, extent, consumers, job);
 
@@ -111,12 +134,14 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // Results, in the order of the input.
   std::optional<ProbabilityGrid> probabilities;
   if (voxels) probabilities.emplace(voxels->finish(store, bucketed.survey.middle, job));
+  std::optional<Column<StoredSample>> sample;
+  if (sampler) sample.emplace(sampler->finish(job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
   add_findings(totals, found, eps, summary);
   std::unique_ptr<Detection> detection = collect_results(
       {std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates),
-       std::move(points), std::move(probabilities), std::move(opposed_normals)},
+       std::move(points), std::move(probabilities), std::move(sample), std::move(opposed_normals)},
       candidates, store, job);
   if (!bucketed.thinned || !config.output.points) return detection;
   return spread_results(std::move(detection), std::move(*bucketed.thinned->represented), job);
@@ -134,26 +159,21 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   estimate.cell_size = bucketed.survey.grid.edge();
   estimate.cells = tiling.cells.size();
   const std::uint64_t points = bucketed.survey.points - bucketed.survey.dropped;
-  const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
-  // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
-  const std::uint64_t orientation =
-      config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
-  const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
-  const std::uint64_t voxels = config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20
-                                                 : 0;  // at most one for each point, sorted
-  const std::uint64_t stored = bucketed.survey.precision() == Precision::kSingle ? 16 : sizeof(StoredPoint);
-  // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on
-  // clean surfaces; noisy scans took up to three times the whole.
-  const auto exchanged =
-      static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(bucketed.tile_points)));
-  const std::uint64_t kept = scan.reads_slowly() ? (scan.has_normals() ? 6 : 3) * sizeof(double) : 0;
   estimate.workspace_bytes =
-      points * (stored + normals + std::max(kept, exchanged + orientation + results + voxels));
+      points * bytes_per_point(scan, config, bucketed.survey.precision(), bucketed.tile_points);
   if (bucketed.thinned) {
     const std::uint64_t represented = config.output.points ? sizeof(Represented) + sizeof(PointResult) : 0;
     estimate.workspace_bytes += 2 * points * sizeof(Representative) + bucketed.thinned->points * represented;
   }
   return estimate;
+}
+
+std::uint64_t least_workspace_bytes(const PointSource& scan, const Config& config) {
+  constexpr std::uint64_t kTilePoints = 1'000'000;
+  const bool is_thinned = config.scale.resolution > 0 || config.scale.min_hole > 0;
+  return is_thinned ? 0
+                    : scan.expected_points().value_or(0) *
+                          bytes_per_point(scan, config, Precision::kSingle, kTilePoints);
 }
 
 }  // namespace lacuna

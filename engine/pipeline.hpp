@@ -28,4 +28,8 @@ struct Estimate {
 Estimate estimate(PointSource& scan, const Config& config, const std::filesystem::path& workspace,
                   Progress& progress);
 
+// What a run would write to the workspace, from the headers of the scan alone: less than `estimate` says. 0
+// where the number of points that count is not known beforehand.
+std::uint64_t least_workspace_bytes(const PointSource& scan, const Config& config);
+
 }  // namespace lacuna

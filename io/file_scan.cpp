@@ -14,6 +14,13 @@ namespace {
 
 constexpr std::size_t kBatchRows = std::size_t{1} << 16;
 
+// Empty where they differ.
+std::string common(const std::vector<std::string>& names) {
+  const bool is_common =
+      std::all_of(names.begin(), names.end(), [&](const auto& name) { return name == names.front(); });
+  return is_common && !names.empty() ? names.front() : "";
+}
+
 }  // namespace
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
@@ -26,6 +33,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     const RowFilter filter(config_, files_.back(), *reader);
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
+    units_.push_back(reader->length_unit());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     rows_read_.push_back(0);
@@ -102,9 +110,11 @@ bool FileScan::has_normals() const {
 }
 
 std::string FileScan::common_crs() const {
-  const bool is_common =
-      std::all_of(crs_.begin(), crs_.end(), [&](const auto& crs) { return crs == crs_.front(); });
-  return is_common && !crs_.empty() ? crs_.front() : "";
+  return common(crs_);
+}
+
+std::string FileScan::length_unit() const {
+  return common(units_);
 }
 
 bool FileScan::reads_slowly() const {

@@ -49,6 +49,8 @@ class FileScan : public PointSource {
   const std::vector<std::string>& crs() const { return crs_; }
   // The one that all files share; empty: they differ, or name none.
   std::string common_crs() const;
+  // Of lengths: the one that all files share; empty: they differ, or name none.
+  std::string length_unit() const;
   // Of a file: as its header declares, else as many as the last pass has read of it.
   std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   // From its first row on, moved by its pose, without filters.
@@ -68,7 +70,7 @@ class FileScan : public PointSource {
   InputConfig config_;
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
-  std::vector<std::string> crs_;
+  std::vector<std::string> crs_, units_;
   bool has_normals_ = false, reads_slowly_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;

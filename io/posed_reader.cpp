@@ -28,6 +28,10 @@ class PosedReader final : public ScanReader {
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return reader_->expected_rows(); }
   bool is_slow() const override { return reader_->is_slow(); }
+  std::string length_unit() const override {
+    const bool is_rigid = std::abs(pose_.linear().determinant() - 1) < 1e-6;
+    return is_rigid ? reader_->length_unit() : "";
+  }
   std::vector<Eigen::Vector3d> no_return_places() const override {
     std::vector<Eigen::Vector3d> places = reader_->no_return_places();
     for (Eigen::Vector3d& place : places) place = pose_ * place;

@@ -3,6 +3,7 @@
 #include "io/e57/e57_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/las/las_reader.hpp"
+#include "io/length_unit.hpp"
 #include "io/mesh/obj_reader.hpp"
 #include "io/mesh/off_reader.hpp"
 #include "io/mesh/stl_reader.hpp"
@@ -15,6 +16,11 @@
 #include <array>
 
 namespace lacuna {
+
+std::string ScanReader::length_unit() const {
+  return lacuna::length_unit(crs());
+}
+
 namespace {
 
 struct Format {

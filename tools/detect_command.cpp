@@ -4,6 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
+#include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
@@ -69,6 +70,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
   TemporaryFolder workspace(parent.path(), config.run.workspace.empty() ? kTemporaryPrefix : "lacuna-");
   if (arguments.keep_workspace) workspace.keep();
+  for (const std::string& warning : machine_warnings(scan, config, parent.path()))
+    spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
 
@@ -76,6 +79,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   write_results(*detection, scan, config, out, overwrite);
+  std::vector<fs::path> written = result_files(config, out);
+  if (config.output.report) written.push_back(write_report(out, overwrite));
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
     spdlog::warn("{}", warning);
@@ -84,8 +89,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   std::string summary = print_summary(*detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()});
-  for (const fs::path& file : result_files(config, out))
-    summary += "written: " + visible(file.string()) + "\n";
+  for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }

@@ -5,6 +5,8 @@
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/render_command.hpp"
+#include "tools/report_command.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
@@ -111,6 +113,8 @@ int run(int argc, char** argv) {
   add_detect_command(app);
   add_evaluate_command(app);
   add_info_command(app);
+  add_report_command(app);
+  add_render_command(app);
   add_synth_command(app);
 
   try {

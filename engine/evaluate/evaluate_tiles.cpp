@@ -134,6 +134,8 @@ void operator+=(Totals& totals, const Totals& more) {
   totals.candidates += more.candidates;
   totals.undefined_normals += more.undefined_normals;
   totals.edge_length += more.edge_length;
+  for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
+    totals.probabilities[bin] += more.probabilities[bin];
 }
 
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
@@ -143,6 +145,8 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Rows& neighbourhood
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
     const Evaluation& e = evaluations[p];
     if (e.probability > threshold) candidates.push_back(p);
+    ++totals.probabilities[std::min(kProbabilityBins - 1,
+                                    static_cast<std::size_t>(e.probability * kProbabilityBins))];
     totals.undefined_normals += !e.normal.allFinite();
     const double length = e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / unit;
     constexpr double kShort = 0x1p62;  // what fits is converted in one instruction

@@ -3,6 +3,7 @@
 
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/halo/halo.hpp"
+#include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
@@ -20,6 +21,7 @@ struct Totals {
   std::uint64_t neighbours = 0;  // of |N_p|
   std::uint64_t candidates = 0;  // Pi above the threshold
   std::uint64_t undefined_normals = 0;
+  ProbabilityBins probabilities{};
   Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
   double length_unit = 1;
 

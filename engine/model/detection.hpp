@@ -35,14 +35,19 @@ struct PhaseTime {
   double seconds = 0;
 };
 
+// Bins of equal width from 0 to 1.
+inline constexpr std::size_t kProbabilityBins = 20;
+using ProbabilityBins = std::array<std::uint64_t, kProbabilityBins>;
+
 struct Summary {
   Counts counts;
-  Eigen::AlignedBox3d bounds;   // of the finite points; empty without any
-  double resolution = 0;        // in effect; 0: none
-  double mean_neighbours = 0;   // K
-  double mean_edge_length = 0;  // over the edges of G
-  double eps = 0;               // in effect
-  std::int64_t e = 0;           // in effect; 0: loops by stars
+  ProbabilityBins probabilities{};  // distinct points by their boundary probability
+  Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
+  double resolution = 0;            // in effect; 0: none
+  double mean_neighbours = 0;       // K
+  double mean_edge_length = 0;      // over the edges of G
+  double eps = 0;                   // in effect
+  std::int64_t e = 0;               // in effect; 0: loops by stars
   std::uint64_t tiles = 0;
   std::uint64_t tile_points = 0;   // in effect
   std::uint64_t threads = 0;       // in effect
@@ -71,6 +76,14 @@ struct BoundaryPoint {
   Eigen::Vector3d position;
   float probability = 0;
   std::int32_t loop = -1;
+};
+
+// A point of the sample.
+struct SampledPoint {
+  PointId id{};
+  Eigen::Vector3d position;
+  float probability = 0;
+  Eigen::Vector3f normal;  // unit, unoriented; NaN where undefined
 };
 
 // The largest probability of the points in a cube of a lattice.
@@ -104,6 +117,9 @@ class Detection {
   // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
   virtual void for_each_result_block(
       const std::function<void(PointId first, std::span<const PointResult>)>& visit) const = 0;
+  // In ascending id, spread evenly over the surface: at most output.sample_points, none without it.
+  virtual std::uint64_t sampled_points() const = 0;
+  virtual void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const = 0;
   // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
   virtual ProbabilityLattice probability_lattice() const = 0;
   virtual void for_each_probability_voxel(

@@ -43,7 +43,7 @@ class WorkspaceDetection final : public Detection {
   WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
                      Column<StoredBoundary> boundary, std::uint64_t marked,
                      std::optional<PointResults> results, std::optional<ProbabilityGrid> probabilities,
-                     std::optional<RowSet> turned)
+                     std::optional<Column<StoredSample>> sample, std::optional<RowSet> turned)
       : summary_(std::move(summary)),
         raw_loops_(std::move(loops)),
         selected_(std::move(selected)),
@@ -51,6 +51,7 @@ class WorkspaceDetection final : public Detection {
         marked_(marked),
         results_(std::move(results)),
         probabilities_(std::move(probabilities)),
+        sample_(std::move(sample)),
         turned_(std::move(turned)) {
     for (const std::size_t loop : selected_) loops_.push_back(raw_loops_.measures[loop]);
   }
@@ -66,6 +67,16 @@ class WorkspaceDetection final : public Detection {
     for (std::uint64_t i = 0; i < marked_; ++i) {
       const StoredBoundary& p = boundary.next();
       if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
+    }
+  }
+
+  std::uint64_t sampled_points() const override { return sample_ ? sample_->size() : 0; }
+  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
+    if (!sample_) return;
+    ColumnReader<StoredSample> sample(*sample_);
+    for (std::uint64_t i = 0; i < sample_->size(); ++i) {
+      const auto& [point, probability, normal] = sample[i];
+      visit({point.id, point.position(), probability, {normal[0], normal[1], normal[2]}});
     }
   }
 
@@ -132,6 +143,7 @@ class WorkspaceDetection final : public Detection {
   std::uint64_t marked_;             // points in it
   std::optional<PointResults> results_;
   std::optional<ProbabilityGrid> probabilities_;
+  std::optional<Column<StoredSample>> sample_;
   std::optional<RowSet> turned_;
 };
 
@@ -236,7 +248,8 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(
       std::move(summary), std::move(findings.loops), std::move(selected), std::move(boundary_points), marked,
-      std::move(findings.points), std::move(findings.probabilities), std::move(findings.opposed_normals));
+      std::move(findings.points), std::move(findings.probabilities), std::move(findings.sample),
+      std::move(findings.opposed_normals));
 }
 
 }  // namespace lacuna

@@ -6,6 +6,7 @@
 #include "engine/model/detection.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
+#include "engine/results/scan_sample.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
@@ -23,6 +24,7 @@ struct Findings {
   RowSet boundary_candidates;                    // candidates that belong to the boundary
   std::optional<PointResults> points;            // only with output.points
   std::optional<ProbabilityGrid> probabilities;  // only with output.vdb
+  std::optional<Column<StoredSample>> sample;    // only with output.sample_points
   std::optional<RowSet> opposed_normals;         // rows whose normal is to be turned round
 };
 

@@ -45,6 +45,10 @@ class SpreadDetection final : public Detection {
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     detection_->for_each_boundary_point(visit);
   }
+  std::uint64_t sampled_points() const override { return detection_->sampled_points(); }
+  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
+    detection_->for_each_sampled_point(visit);
+  }
   ProbabilityLattice probability_lattice() const override { return detection_->probability_lattice(); }
   void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
     detection_->for_each_probability_voxel(visit);

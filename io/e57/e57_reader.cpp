@@ -37,6 +37,7 @@ class E57Reader final : public ScanReader {
   }
 
   std::string crs() const override { return header_.coordinate_metadata; }
+  std::string length_unit() const override { return "m"; }  // ASTM E2807, 6.4.1
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);

@@ -1,5 +1,6 @@
 #include "io/las/las_crs.hpp"
 
+#include "io/length_unit.hpp"
 #include "io/little_endian.hpp"
 
 #include <algorithm>
@@ -8,7 +9,8 @@ namespace lacuna {
 namespace {
 
 constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;                  // numbers of records
-constexpr std::uint16_t kGeographic = 2048, kProjected = 3072, kVertical = 4096;  // GeoTIFF keys
+constexpr std::uint16_t kGeographic = 2048, kProjected = 3072, kVertical = 4096,  // GeoTIFF keys
+    kLinearUnit = 3076;
 constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
 
 }  // namespace
@@ -31,6 +33,7 @@ void LasCrs::take_keys(std::span<const std::byte> data) {
     if (key == kGeographic) geographic_ = code;
     if (key == kProjected) projected_ = code;
     if (key == kVertical) vertical_ = code;
+    if (key == kLinearUnit) unit_ = code;
   }
 }
 
@@ -40,6 +43,12 @@ std::string LasCrs::text() const {
   if (horizontal == 0) return "";
   const std::string code = "EPSG:" + std::to_string(horizontal);
   return vertical_ != 0 ? code + "+" + std::to_string(vertical_) : code;
+}
+
+std::string LasCrs::length_unit() const {
+  if (!well_known_text_.empty()) return lacuna::length_unit(well_known_text_);
+  constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;  // EPSG
+  return unit_ == kMetre ? "m" : unit_ == kFoot ? "ft" : unit_ == kSurveyFoot ? "us-ft" : "";
 }
 
 }  // namespace lacuna

@@ -17,12 +17,14 @@ class LasCrs {
   // Well-known text where a record has it, else "EPSG:N" or, with a vertical system, "EPSG:N+M" of the
   // GeoTIFF keys; empty: neither.
   std::string text() const;
+  // "m", "ft", "us-ft"; empty: not known (io/length_unit.hpp).
+  std::string length_unit() const;
 
  private:
   void take_keys(std::span<const std::byte> data);
 
   std::string well_known_text_;
-  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0;  // codes of EPSG; 0: none
+  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0: none
 };
 
 }  // namespace lacuna

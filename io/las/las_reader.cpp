@@ -32,6 +32,7 @@ class LasReader final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
   bool is_slow() const override { return header_.is_compressed; }
   std::string crs() const override { return header_.crs.text(); }
+  std::string length_unit() const override { return header_.crs.length_unit(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
@@ -51,9 +52,8 @@ class LasReader final : public ScanReader {
     constexpr std::size_t kTogether = 4096;  // rows
     for_each_here((batch.count + kTogether - 1) / kTogether, [&](std::size_t i) {
       const std::size_t first = i * kTogether, count = std::min(kTogether, batch.count - first);
-      columns_.unpack(
-          std::span(records_).subspan(first * header_.record_bytes, count * header_.record_bytes),
-          batch.bytes.data() + first * layout().stride);
+      columns_.unpack(std::span(records_).subspan(first * header_.record_bytes, count * header_.record_bytes),
+                      batch.bytes.data() + first * layout().stride);
     });
   }
 

@@ -60,6 +60,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   Json json = begin_json(kHolesSchema);
   json["crs"] = nullptr;
   if (const std::string crs = scan.common_crs(); !crs.empty()) json["crs"] = crs;
+  json["unit"] = scan.length_unit();
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
   json["inputs"] = inputs(scan);
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
@@ -67,6 +68,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   if (!summary.bounds.isEmpty()) {
     json["bounds"] = {{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}};
   }
+  json["probability"] = summary.probabilities;
   json["resolution"] = summary.resolution;
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;

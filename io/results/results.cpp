@@ -25,6 +25,9 @@ using C = const Config&;
 bool always(C) {
   return true;
 }
+bool never(C) {
+  return false;
+}
 
 // In the order in which they appear: the report comes last, and stands for all the others.
 const std::vector<ResultFile>& all_results() {
@@ -33,8 +36,11 @@ const std::vector<ResultFile>& all_results() {
       {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }, always},
       {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points(d, s, c.output, out); },
        [](C c) { return c.output.points; }},
+      {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
+       [](C c) { return c.output.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
        [](C c) { return c.output.vdb; }},
+      {"report.html", kReportMark, nullptr, never},
       {"holes.csv", kTableHeader, [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
@@ -79,6 +85,7 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
   }
+  if (config.output.report) check_output(folder / "report.html", kReportMark, overwrite);
   for (const ResultFile& result : unwanted_results(config)) {
     if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
   }

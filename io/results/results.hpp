@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, holes.csv, run.json, holes.json, and points.ply and
-// probability.vdb where the config wants them.
+// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and
+// those that the config asks for.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
@@ -27,6 +27,10 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
 // earlier run does not belong to the new results: it goes. Makes the folder if it is missing. Throws `Error`.
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
+
+// How a report.html begins. It is made of the other results once these have their names (io/report/report.hpp);
+// write_results removes that of an earlier run.
+inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
 // How a file of JSON begins: an earlier one is recognised by it.
 inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
@@ -52,6 +56,12 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
 // Every point that is coherent or on a loop, in ascending id: x y z, id, scalar_probability, scalar_loop (-1:
 // none).
 void write_boundary(const Detection& detection, const FileScan& scan, OutputFile& out);
+
+// The points of the sample, in ascending id: x y z, scalar_id, nx ny nz, scalar_probability, and the colours
+// of the input: red green blue and intensity, as far as a file has them. Reads every file once more for
+// these; compressed ones only where a report is wanted.
+void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                  OutputFile& out);
 
 // All rows of the input, in order: its scalar properties as they came, then the results. Files are
 // joined by property name: in double where types differ, NaN or 0 in the rows of a file that has none. A

@@ -63,11 +63,16 @@ class FakeDetection final : public Detection {
     }
   }
 
+  std::uint64_t sampled_points() const override { return sample.size(); }
+  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
+    for (const SampledPoint& point : sample) visit(point);
+  }
   ProbabilityLattice probability_lattice() const override { return lattice; }
   void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
     for (const ProbabilityVoxel& voxel : voxels) visit(voxel);
   }
 
+  std::vector<SampledPoint> sample;
   ProbabilityLattice lattice;
   std::vector<ProbabilityVoxel> voxels;
 

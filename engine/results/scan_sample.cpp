@@ -1,0 +1,94 @@
+#include "engine/results/scan_sample.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+constexpr double kBoundaryWeight = 3;  // added to a weight of 1 at the probability 1
+
+// Uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
+double drawn_from(PointId id) {
+  std::uint64_t bits = value(id) + 0x9e3779b97f4a7c15;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+  bits ^= bits >> 31;
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+}
+
+double key_of(PointId id, const Evaluation& e) {
+  const double weight = e.mean_distance * e.mean_distance * (1 + kBoundaryWeight * e.probability);
+  const double key = drawn_from(id) / weight;
+  return key < std::numeric_limits<double>::max() ? key : std::numeric_limits<double>::max();
+}
+
+// Sixteen bins for each power of two: the order of positive numbers is that of their bits.
+std::uint32_t bin_of(double key) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key) >> 48);
+}
+
+}  // namespace
+
+ScanSample::ScanSample(std::uint64_t most_points, const Job& job)
+    : most_points_(most_points), candidates_(job.file("sample-keys"), job.memory.spills / 8) {}
+
+void ScanSample::take(const EvaluatedTile& tile) {
+  constexpr LocalIndex kTogether = 1 << 14;
+  for (LocalIndex first = 0; first < tile.points.owned; first += kTogether) {
+    take(tile, first, std::min(first + kTogether, tile.points.owned));
+  }
+}
+
+void ScanSample::take(const EvaluatedTile& tile, LocalIndex first, LocalIndex end) {
+  std::vector<KeyedSample> samples;
+  const std::uint32_t last = last_bin_;
+  for (LocalIndex p = first; p < end; ++p) {
+    const Evaluation& e = tile.evaluations[p];
+    const double key = key_of(tile.points.ids[p], e);
+    if (bin_of(key) > last) continue;
+    const Eigen::Vector3f normal = e.normal.cast<float>();
+    samples.push_back({key, {tile.stored(p), tile.probability(p), {normal.x(), normal.y(), normal.z()}}});
+  }
+  const std::lock_guard lock(mutex_);
+  for (const KeyedSample& sample : samples) {
+    if (bin_of(sample.key) > last_bin_) continue;
+    candidates_.add(sample);
+    ++bins_[bin_of(sample.key)];
+    ++binned_;
+  }
+  // A bin goes where those before it are enough.
+  while (!bins_.empty() && binned_ - bins_.rbegin()->second >= most_points_) {
+    binned_ -= bins_.rbegin()->second;
+    bins_.erase(std::prev(bins_.end()));
+  }
+  if (binned_ >= most_points_) last_bin_ = bins_.rbegin()->first;
+}
+
+Column<StoredSample> ScanSample::finish(Job& job) {
+  struct ById {
+    bool operator()(const StoredSample& a, const StoredSample& b) const { return a.point.id < b.point.id; }
+  };
+  SortedRuns<StoredSample, ById> sorted(job.file("sample-sort"), job.memory.spills / 8);
+  std::uint64_t taken = 0;
+  candidates_.for_each([&](const KeyedSample& candidate) {
+    if (taken++ < most_points_) sorted.add(candidate.sample);
+  });
+  Column<StoredSample> column(job.file("sample"));
+  std::vector<StoredSample> block;
+  const auto flush = [&] {
+    column.append(block);
+    block.clear();
+  };
+  sorted.for_each([&](const StoredSample& sample) {
+    block.push_back(sample);
+    if (block.size() == 4096) flush();
+  });
+  flush();
+  return column;
+}
+
+}  // namespace lacuna

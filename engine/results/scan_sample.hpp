@@ -1,0 +1,57 @@
+// A sample of the scan that a browser or a picture can carry, spread evenly over the surface.
+#pragma once
+
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/sorted_runs.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+namespace lacuna {
+
+// A sampled point on disk, as plain data.
+struct StoredSample {
+  StoredPoint point;
+  float probability;
+  float normal[3];
+};
+
+struct KeyedSample {
+  double key;
+  StoredSample sample;
+
+  friend bool operator<(const KeyedSample& a, const KeyedSample& b) {
+    return a.key != b.key ? a.key < b.key : a.sample.point.id < b.sample.point.id;
+  }
+};
+
+// Sequential Poisson sampling (Ohlsson, 1998): a point has the key u / w, with u drawn from its id, uniform
+// in (0, 1), and w its weight; those with the smallest keys are the sample. A weight is the area that the
+// point stands for, the square of its mean distance to its neighbours; up to four times that near a boundary,
+// by its probability. The sample depends on the points alone, not on tiles or threads.
+class ScanSample final : public TileConsumer {
+ public:
+  ScanSample(std::uint64_t most_points, const Job& job);
+
+  void take(const EvaluatedTile& tile) override;
+
+  // In ascending id. Once every tile was taken; to be called once.
+  Column<StoredSample> finish(Job& job);
+
+ private:
+  void take(const EvaluatedTile& tile, LocalIndex first, LocalIndex end);
+
+  const std::uint64_t most_points_;
+  std::mutex mutex_;
+  std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
+  std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin
+  std::uint64_t binned_ = 0;                     // in all bins
+  SortedRuns<KeyedSample> candidates_;           // those of the sample, and others
+};
+
+}  // namespace lacuna

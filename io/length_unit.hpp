@@ -1,0 +1,16 @@
+// The unit of length of a scan, where its file names one.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+
+// By metres in one: "m", "ft" (international foot), "us-ft" (US survey foot); empty: another one.
+std::string unit_of_metres(double metres);
+
+// The horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162). Empty
+// where it is geographic, where the text is a code, and where it names another unit.
+std::string length_unit(std::string_view crs);
+
+}  // namespace lacuna

@@ -1,0 +1,42 @@
+# Puts the page of a report together, with its style, its scripts and three.js, as one string of the program.
+# Sets REPORT_PAGE to the source that has it.
+set(page_folder ${CMAKE_CURRENT_LIST_DIR})
+set(three_folder /usr/share/javascript/three CACHE PATH "three.js, as Debian's libjs-three has it")
+set(page_styles ${page_folder}/page.css)
+set(page_libraries ${three_folder}/three.min.js ${three_folder}/examples/js/controls/OrbitControls.js)
+set(page_scripts data format dom colour shading points lines camera view filter table histogram details facts legend
+    keys main)  # each uses those before it
+list(TRANSFORM page_scripts PREPEND ${page_folder}/)
+list(TRANSFORM page_scripts APPEND .js)
+
+function(join_files result)
+  set(joined "")
+  foreach(file ${ARGN})
+    if(NOT EXISTS ${file})
+      message(FATAL_ERROR "${file} is missing; tools/install.sh installs what the build needs")
+    endif()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(APPEND joined "${text}\n")
+  endforeach()
+  set(${result} "${joined}" PARENT_SCOPE)
+endfunction()
+
+join_files(page ${page_folder}/page.html)
+join_files(style ${page_styles})
+join_files(three ${page_libraries})
+join_files(script ${page_scripts})
+string(REPLACE "/*{style}*/" "${style}" page "${page}")
+string(REPLACE "/*{three}*/" "${three}" page "${page}")
+string(REPLACE "/*{script}*/" "${script}" page "${page}")
+
+set(REPORT_PAGE ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
+file(WRITE ${REPORT_PAGE}.new "#include \"io/report/page.hpp\"
+
+namespace lacuna {
+
+const std::string_view kReportPage = R\"lacuna_page(${page})lacuna_page\";
+
+}  // namespace lacuna
+")
+execute_process(COMMAND ${CMAKE_COMMAND} -E copy_if_different ${REPORT_PAGE}.new ${REPORT_PAGE})

@@ -1,0 +1,64 @@
+#include "engine/run/error.hpp"
+#include "io/report/render.hpp"
+
+#include <exception>
+#include <new>
+#include <span>
+#include <string>
+
+#include <png.h>
+
+namespace lacuna {
+namespace {
+
+// No exception may pass through libpng, which is C: that of the file is kept, and thrown again behind it.
+struct Sink {
+  OutputFile& out;
+  std::exception_ptr failure;
+  std::string message;
+};
+
+void write_part(png_structp png, png_bytep data, std::size_t bytes) {
+  auto& sink = *static_cast<Sink*>(png_get_io_ptr(png));
+  try {
+    sink.out.write(std::as_bytes(std::span(data, bytes)));
+  } catch (...) {
+    sink.failure = std::current_exception();
+  }
+  if (sink.failure) png_error(png, "the file cannot be written");
+}
+
+[[noreturn]] void keep_message(png_structp png, png_const_charp message) {
+  static_cast<Sink*>(png_get_error_ptr(png))->message = message;
+  png_longjmp(png, 1);
+}
+
+}  // namespace
+
+void write_png(const Picture& picture, OutputFile& out) {
+  Sink sink{out, nullptr, {}};
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, keep_message, nullptr);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) throw std::bad_alloc();
+  static char software[] = "Software", name[] = "Lacuna " LACUNA_VERSION;
+  png_text text{};
+  text.compression = PNG_TEXT_COMPRESSION_NONE;
+  text.key = software;
+  text.text = name;
+  if (setjmp(png_jmpbuf(png)) == 0) {
+    png_set_write_fn(png, &sink, write_part, nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
+                 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_text(png, info, &text, 1);
+    png_write_info(png, info);
+    for (std::size_t row = 0; row < picture.height; ++row)
+      png_write_row(png, reinterpret_cast<png_const_bytep>(&picture.pixels[row * picture.width]));
+    png_write_end(png, nullptr);
+  }
+  png_destroy_write_struct(&png, &info);
+  if (sink.failure) std::rethrow_exception(sink.failure);
+  if (!sink.message.empty()) throw Error(out.path().string() + ": " + sink.message);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,216 @@
+#include "io/report/render.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace lacuna {
+namespace {
+
+constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
+constexpr float kMargin = 1.05f;
+constexpr float kLineWidth = 2.5f;  // pixels
+const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(214, 60, 30),
+    kHole(196, 0, 60), kOuter(0, 90, 181);
+
+// Colours and depths of a picture's parts. A larger depth is nearer.
+class Canvas {
+ public:
+  Canvas(std::size_t width, std::size_t height)
+      : width_(static_cast<int>(width) * kFiner),
+        height_(static_cast<int>(height) * kFiner),
+        colours_(width * height * kFiner * kFiner, kPaper),
+        depths_(colours_.size(), -std::numeric_limits<float>::infinity()) {}
+
+  int height() const { return height_; }
+
+  // At (x, y) in parts from the top left corner. What is nearer already stays.
+  void disc(float x, float y, float radius, float depth, const Eigen::Vector3f& colour) {
+    const int top = std::max(0, static_cast<int>(std::ceil(y - radius)));
+    const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(y + radius)));
+    for (int row = top; row <= bottom; ++row) {
+      const float half = std::sqrt(std::max(0.0f, radius * radius - (float(row) - y) * (float(row) - y)));
+      const int left = std::max(0, static_cast<int>(std::ceil(x - half)));
+      const int right = std::min(width_ - 1, static_cast<int>(std::floor(x + half)));
+      for (int column = left; column <= right; ++column) {
+        const std::size_t at = std::size_t(row) * std::size_t(width_) + std::size_t(column);
+        if (depth < depths_[at]) continue;
+        depths_[at] = depth;
+        colours_[at] = colour;
+      }
+    }
+  }
+
+  Picture picture() const {
+    Picture picture{std::size_t(width_ / kFiner), std::size_t(height_ / kFiner), {}};
+    for (int row = 0; row < height_; row += kFiner) {
+      for (int column = 0; column < width_; column += kFiner) {
+        Eigen::Vector3f sum(0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner);
+        for (int i = 0; i < kFiner * kFiner; ++i)
+          sum += colours_[std::size_t(row + i / kFiner) * std::size_t(width_) +
+                          std::size_t(column + i % kFiner)];
+        const Eigen::Vector3f mean = sum / (kFiner * kFiner);
+        picture.pixels.push_back({std::uint8_t(mean.x()), std::uint8_t(mean.y()), std::uint8_t(mean.z())});
+      }
+    }
+    return picture;
+  }
+
+ private:
+  int width_, height_;
+  std::vector<Eigen::Vector3f> colours_;
+  std::vector<float> depths_;
+};
+
+// From the scan to the canvas: x and y in parts, z the depth in units of the scan.
+class Projection {
+ public:
+  Projection(const View& view, std::size_t width, std::size_t height)
+      : view_(view),
+        scale_(static_cast<float>(height * kFiner) / (2 * view.half_height)),
+        corner_(static_cast<float>(width * kFiner) / 2, static_cast<float>(height * kFiner) / 2) {}
+
+  float scale() const { return scale_; }
+  Eigen::Vector3f operator()(const Eigen::Vector3f& p) const {
+    const Eigen::Vector3f from = p - view_.middle;
+    return {corner_.x() + scale_ * from.dot(view_.right), corner_.y() - scale_ * from.dot(view_.up),
+            from.dot(view_.towards)};
+  }
+  bool is_drawn(float depth) const { return view_.half_depth == 0 || std::abs(depth) <= view_.half_depth; }
+
+ private:
+  View view_;
+  float scale_;
+  Eigen::Vector2f corner_;
+};
+
+Eigen::Vector3f colour_of(const Scene::Points& points, std::size_t i, bool as_it_came) {
+  if (as_it_came && !points.colours.empty()) {
+    const auto [red, green, blue] = points.colours[i];
+    return {float(red), float(green), float(blue)};
+  }
+  const float share = std::clamp((points.probabilities[i] - 0.4f) / 0.5f, 0.0f, 1.0f);
+  return kSurface + share * (kBoundary - kSurface);
+}
+
+void draw_points(const Scene::Points& points, const View& view, const Projection& project, bool as_it_came,
+                 Canvas& canvas) {
+  const float radius = std::clamp(0.75f * points.spacing * project.scale(), 0.8f, 12.0f);
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    const Eigen::Vector3f at = project(points.positions[i]);
+    if (!project.is_drawn(at.z())) continue;
+    const Eigen::Vector3f& normal = points.normals[i];
+    const float light = normal.isZero() ? 0.8f : 0.35f + 0.65f * std::abs(normal.dot(view.towards));
+    canvas.disc(at.x(), at.y(), radius, at.z(), light * colour_of(points, i, as_it_came));
+  }
+}
+
+// Curves lie on points: they are drawn a little nearer, so that these do not hide them.
+void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
+  const float nearer = 3 * scene.points.spacing;
+  const Scene::Loops& loops = scene.loops;
+  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
+    const Eigen::Vector3f& colour = loops.measures[loop].kind == LoopKind::kHole ? kHole : kOuter;
+    const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
+    for (std::size_t i = first; i < end; ++i) {
+      const Eigen::Vector3f a = project(loops.vertices[i]);
+      const Eigen::Vector3f b = project(loops.vertices[i + 1 < end ? i + 1 : first]);
+      const float length = std::max((b - a).head<2>().norm(), 1.0f);
+      if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
+      for (float along = 0; along <= length; along += 1) {
+        const Eigen::Vector3f at = a + along / length * (b - a);
+        if (project.is_drawn(at.z()))
+          canvas.disc(at.x(), at.y(), kLineWidth * kFiner / 2, at.z() + nearer, colour);
+      }
+    }
+  }
+}
+
+View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) {
+  View view;
+  view.towards = towards.normalized();
+  view.right = above.cross(view.towards).normalized();
+  view.up = view.towards.cross(view.right);
+  return view;
+}
+
+// Half of the height that holds these positions, but for the outermost hundredth along each axis.
+void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view) {
+  if (positions.empty()) return;
+  const auto range = [&](const Eigen::Vector3f& axis) {
+    std::vector<float> along;
+    for (const Eigen::Vector3f& p : positions) along.push_back(p.dot(axis));
+    const auto rank = [&](double share) {
+      const auto at = along.begin() + std::llround(share * static_cast<double>(along.size() - 1));
+      std::nth_element(along.begin(), at, along.end());
+      return *at;
+    };
+    const float low = rank(0.005), high = rank(0.995);
+    return std::pair{(low + high) / 2, (high - low) / 2};
+  };
+  const auto [x, half_width] = range(view.right);
+  const auto [y, half_height] = range(view.up);
+  const auto [z, half_depth] = range(view.towards);
+  view.middle = x * view.right + y * view.up + z * view.towards;
+  view.half_height = std::max({half_height, half_width / aspect, 1e-6f * half_depth, 1e-30f}) * kMargin;
+}
+
+View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
+  std::uint64_t id = 0;
+  const auto& ids = scene.loops.ids;
+  const bool is_number = parse_number(name, id);
+  const auto found = std::find(ids.begin(), ids.end(), id);
+  if (!is_number || found == ids.end()) {
+    throw Error("view '" + std::string(name) + "': oblique, top, front, side or the id of a loop is allowed" +
+                (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
+  }
+  const auto loop = static_cast<std::size_t>(found - ids.begin());
+  const LoopMeasures& measures = scene.loops.measures[loop];
+  Eigen::Vector3f normal = measures.normal.cast<float>();
+  if (!(normal.norm() > 0.5f)) normal = {0, 0, 1};
+  // Mostly from above; a loop in a wall is seen upright.
+  if (normal.z() < -0.01f) normal = -normal;
+  View view =
+      looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
+  const auto first = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop]);
+  const auto end = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop + 1]);
+  fit({first, end}, aspect, view);
+  const auto diameter = static_cast<float>(measures.diameter);
+  view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
+  view.half_depth = std::max(2 * diameter, 10 * scene.points.spacing);
+  return view;
+}
+
+}  // namespace
+
+View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  View view;
+  if (name == "top") {
+    view = looking_from({0, 0, 1}, {0, 1, 0});
+  } else if (name == "front") {
+    view = looking_from({0, -1, 0}, {0, 0, 1});
+  } else if (name == "side") {
+    view = looking_from({1, 0, 0}, {0, 0, 1});
+  } else if (name == "oblique") {
+    view = looking_from({0.6f, -1, 0.8f}, {0, 0, 1});
+  } else {
+    return view_of_loop(scene, name, aspect);
+  }
+  fit(scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions, aspect, view);
+  return view;
+}
+
+Picture render(const Scene& scene, const View& view, std::size_t width, std::size_t height, bool as_it_came) {
+  Canvas canvas(width, height);
+  const Projection project(view, width, height);
+  draw_points(scene.points, view, project, as_it_came, canvas);
+  draw_loops(scene, project, canvas);
+  return canvas.picture();
+}
+
+}  // namespace lacuna

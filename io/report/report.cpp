@@ -1,0 +1,199 @@
+#include "io/report/report.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/report/base64.hpp"
+#include "io/report/page.hpp"
+#include "io/results/results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBits = 21;  // of a coordinate: three in eight bytes
+
+std::uint64_t packed(const Eigen::Vector3f& position, double edge) {
+  std::uint64_t bits = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const double steps = position[axis] / edge * (1 << kBits);
+    bits = bits << kBits | static_cast<std::uint64_t>(std::clamp(steps, 0.0, double((1 << kBits) - 1)));
+  }
+  return bits;
+}
+
+// Octahedral: a unit vector in two bytes (Meyer, Suessmuth, Sussner, Stamminger, Greiner, 2010).
+std::array<std::int8_t, 2> octahedral(const Eigen::Vector3f& normal) {
+  const float sum = normal.cwiseAbs().sum();
+  if (!(sum > 0)) return {0, 0};
+  float u = normal.x() / sum, v = normal.y() / sum;
+  if (normal.z() < 0) {
+    const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
+    v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
+    u = folded;
+  }
+  return {static_cast<std::int8_t>(std::lround(u * 127)), static_cast<std::int8_t>(std::lround(v * 127))};
+}
+
+std::uint8_t byte_of(float probability) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(probability, 0.0f, 1.0f) * 255));
+}
+
+// An element of the page with the bytes of all items.
+template <class Items, class Encode>
+void write_bytes(std::string_view id, const Items& items, Encode&& encode, OutputFile& out) {
+  out.write("<script type=\"application/base64\" id=\"" + std::string(id) + "\">");
+  Base64 base64(out);
+  for (const auto& item : items) {
+    const auto bytes = encode(item);
+    base64.write(std::as_bytes(std::span(&bytes, 1)));
+  }
+  base64.finish();
+  out.write("</script>\n");
+}
+
+// Keys of the run that the user has changed.
+Json changed_parameters(const Json& parameters) {
+  const Json defaults = parameter_values({}, [](std::string_view) { return true; });
+  Json changed = Json::array();
+  for (const auto& [section, values] : parameters.items()) {
+    for (const auto& [key, value] : values.items()) {
+      if (defaults.contains(section) && defaults[section].contains(key) && defaults[section][key] != value)
+        changed.push_back(key);
+    }
+  }
+  return changed;
+}
+
+std::string title_of(const Json& inputs) {
+  if (inputs.size() != 1) return std::to_string(inputs.size()) + " files";
+  return fs::path(inputs[0].at("file").get<std::string>()).filename().string();
+}
+
+Json inputs_of(const Json& inputs) {
+  Json short_inputs = Json::array();
+  for (const Json& input : inputs)
+    short_inputs.push_back({{"file", input.at("file")}, {"points", input.at("points")}});
+  return short_inputs;
+}
+
+Json run_of(const Json& run) {
+  if (run.is_null()) return nullptr;
+  Json phases = Json::array();
+  for (const Json& phase : run.at("phases"))
+    phases.push_back({{"name", phase.at("name")}, {"seconds", phase.at("seconds")}});
+  return {{"threads", run.at("tiling").at("threads")},
+          {"memory_limit_bytes", run.at("tiling").at("memory_limit_bytes")},
+          {"peak_memory_bytes", run.at("peak_memory_bytes")},
+          {"cores", run.at("cores")},
+          {"phases", std::move(phases)},
+          {"seconds", run.at("total_seconds")}};
+}
+
+// Six digits are more than a reader wants, and keep the page small.
+double rounded(double value) {
+  if (!std::isfinite(value) || value == 0) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5);
+  return std::round(value / unit) * unit;
+}
+
+Json loops_of(const Scene::Loops& loops) {
+  Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
+  const auto add = [&](const char* name, auto&& value_of) {
+    Json& column = json[name] = Json::array();
+    for (const LoopMeasures& loop : loops.measures) column.push_back(value_of(loop));
+  };
+  add("kind", [](const LoopMeasures& loop) { return Json(name_of(loop.kind)); });
+  add("points", [](const LoopMeasures& loop) { return Json(loop.points); });
+  add("confidence", [](const LoopMeasures& loop) { return Json(rounded(loop.confidence)); });
+  add("perimeter", [](const LoopMeasures& loop) { return Json(rounded(loop.perimeter)); });
+  add("area", [](const LoopMeasures& loop) { return Json(rounded(loop.area)); });
+  add("diameter", [](const LoopMeasures& loop) { return Json(rounded(loop.diameter)); });
+  add("planarity", [](const LoopMeasures& loop) { return Json(rounded(loop.planarity)); });
+  add("mean_probability", [](const LoopMeasures& loop) { return Json(rounded(loop.mean_probability)); });
+  add("centroid", [](const LoopMeasures& loop) { return list(loop.centroid); });
+  add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });
+  json["first"] = loops.first;
+  return json;
+}
+
+Json report_of(const Scene& scene) {
+  const Json& holes = scene.holes;
+  const Scene::Points& points = scene.points;
+  return {{"lacuna", holes.at("lacuna")},
+          {"title", title_of(holes.at("inputs"))},
+          {"crs", holes.at("crs")},
+          {"unit", holes.at("unit")},
+          {"inputs", inputs_of(holes.at("inputs"))},
+          {"counts", holes.at("counts")},
+          {"bounds", holes.at("bounds")},
+          {"resolution", holes.at("resolution")},
+          {"mean_edge_length", holes.at("mean_edge_length")},
+          {"method", holes.at("parameters").at("loops").at("method")},
+          {"parameters", holes.at("parameters")},
+          {"changed", changed_parameters(holes.at("parameters"))},
+          {"run", run_of(scene.run)},
+          {"probability", holes.at("probability")},
+          {"frame",
+           {{"origin", list(scene.origin)},
+            {"edge", scene.edge},
+            {"middle", list(scene.origin + scene.middle.cast<double>())},
+            {"radius", scene.radius}}},
+          {"sample",
+           {{"points", points.positions.size()},
+            {"of", holes.at("counts").at("points")},
+            {"spacing", points.spacing},
+            {"has_normals", true},
+            {"has_colours", !points.colours.empty()}}},
+          {"loops", loops_of(scene.loops)}};
+}
+
+// No text of it ends the element that it stands in.
+std::string without_tags(std::string text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+void write_report(const Scene& scene, OutputFile& out) {
+  const std::size_t data = kReportPage.find(kDataPlace);
+  out.write(kReportPage.substr(0, data));
+  Json report;
+  try {
+    report = report_of(scene);
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(out.path().string() +
+                ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
+  }
+  out.write("<script type=\"application/json\" id=\"report\">" + without_tags(print(report, -1)) +
+            "</script>\n");
+  const auto position = [&](const Eigen::Vector3f& p) { return packed(p, scene.edge); };
+  write_bytes("positions", scene.points.positions, position, out);
+  write_bytes("probabilities", scene.points.probabilities, byte_of, out);
+  write_bytes("normals", scene.points.normals, octahedral, out);
+  if (!scene.points.colours.empty()) {
+    write_bytes(
+        "colours", scene.points.colours, [](const Colour& c) { return c; }, out);
+  }
+  write_bytes("loop_vertices", scene.loops.vertices, position, out);
+  out.write(kReportPage.substr(data + kDataPlace.size()));
+}
+
+fs::path write_report(const fs::path& folder, Overwrite overwrite) {
+  const fs::path file = folder / "report.html";
+  check_output(file, kReportMark, overwrite);
+  const Scene scene = read_scene(folder);
+  OutputSet set(overwrite);
+  write_report(scene, set.add(file, kReportMark));
+  set.commit();
+  return file;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,19 @@
+// report.html: the scan and its holes in 3D, in one file for a browser, without a network.
+#pragma once
+
+#include "io/report/scene.hpp"
+#include "io/results/output_set.hpp"
+
+#include <filesystem>
+
+namespace lacuna {
+
+// Writes the page of io/report/page with the scene as data. Positions are 21 bits along each axis, of the
+// cube of the scene. About 15 bytes for each point, 11 for each vertex of a loop.
+void write_report(const Scene& scene, OutputFile& out);
+
+// report.html in the folder of a run's results, from these. Replaces an earlier report. Returns its path.
+// Throws `Error`.
+std::filesystem::path write_report(const std::filesystem::path& folder, Overwrite overwrite);
+
+}  // namespace lacuna

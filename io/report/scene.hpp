@@ -1,0 +1,57 @@
+// What a report and a picture show: a sample of the scan and the loops, from the folder of a run's results.
+#pragma once
+
+#include "engine/model/loop.hpp"
+#include "io/results/json.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
+
+// Positions are relative to `origin`: single precision keeps 2^-24 of the scan's extent.
+struct Scene {
+  Json holes;                       // holes.json without its loops
+  Json run;                         // run.json; null where the folder has none
+  Eigen::Vector3d origin{0, 0, 0};  // least corner of the scan's bounds
+  double edge = 1;                  // of the cube from there that holds everything; above 0
+  Eigen::Vector3f middle{0, 0, 0};  // of nearly all points: outliers do not count
+  float radius = 0.5;               // of the sphere around the middle that holds these
+
+  struct Points {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<float> probabilities;      // one for each position, from 0 to 1
+    std::vector<Eigen::Vector3f> normals;  // likewise, unit, unoriented; 0 where undefined
+    std::vector<Colour> colours;           // likewise; empty where the scan has none
+    float spacing = 0;                     // typical distance of neighbours
+  } points;
+
+  struct Loops {
+    std::vector<std::uint64_t> ids;      // as in holes.json
+    std::vector<LoopMeasures> measures;  // of each
+    std::vector<std::size_t> first;      // of its vertices; one more at the end
+    std::vector<Eigen::Vector3f> vertices;
+    std::uint64_t all = 0;  // reported by the run
+  } loops;
+};
+
+struct SceneLimits {
+  std::size_t points = 1'000'000;
+  std::size_t loops = 20'000;
+  std::size_t loop_vertices = 500'000;
+};
+
+// Reads holes.json, run.json, sample.ply and loops.ply of `folder`. Without a sample.ply, the scene has loops
+// alone. Beyond the limits, points are left out evenly, and loops with the smallest perimeters. Loops are in
+// the order of their ids. Throws `Error` where a file is missing or not as `lacuna detect` writes it. Memory:
+// up to 40 bytes for each point and 150 for each loop of the run.
+Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
+
+}  // namespace lacuna

@@ -1,0 +1,73 @@
+#include "io/report/scene_colours.hpp"
+
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+constexpr std::pair<double, double> kStretched = {0.02, 0.98};  // percentiles
+
+// The values that become 0 and 255.
+std::pair<float, float> range_of(std::vector<float> values, bool is_intensity, Scalar type) {
+  const auto rank = [&](double share) {
+    const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  if (is_intensity) return {rank(kStretched.first), rank(kStretched.second)};
+  const float most = *std::max_element(values.begin(), values.end());
+  if (!is_integer(type)) return {0.0f, most > 1 ? 255.0f : 1.0f};
+  return {0.0f, most > 255 ? 65535.0f : 255.0f};
+}
+
+}  // namespace
+
+ColourColumns::ColourColumns(const RowLayout& layout) : layout_(layout) {
+  const auto [red, green, blue, intensity] = kColourNames;
+  if (layout.find(red) && layout.find(green) && layout.find(blue)) {
+    properties_ = {layout.find(red), layout.find(green), layout.find(blue)};
+  } else if (layout.find(intensity)) {
+    properties_ = {layout.find(intensity)};
+  }
+  loaded_.resize(properties_.size());
+}
+
+void ColourColumns::load(const RowBatch& rows) {
+  for (std::size_t i = 0; i < properties_.size(); ++i) {
+    loaded_[i].resize(rows.count);
+    copy_column({.data = rows.bytes.data() + properties_[i]->offset,
+                 .stride = layout_.stride,
+                 .type = properties_[i]->type},
+                {.data = reinterpret_cast<std::byte*>(loaded_[i].data()),
+                 .stride = sizeof(double),
+                 .type = Scalar::kFloat64},
+                rows.count);
+  }
+}
+
+void ColourColumns::take(std::size_t row) {
+  for (const std::vector<double>& column : loaded_) {
+    taken_.push_back(std::isfinite(column[row]) ? static_cast<float>(column[row]) : 0.0f);
+  }
+}
+
+std::vector<Colour> ColourColumns::finish() const {
+  std::vector<Colour> colours;
+  if (taken_.empty()) return colours;
+  const std::size_t width = properties_.size();
+  const auto [low, high] = range_of(taken_, width == 1, properties_.front()->type);
+  const auto byte = [low = low, span = std::max(high - low, 1e-30f)](float value) {
+    return static_cast<std::uint8_t>(std::clamp((value - low) / span, 0.0f, 1.0f) * 255.0f + 0.5f);
+  };
+  colours.reserve(taken_.size() / width);
+  for (std::size_t i = 0; i < taken_.size(); i += width) {
+    colours.push_back({byte(taken_[i]), byte(taken_[i + width / 3]), byte(taken_[i + 2 * (width / 3)])});
+  }
+  return colours;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,34 @@
+// The colours of points as the scan has them: red, green and blue of any type, or grey by intensity.
+#pragma once
+
+#include "io/report/scene.hpp"
+#include "io/scan_reader.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace lacuna {
+
+// Names of the properties that colours are made of.
+inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
+
+class ColourColumns {
+ public:
+  explicit ColourColumns(const RowLayout& layout);
+
+  void load(const RowBatch& rows);
+  void take(std::size_t row);  // of those loaded last
+
+  // One for each row taken; empty where the layout has no colours. Values of 16 bits are scaled where any is
+  // above 255, as some programs write bytes there. Intensities are stretched from their 2nd to their 98th
+  // percentile.
+  std::vector<Colour> finish() const;
+
+ private:
+  const RowLayout& layout_;
+  std::vector<const Property*> properties_;  // three, one or none
+  std::vector<std::vector<double>> loaded_;  // of each
+  std::vector<float> taken_;                 // row by row
+};
+
+}  // namespace lacuna

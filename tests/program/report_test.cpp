@@ -1,0 +1,200 @@
+// lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
+// browser.
+#include "io/report/scene.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+using nlohmann::json;
+using test::read_file;
+using test::run_program;
+
+const Eigen::Vector3d kUtm(500'000, 5'400'000, 300);
+
+class Made {
+ public:
+  explicit Made(const Cloud& cloud, const std::vector<std::string>& options = {}) {
+    std::ostringstream text;
+    text.precision(17);
+    for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
+    scan_ = scratch_.write("sc<an.txt", text.str());
+    detect(options);
+  }
+
+  void detect(const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"detect", scan_, "--out", out().string(), "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    const auto run = run_program(words);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+  }
+  fs::path out() const { return scratch_ / "out"; }
+  std::string page() const { return read_file(out() / "report.html"); }
+  const test::ScratchFolder& scratch() const { return scratch_; }
+
+ private:
+  test::ScratchFolder scratch_;
+  std::string scan_;
+};
+
+Cloud sheet() {
+  return plane(60).punched({20, 20}, 6).punched({42, 40}, 4).jittered(0.2, 1);
+}
+
+std::string element(const std::string& page, const std::string& id) {
+  const std::string begin = "id=\"" + id + "\">";
+  const std::size_t at = page.find(begin);
+  REQUIRE(at != page.npos);
+  return page.substr(at + begin.size(), page.find("</script>", at) - at - begin.size());
+}
+
+// RFC 4648, apart from the program's.
+std::vector<std::uint8_t> decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  REQUIRE(text.size() % 4 == 0);
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    std::uint32_t bits = 0;
+    int padding = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t digit = digits.find(text[i + k]);
+      padding += digit == digits.npos;
+      bits = bits << 6 | static_cast<std::uint32_t>(digit == digits.npos ? 0 : digit);
+    }
+    for (int k = 0; k < 3 - padding; ++k) bytes.push_back(static_cast<std::uint8_t>(bits >> (16 - 8 * k)));
+  }
+  return bytes;
+}
+
+std::vector<Eigen::Vector3d> positions(const std::string& page, const std::string& id) {
+  const json report = json::parse(element(page, "report"));
+  const json& origin = report.at("frame").at("origin");
+  const double edge = report.at("frame").at("edge");
+  const std::vector<std::uint8_t> bytes = decoded(element(page, id));
+  REQUIRE(bytes.size() % 8 == 0);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 8; k-- > 0;) bits = bits << 8 | bytes[i + k];
+    Eigen::Vector3d& point = points.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double unit = (static_cast<double>(bits >> (21 * axis) & 0x1fffff) + 0.5) / (1 << 21);
+      point[axis] = origin[static_cast<std::size_t>(axis)].get<double>() + unit * edge;
+    }
+  }
+  return points;
+}
+
+TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
+  const Made made(sheet().translated(kUtm), {"--report"});
+  const std::string page = made.page();
+  const json report = json::parse(element(page, "report"));
+  const json holes = json::parse(read_file(made.out() / "holes.json"));
+  CHECK(page.starts_with("<!doctype html>\n<!-- Lacuna report"));
+  CHECK(report.at("title") == "sc<an.txt");
+  CHECK(page.find("sc<an.txt") == page.npos);  // no text of the scan is taken for a tag
+  CHECK(report.at("counts") == holes.at("counts"));
+  CHECK(report.at("probability") == holes.at("probability"));
+  CHECK(report.at("changed") == json::array({"report"}));
+
+  const std::vector<Eigen::Vector3d> vertices = positions(page, "loop_vertices");
+  const json& first = report.at("loops").at("first");
+  REQUIRE(first.size() == holes.at("loops").size() + 1);
+  REQUIRE(first.back() == vertices.size());
+  std::size_t next = 0;
+  for (std::size_t loop = 0; loop < holes.at("loops").size(); ++loop) {
+    const json& record = holes.at("loops")[loop];
+    CHECK(first[loop] == next);
+    CHECK(report.at("loops").at("kind")[loop] == record.at("kind"));
+    CHECK(report.at("loops").at("diameter")[loop].get<double>() ==
+          Approx(record.at("diameter").get<double>()).epsilon(1e-5));
+    for (const json& coordinates : record.at("coordinates")) {
+      const Eigen::Vector3d& vertex = vertices.at(next++);
+      for (int axis = 0; axis < 3; ++axis)
+        CHECK(std::abs(vertex[axis] - coordinates[static_cast<std::size_t>(axis)].get<double>()) < 60e-6);
+    }
+  }
+  CHECK(positions(page, "positions").size() == report.at("sample").at("points"));
+  CHECK(decoded(element(page, "probabilities")).size() == report.at("sample").at("points"));
+  CHECK(decoded(element(page, "normals")).size() == 2 * report.at("sample").at("points").get<std::size_t>());
+}
+
+TEST_CASE("a report of finished results is that of the run itself") {
+  const Made made(sheet(), {"--report"});
+  const std::string page = made.page();
+  fs::remove(made.out() / "report.html");
+  const auto run = run_program({"report", made.out().string()});
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "written: " + (made.out() / "report.html").string() + "\n");
+  CHECK((made.page() == page));
+}
+
+TEST_CASE("a report of an earlier run goes with the next one, and a page that Lacuna did not write stays") {
+  Made made(sheet(), {"--report"});
+  made.detect({});
+  CHECK_FALSE(fs::exists(made.out() / "report.html"));
+  std::ofstream(made.out() / "report.html") << "<!doctype html>\n<p>Mine";
+  made.detect({});
+  CHECK(made.page() == "<!doctype html>\n<p>Mine");
+  const auto refused = run_program({"report", made.out().string()});
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.err, Contains("report.html") && Contains("--overwrite"));
+  CHECK(made.page() == "<!doctype html>\n<p>Mine");
+  CHECK(run_program({"report", made.out().string(), "--overwrite"}).exit_code == 0);
+}
+
+TEST_CASE("a run without points, loops or sample has a report, too") {
+  for (const Cloud& cloud : {Cloud{}, plane(3), line(50)}) {
+    const Made made(cloud.positions.empty() ? Cloud{{Eigen::Vector3d::Constant(NAN)}, {}} : cloud,
+                    {"--report", "--sample-points", "0"});
+    const json report = json::parse(element(made.page(), "report"));
+    CHECK(report.at("loops").at("shown") == 0);
+    CHECK(run_program({"render", made.out().string(), "--out", (made.scratch() / "x.png").string()})
+              .exit_code == 0);
+  }
+}
+
+TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
+  const Made made(sheet());
+  const auto refused = [&](const std::string& folder) {
+    const auto run = run_program({"report", folder});
+    CHECK(run.exit_code == 1);
+    CHECK(run.out.empty());
+    CHECK(test::count_lines(run.err) == 1);
+    CHECK_FALSE(fs::exists(fs::path(folder) / "report.html"));
+    return run.err;
+  };
+  const std::string out = made.out().string();
+  CHECK_THAT(refused(out + "/nowhere"), Contains("is no folder"));
+  const std::string holes = read_file(made.out() / "holes.json");
+  const auto write = [&](const std::string& text) { std::ofstream(made.out() / "holes.json") << text; };
+  for (std::size_t size = 0; size < holes.size() - 2; size += 97) {
+    write(holes.substr(0, size));
+    CHECK_THAT(refused(out), Contains("holes.json"));
+  }
+  write("{\"schema\": \"holes 9\", \"loops\": []}");
+  CHECK_THAT(refused(out), Contains("\"holes 9\"") && Contains("\"holes 1\" is read"));
+  write("[1, 2]");
+  CHECK_THAT(refused(out), Contains("holes.json"));
+  write(holes);
+  fs::resize_file(made.out() / "loops.ply", fs::file_size(made.out() / "loops.ply") - 9);
+  CHECK_THAT(refused(out), Contains("loops.ply"));
+  fs::remove(made.out() / "holes.json");
+  CHECK_THAT(refused(out), Contains("holes.json: cannot be opened"));
+}
+
+}  // namespace
+}  // namespace lacuna

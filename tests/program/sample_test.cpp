@@ -1,0 +1,111 @@
+// sample.ply: what of the scan a report or a picture shows.
+#include "tests/io/io_support.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using test::read_file;
+using test::run_program;
+
+std::string text_of(const Cloud& cloud) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "x y z red green blue\n";
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    text << cloud.positions[i].transpose() << " " << i % 256 << " " << i / 256 % 256 << " 7\n";
+  return text.str();
+}
+
+class Runs {
+ public:
+  explicit Runs(const Cloud& cloud) : scan_(scratch_.write("scan.txt", text_of(cloud))) {}
+
+  fs::path detect(std::vector<std::string> options) {
+    const fs::path out = scratch_ / "out";
+    options.insert(options.begin(), {"detect", scan_, "--out", out.string(), "--quiet", "--every-point"});
+    const auto run = run_program(options);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return out;
+  }
+
+ private:
+  test::ScratchFolder scratch_;
+  std::string scan_;
+};
+
+double at(const test::Table& table, std::size_t row, const std::string& name) {
+  const auto found = std::find(table.names.begin(), table.names.end(), name);
+  REQUIRE(found != table.names.end());
+  return table.rows[row][static_cast<std::size_t>(found - table.names.begin())];
+}
+
+TEST_CASE("the sample has points of the scan in ascending id, with their probabilities and colours") {
+  Runs runs(plane(80).punched({40, 40}, 9).jittered(0.3, 1).shuffled(2));
+  const fs::path out = runs.detect({"--points", "--points-format", "ply", "--sample-points", "1500"});
+  const test::Table sample = test::read_table(out / "sample.ply"),
+                    points = test::read_table(out / "points.ply");
+  REQUIRE(sample.rows.size() == 1500);
+  double last = -1;
+  for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+    const double id = at(sample, i, "scalar_id");
+    CHECK(id > last);
+    last = id;
+    const auto row = static_cast<std::size_t>(id);
+    for (const char* const name : {"x", "y", "z", "scalar_probability", "red", "green", "blue"}) {
+      INFO(name);
+      CHECK(at(sample, i, name) == at(points, row, name));
+    }
+    CHECK(std::abs(at(sample, i, "nz")) == Approx(1).margin(1e-6));
+  }
+}
+
+TEST_CASE("the sample is all of a scan that is no larger, and nothing where none is wanted") {
+  Runs runs(plane(30).jittered(0.3, 1));
+  CHECK(test::read_table(runs.detect({}) / "sample.ply").rows.size() == 900);
+  CHECK(test::read_table(runs.detect({"--sample-points", "900"}) / "sample.ply").rows.size() == 900);
+  CHECK(test::read_table(runs.detect({"--sample-points", "899"}) / "sample.ply").rows.size() == 899);
+  CHECK_FALSE(fs::exists(runs.detect({"--sample-points", "0"}) / "sample.ply"));
+}
+
+TEST_CASE("the sample has the same bytes for every tiling, number of threads and memory limit") {
+  Runs runs(plane(120).punched({40, 40}, 9).jittered(0.3, 1).shuffled(3).with_duplicates(500, 4));
+  const auto bytes = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--sample-points", "3000"});
+    return read_file(runs.detect(options) / "sample.ply");
+  };
+  const std::string one = bytes({"--threads", "1", "--tile-points", "1000000"});
+  CHECK((bytes({"--threads", "4", "--tile-points", "300"}) == one));
+  CHECK((bytes({"--memory-limit", "64MiB", "--tile-points", "2000"}) == one));
+}
+
+TEST_CASE("the sample is spread by area, however dense the scan is, and denser near boundaries") {
+  // The left half is four times as dense as the right one.
+  Runs runs(density_step(160).jittered(0.2, 1));
+  const test::Table sample = test::read_table(runs.detect({"--sample-points", "2000"}) / "sample.ply");
+  std::map<std::string, double> counts;
+  for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+    const double x = at(sample, i, "x"), y = at(sample, i, "y");
+    const bool is_inside = y > 20 && y < 140;
+    if (is_inside && x > 20 && x < 70) ++counts["left"];
+    if (is_inside && x > 90 && x < 140) ++counts["right"];
+    if (is_inside && x < 2) ++counts["edge"];
+  }
+  CHECK(counts["left"] == Approx(counts["right"]).epsilon(0.25));
+  CHECK(counts["edge"] / 2 > 1.8 * counts["left"] / 50);
+}
+
+}  // namespace
+}  // namespace lacuna

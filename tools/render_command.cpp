@@ -1,0 +1,76 @@
+#include "tools/render_command.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/number.hpp"
+#include "io/report/render.hpp"
+#include "io/results/output_set.hpp"
+#include "tools/visible_text.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
+
+struct RenderArguments {
+  std::filesystem::path folder, out;
+  std::string view = "oblique", size = "1600x1000";
+  bool as_it_came = false;
+  bool overwrite = false;
+};
+
+std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  std::size_t width = 0, height = 0;
+  const auto is_allowed = [](std::size_t side) { return side >= kLeastSide && side <= kMostSide; };
+  if (cross == text.npos || !parse_number(text.substr(0, cross), width) ||
+      !parse_number(text.substr(cross + 1), height) || !is_allowed(width) || !is_allowed(height)) {
+    throw CLI::ValidationError("--size", text + " is not allowed; WIDTHxHEIGHT of 16 to 16384 pixels is");
+  }
+  return {width, height};
+}
+
+void run_render(const RenderArguments& arguments) {
+  const auto [width, height] = parse_size(arguments.size);
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  check_output(arguments.out, kPictureMark, overwrite);
+  const Scene scene = read_scene(arguments.folder);
+  const View view = find_view(scene, arguments.view, width, height);
+  OutputSet set(overwrite);
+  write_png(render(scene, view, width, height, arguments.as_it_came), set.add(arguments.out, kPictureMark));
+  set.commit();
+  std::cout << "written: " << visible(arguments.out.string()) << "\n";
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("render", "Draw the scan and its holes as a PNG, without a browser");
+  const auto arguments = std::make_shared<RenderArguments>();
+  command->add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--out", arguments->out, "Picture to write, in PNG")->type_name("FILE")->required();
+  command
+      ->add_option("--view", arguments->view,
+                   "oblique, top (from above), front (along y), side (along -x), or the id of a loop")
+      ->type_name("VIEW")
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "Width and height in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command->add_flag("--as-it-came", arguments->as_it_came,
+                    "Colours or intensities of the scan, where it has them, not probabilities");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace a file that lacuna render did not write, too");
+  command->callback([arguments] { run_render(*arguments); });
+}
+
+}  // namespace lacuna
