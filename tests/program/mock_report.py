@@ -69,9 +69,12 @@ class Sheet:
 
     def __init__(self, count, holes, shift, chance):
         self.shift = shift
-        self.holes = [(chance.uniform(0.7, WIDTH - 0.7), chance.uniform(0.7, DEPTH - 0.7),
-                       0.05 * 10 ** chance.uniform(0, 1), chance.uniform(0, 0.3), chance.randrange(2, 6))
-                      for _ in range(holes)]
+        self.holes = []
+        while len(self.holes) < holes:
+            x, y = chance.uniform(0.7, WIDTH - 0.7), chance.uniform(0.7, DEPTH - 0.7)
+            hole = (x, y, 0.05 * 10 ** chance.uniform(0, 1), chance.uniform(0, 0.3), chance.randrange(2, 6))
+            if all(math.hypot(x - h[0], y - h[1]) > 1.4 * (hole[2] + h[2]) for h in self.holes):
+                self.holes.append(hole)
         self.points, self.normals, self.probabilities, self.colours = [], [], [], []
         self.spacing = math.sqrt(WIDTH * DEPTH / max(1, count))
         columns = max(1, round(WIDTH / self.spacing)) if count else 0

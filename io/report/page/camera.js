@@ -20,28 +20,32 @@ function pose_direction(pose) {
   return [across * Math.cos(pose.azimuth), across * Math.sin(pose.azimuth), Math.cos(pose.polar)];
 }
 
-// The pose that has all of `corners` (arrays of three) in the picture, seen from the direction of `from`.
-function pose_of_corners(corners, target, from, aspect) {
+// The pose that has all of `places` (numbers x, y, z, x, ...) in the middle of the picture, from the direction of `from`.
+function pose_of_places(places, from, aspect) {
   const back = pose_direction(from);
   const right = [-Math.sin(from.azimuth), Math.cos(from.azimuth), 0];
   const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
               back[0] * right[1] - back[1] * right[0]];
-  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const axes = [right, up, back];
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  const along = (i, axis) => places[i] * axis[0] + places[i + 1] * axis[1] + places[i + 2] * axis[2];
+  for (let i = 0; i < places.length; i += 3) {
+    for (let k = 0; k < 3; ++k) {
+      const value = along(i, axes[k]);
+      low[k] = Math.min(low[k], value);
+      high[k] = Math.max(high[k], value);
+    }
+  }
+  const middle = low.map((value, k) => (value + high[k]) / 2);
   const tall = Math.tan((kFieldOfView * Math.PI) / 360);
   let distance = 1e-6;
-  for (const corner of corners) {
-    const offset = corner.map((value, axis) => value - target[axis]);
-    const toward = dot(offset, back);
-    distance = Math.max(distance, toward + Math.abs(dot(offset, right)) / (tall * aspect),
-                        toward + Math.abs(dot(offset, up)) / tall);
+  for (let i = 0; i < places.length; i += 3) {
+    const toward = along(i, back) - middle[2];
+    distance = Math.max(distance, toward + Math.abs(along(i, right) - middle[0]) / (tall * aspect),
+                        toward + Math.abs(along(i, up) - middle[1]) / tall);
   }
+  const target = [0, 1, 2].map((axis) => axes.reduce((sum, unit, k) => sum + unit[axis] * middle[k], 0));
   return {target, distance, polar: from.polar, azimuth: from.azimuth};
-}
-
-function box_corners(low, high) {
-  const corners = [];
-  for (let i = 0; i < 8; ++i) corners.push([0, 1, 2].map((axis) => (i & (1 << axis) ? high : low)[axis]));
-  return corners;
 }
 
 // Looks along a normal from the side where the camera is. Straight from above the picture keeps its turn.
@@ -92,4 +96,16 @@ function usual_box(positions) {
     high[axis] = Math.min(values[values.length - 1], at(0.995) + margin);
   }
   return {low, high};
+}
+
+// A few thousand of the positions inside of the box, enough to fit a picture to; two corners of the box without any.
+function outline_places(positions, {low, high}) {
+  const count = positions.length / 3;
+  const step = Math.max(1, Math.floor(count / 6000));
+  const places = [];
+  for (let i = 0; i < count; i += step) {
+    const place = [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]];
+    if (place.every((value, axis) => value >= low[axis] && value <= high[axis])) places.push(...place);
+  }
+  return places.length > 0 ? places : [...low, ...high];
 }

@@ -24,7 +24,7 @@ class Details {
         [0, 1, 2].map((axis) => format_place(column[3 * index + axis], digits));
     const place = vector(loops.centroid, this.decimals);
     const copy = element("button", {type: "button", id: "copy"}, "Copy place");
-    copy.addEventListener("click", () => copy_text(place.join(" "), copy));
+    copy.addEventListener("click", () => copy_text(place.join(" ").replace(/−/g, "-"), copy));
     const fly = element("button", {type: "button"}, "Fly to it");
     fly.addEventListener("click", () => this.actions.fly(index));
     const close = element("button", {type: "button"}, "Deselect");

@@ -65,7 +65,7 @@ function place_decimals(spacing) {
 }
 
 function format_place(value, decimals) {
-  return is_number(value) ? value.toFixed(decimals) : kMissing;
+  return is_number(value) ? value.toFixed(decimals).replace("-", "−") : kMissing;
 }
 
 function format_seconds(seconds) {

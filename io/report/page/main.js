@@ -19,9 +19,11 @@ class Page {
                                {fly: (index) => this.select(index, true), close: () => this.deselect()});
     draw_facts(this.data, this.units);
     this.make_view();
+    this.times.view = performance.now() - begin;
     this.connect();
     this.apply_filter();
     this.set_theme(this.theme);
+    this.times.parts = performance.now() - begin;
     if (this.view) this.view.draw();
     this.times.ready = performance.now() - begin;
     this.times.since_navigation = performance.now();

@@ -58,8 +58,8 @@ class View {
       outer: add("outer", {width: 2, order: 2}),
       hole_casing: add("hole", {width: 5.2, order: 3, opacity: 0.85}),
       hole: add("hole", {width: 3.2, order: 4}),
-      selected_casing: add("selected", {width: 9, order: 5}),
-      selected: add("selected", {width: 3.6, order: 6}),
+      selected_casing: add("selected", {width: 8, order: 5}),
+      selected: add("selected", {width: 3, order: 6}),
     };
     const pick = (name) => this.lines[name].add_pass(this.pick_scene, {width: 8}, true);
     this.picks = [pick("outer"), pick("hole")];
@@ -108,6 +108,7 @@ class View {
         ? {low: to_scene(frame, report.bounds.min), high: to_scene(frame, report.bounds.max)} : null;
     this.box = usual_box(points.positions) || usual_box(loops.vertices) || given ||
                {low: [-0.5, -0.5, -0.5], high: [0.5, 0.5, 0.5]};
+    this.outline = outline_places(points.count > 0 ? points.positions : loops.vertices, this.box);
     const all = given || {low: [-0.5, -0.5, -0.5], high: [0.5, 0.5, 0.5]};
     this.middle = new THREE.Vector3(...[0, 1, 2].map((k) => (all.low[k] + all.high[k]) / 2));
     this.radius = Math.max(1e-3, Math.hypot(...[0, 1, 2].map((k) => (all.high[k] - all.low[k]) / 2)));
@@ -127,9 +128,8 @@ class View {
   }
 
   fit_pose(polar, azimuth) {
-    const target = [0, 1, 2].map((axis) => (this.box.low[axis] + this.box.high[axis]) / 2);
-    const pose = pose_of_corners(box_corners(this.box.low, this.box.high), target, {polar, azimuth}, this.camera.aspect);
-    return {...pose, distance: pose.distance * 1.08};
+    const pose = pose_of_places(this.outline, {polar, azimuth}, this.camera.aspect);
+    return {...pose, distance: pose.distance * 1.12};
   }
 
   // The pose of one of the buttons: "fit", "top", "front" or "side".
@@ -336,8 +336,10 @@ class View {
 
   resize() {
     const {clientWidth, clientHeight} = this.canvas.parentElement;
-    if (clientWidth === 0 || clientHeight === 0) return;
     const ratio = Math.min(2, window.devicePixelRatio || 1);
+    const size = `${clientWidth} ${clientHeight} ${ratio}`;
+    if (clientWidth === 0 || clientHeight === 0 || size === this.size) return;
+    this.size = size;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
@@ -356,7 +358,7 @@ class View {
     }
     this.uniforms.resolution.value.set(width, height);
     this.uniforms.pixel_ratio.value = ratio;
-    this.draw();
+    if (this.is_begun) this.draw();
   }
 
   changed() {
@@ -365,7 +367,7 @@ class View {
   }
 
   request() {
-    if (this.requested) return;
+    if (this.requested || !this.is_begun) return;
     this.requested = true;
     requestAnimationFrame((now) => this.step(now));
   }
@@ -405,6 +407,7 @@ class View {
 
   draw(count = this.cloud.count) {
     if (!this.target) return;
+    this.is_begun = true;
     const {camera, renderer} = this;
     const away = camera.position.distanceTo(this.middle);
     const to_target = camera.position.distanceTo(this.controls.target);
