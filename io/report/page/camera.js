@@ -1,0 +1,111 @@
+// Where the camera is: a pose looks at a target from a direction, z is up. Flights go from pose to pose.
+
+const kFieldOfView = 38;  // degrees, vertical
+const kLeastPolar = 1e-4;
+
+// {target: [x, y, z], distance, polar (from z), azimuth}
+function pose_of(camera, target) {
+  const offset = camera.position.clone().sub(target);
+  const distance = Math.max(offset.length(), 1e-12);
+  return {
+    target: target.toArray(),
+    distance,
+    polar: Math.acos(Math.min(1, Math.max(-1, offset.z / distance))),
+    azimuth: Math.atan2(offset.y, offset.x),
+  };
+}
+
+function pose_direction(pose) {
+  const across = Math.sin(pose.polar);
+  return [across * Math.cos(pose.azimuth), across * Math.sin(pose.azimuth), Math.cos(pose.polar)];
+}
+
+// The pose that has all of `places` (numbers x, y, z, x, ...) in the middle of the picture, from the direction of `from`.
+function pose_of_places(places, from, aspect) {
+  const back = pose_direction(from);
+  const right = [-Math.sin(from.azimuth), Math.cos(from.azimuth), 0];
+  const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+              back[0] * right[1] - back[1] * right[0]];
+  const axes = [right, up, back];
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  const along = (i, axis) => places[i] * axis[0] + places[i + 1] * axis[1] + places[i + 2] * axis[2];
+  for (let i = 0; i < places.length; i += 3) {
+    for (let k = 0; k < 3; ++k) {
+      const value = along(i, axes[k]);
+      low[k] = Math.min(low[k], value);
+      high[k] = Math.max(high[k], value);
+    }
+  }
+  const middle = low.map((value, k) => (value + high[k]) / 2);
+  const tall = Math.tan((kFieldOfView * Math.PI) / 360);
+  let distance = 1e-6;
+  for (let i = 0; i < places.length; i += 3) {
+    const toward = along(i, back) - middle[2];
+    distance = Math.max(distance, toward + Math.abs(along(i, right) - middle[0]) / (tall * aspect),
+                        toward + Math.abs(along(i, up) - middle[1]) / tall);
+  }
+  const target = [0, 1, 2].map((axis) => axes.reduce((sum, unit, k) => sum + unit[axis] * middle[k], 0));
+  return {target, distance, polar: from.polar, azimuth: from.azimuth};
+}
+
+// Looks along a normal from the side where the camera is. Straight from above the picture keeps its turn.
+function pose_along(normal, target, distance, now) {
+  const length = Math.hypot(...normal);
+  if (!(length > 0)) return {target, distance, polar: now.polar, azimuth: now.azimuth};
+  const eye = pose_direction(now).map((value, axis) => now.target[axis] + value * now.distance - target[axis]);
+  const side = eye[0] * normal[0] + eye[1] * normal[1] + eye[2] * normal[2] < 0 ? -1 : 1;
+  const [x, y, z] = normal.map((value) => (side * value) / length);
+  const is_upright = Math.hypot(x, y) < 0.02;
+  return {
+    target,
+    distance,
+    polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, Math.acos(Math.min(1, Math.max(-1, z))))),
+    azimuth: is_upright ? now.azimuth : Math.atan2(y, x),
+  };
+}
+
+function poses_between(a, b, part) {
+  const eased = part * part * (3 - 2 * part);
+  const turn = Math.atan2(Math.sin(b.azimuth - a.azimuth), Math.cos(b.azimuth - a.azimuth));
+  const mix = (from, to) => from + (to - from) * eased;
+  const distance = Math.exp(mix(Math.log(a.distance), Math.log(b.distance)));
+  // The target moves as the distance does: while far, the picture moves as much as while near.
+  const moved = Math.abs(b.distance - a.distance) < 1e-3 * a.distance
+      ? eased : (distance - a.distance) / (b.distance - a.distance);
+  return {
+    target: a.target.map((value, axis) => value + (b.target[axis] - value) * moved),
+    distance,
+    polar: mix(a.polar, b.polar),
+    azimuth: a.azimuth + turn * eased,
+  };
+}
+
+// Box of most positions, so that a few outliers do not make the rest small. Null without positions.
+function usual_box(positions) {
+  const count = positions.length / 3;
+  if (count === 0) return null;
+  const step = Math.max(1, Math.floor(count / 20000));
+  const low = [0, 0, 0], high = [0, 0, 0];
+  for (let axis = 0; axis < 3; ++axis) {
+    const values = new Float32Array(Math.ceil(count / step));
+    for (let i = 0, k = 0; i < count; i += step) values[k++] = positions[3 * i + axis];
+    values.sort();
+    const at = (part) => values[Math.round(part * (values.length - 1))];
+    const margin = 0.02 * (at(0.995) - at(0.005));
+    low[axis] = Math.max(values[0], at(0.005) - margin);
+    high[axis] = Math.min(values[values.length - 1], at(0.995) + margin);
+  }
+  return {low, high};
+}
+
+// A few thousand of the positions inside of the box, enough to fit a picture to; two corners of the box without any.
+function outline_places(positions, {low, high}) {
+  const count = positions.length / 3;
+  const step = Math.max(1, Math.floor(count / 6000));
+  const places = [];
+  for (let i = 0; i < count; i += step) {
+    const place = [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]];
+    if (place.every((value, axis) => value >= low[axis] && value <= high[axis])) places.push(...place);
+  }
+  return places.length > 0 ? places : [...low, ...high];
+}

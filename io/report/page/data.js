@@ -1,0 +1,142 @@
+// The data elements of the page, decoded once into typed arrays.
+//
+// Scene coordinates are the frame's unit cube with its middle at zero: real = origin + (scene + 0.5) * edge. A scene
+// coordinate is a multiple of 2^-22, so a 32-bit float holds it exactly, whatever the real coordinates are.
+
+// Bytes of a base64 element; none without it. The element leaves the page, so its text is freed.
+function take_bytes(id) {
+  const element = document.getElementById(id);
+  if (!element) return new Uint8Array(0);
+  const text = element.textContent.trim();
+  element.remove();
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+// Points are drawn in this order: any first part of them is spread over the whole sample.
+function spread_step(count) {
+  const common = (a, b) => (b === 0 ? a : common(b, a % b));
+  let step = Math.max(1, Math.round(count * 0.6180339887));
+  while (common(step, count) !== 1) ++step;
+  return step;
+}
+
+// Scene coordinates, three per position, from 8 bytes each; `step` permutes them (1: as they are).
+function unpack_positions(bytes, step) {
+  const count = Math.floor(bytes.length / 8);
+  const words = new DataView(bytes.buffer, bytes.byteOffset, count * 8);
+  const is_little = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1 && bytes.byteOffset % 4 === 0;
+  const plain = is_little ? new Uint32Array(bytes.buffer, bytes.byteOffset, count * 2) : null;
+  const out = new Float32Array(count * 3);
+  const scale = 1 / 2097152;
+  for (let i = 0, from = 0, to = 0; i < count; ++i, from = (from + step) % count) {
+    const low = plain ? plain[2 * from] : words.getUint32(8 * from, true);
+    const high = plain ? plain[2 * from + 1] : words.getUint32(8 * from + 4, true);
+    out[to++] = ((low & 0x1fffff) + 0.5) * scale - 0.5;
+    out[to++] = (((low >>> 21) | ((high & 0x3ff) << 11)) + 0.5) * scale - 0.5;
+    out[to++] = (((high >>> 10) & 0x1fffff) + 0.5) * scale - 0.5;
+  }
+  return out;
+}
+
+// Per point: probability and the two numbers of its normal, as bytes that a shader reads as 0 to 1 (normals: 128 is 0).
+function pack_attributes(count, step, probabilities, normals) {
+  const out = new Uint8Array(count * 4);
+  const has_normals = normals.length >= 2 * count;
+  for (let i = 0, from = 0; i < count; ++i, from = (from + step) % count) {
+    out[4 * i] = probabilities[from] || 0;
+    out[4 * i + 1] = has_normals ? normals[2 * from] ^ 0x80 : 128;  // int8 + 128
+    out[4 * i + 2] = has_normals ? normals[2 * from + 1] ^ 0x80 : 128;
+  }
+  return out;
+}
+
+function pack_colours(count, step, colours) {
+  const out = new Uint8Array(count * 4);
+  for (let i = 0, from = 0; i < count; ++i, from = (from + step) % count) {
+    out[4 * i] = colours[3 * from];
+    out[4 * i + 1] = colours[3 * from + 1];
+    out[4 * i + 2] = colours[3 * from + 2];
+    out[4 * i + 3] = 255;
+  }
+  return out;
+}
+
+// Numbers of a column; NaN stands for null, which is a value that is not finite.
+function number_column(values, count) {
+  const out = new Float64Array(count).fill(NaN);
+  for (let i = 0; i < count && values; ++i) {
+    if (typeof values[i] === "number") out[i] = values[i];
+  }
+  return out;
+}
+
+function vector_column(values, count) {
+  const out = new Float64Array(count * 3).fill(NaN);
+  for (let i = 0; i < count && values; ++i) {
+    for (let axis = 0; axis < 3 && values[i]; ++axis) {
+      if (typeof values[i][axis] === "number") out[3 * i + axis] = values[i][axis];
+    }
+  }
+  return out;
+}
+
+function read_loops(loops) {
+  const count = loops && loops.id ? loops.id.length : 0;
+  const column = (name) => number_column(loops && loops[name], count);
+  return {
+    count,
+    all: loops && Number.isFinite(loops.all) ? loops.all : count,
+    is_hole: Uint8Array.from({length: count}, (_, i) => (loops.kind[i] === "hole" ? 1 : 0)),
+    id: column("id"),
+    points: column("points"),
+    confidence: column("confidence"),
+    perimeter: column("perimeter"),
+    area: column("area"),
+    diameter: column("diameter"),
+    planarity: column("planarity"),
+    mean_probability: column("mean_probability"),
+    centroid: vector_column(loops && loops.centroid, count),
+    normal: vector_column(loops && loops.normal, count),
+    first: loops && loops.first ? loops.first : [0],
+    vertices: unpack_positions(take_bytes("loop_vertices"), 1),
+  };
+}
+
+// { report, frame, points: {count, positions, attributes, colours or null}, loops }
+function read_data() {
+  const element = document.getElementById("report");
+  const report = element ? JSON.parse(element.textContent) : {};
+  const frame = report.frame || {origin: [0, 0, 0], edge: 1};
+  const bytes = take_bytes("positions");
+  const count = Math.floor(bytes.length / 8);
+  const step = spread_step(count);
+  const sample = report.sample || {};
+  const has_normals = Boolean(sample.has_normals);
+  const colours = take_bytes("colours");
+  return {
+    report,
+    frame,
+    has_normals,
+    points: {
+      count,
+      positions: unpack_positions(bytes, step),
+      attributes: pack_attributes(count, step, take_bytes("probabilities"),
+                                  has_normals ? take_bytes("normals") : new Uint8Array(0)),
+      colours: sample.has_colours && colours.length >= 3 * count ? pack_colours(count, step, colours) : null,
+    },
+    loops: read_loops(report.loops),
+  };
+}
+
+// Between real and scene coordinates, as plain arrays of three.
+function to_scene(frame, real) {
+  return real.map((value, axis) => (value - frame.origin[axis]) / frame.edge - 0.5);
+}
+
+function to_real(frame, scene) {
+  return scene.map((value, axis) => frame.origin[axis] + (value + 0.5) * frame.edge);
+}

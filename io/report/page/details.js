@@ -1,0 +1,81 @@
+// The measures of the selected loop.
+
+class Details {
+  // `actions`: {fly(index), close()}
+  constructor(data, units, decimals, actions) {
+    Object.assign(this, {data, units, decimals, actions});
+    this.show(-1);
+  }
+
+  show(index) {
+    const body = find("details-body");
+    document.body.classList.toggle("has-selected", index >= 0);
+    if (index < 0) {
+      const has_loops = this.data.loops.count > 0;
+      find("details-heading").replaceChildren("Selected loop");
+      body.replaceChildren(element("p", {class: "quiet"},
+          has_loops ? "Choose a row of the table or a loop in the view." : "This scan has no loops."));
+      return;
+    }
+    const {loops} = this.data;
+    const {units} = this;
+    const name = loops.is_hole[index] ? "hole" : "outer";
+    const vector = (column, digits) =>
+        [0, 1, 2].map((axis) => format_place(column[3 * index + axis], digits));
+    const place = vector(loops.centroid, this.decimals);
+    const copy = element("button", {type: "button", id: "copy"}, "Copy place");
+    copy.addEventListener("click", () => copy_text(place.join(" ").replace(/−/g, "-"), copy));
+    const fly = element("button", {type: "button"}, "Fly to it");
+    fly.addEventListener("click", () => this.actions.fly(index));
+    const close = element("button", {type: "button"}, "Deselect");
+    close.addEventListener("click", () => this.actions.close());
+    const axes = (values) => element("span", {class: "axes"},
+        ...values.map((value, axis) => element("span", {}, element("i", {}, "xyz"[axis]), value)));
+    find("details-heading").replaceChildren(element("i", {class: `swatch ${name}`}), loop_name(loops, index));
+    body.replaceChildren(
+        description([
+          ["Area", units.area(loops.area[index], 4)],
+          ["Perimeter", units.length(loops.perimeter[index], 4)],
+          ["Diameter", units.length(loops.diameter[index], 4)],
+          ["Confidence", format_fraction(loops.confidence[index])],
+          ["Planarity", format_fraction(loops.planarity[index])],
+          ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
+          ["Points", format_count(loops.points[index])],
+          [`Centroid${units.name ? ", " + units.name : ""}`, axes(place), "wide"],
+          ["Normal", axes(vector(loops.normal, 4)), "wide"],
+        ]),
+        element("div", {class: "buttons"}, copy, fly, close));
+  }
+}
+
+function loop_name(loops, index) {
+  return `${loops.is_hole[index] ? "Hole" : "Outer curve"} ${loops.id[index]}`;
+}
+
+// The clipboard, or the old way where a page of a file may not use it.
+async function copy_text(text, button) {
+  let is_done = true;
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch (error) {
+    const field = element("textarea", {class: "unseen", "aria-hidden": "true"});
+    field.value = text;
+    document.body.append(field);
+    field.select();
+    is_done = document.execCommand("copy");
+    field.remove();
+    button.focus();
+  }
+  const name = button.textContent;
+  button.textContent = is_done ? "Copied" : "Not copied";
+  setTimeout(() => { button.textContent = name; }, 1400);
+}
+
+function save_text(text, name) {
+  const address = URL.createObjectURL(new Blob([text], {type: "text/csv"}));
+  const link = element("a", {href: address, download: name});
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}

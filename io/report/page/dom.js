@@ -1,0 +1,39 @@
+// Short ways to make and find elements.
+
+function find(id) {
+  return document.getElementById(id);
+}
+
+// element("td", {class: "number", title: "..."}, "text" or node, ...)
+function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  set_attributes(made, attributes);
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+function drawing(name, attributes = {}, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  set_attributes(made, attributes);
+  made.append(...children);
+  return made;
+}
+
+function set_attributes(to, attributes) {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value !== null && value !== undefined && value !== false) to.setAttribute(key, value === true ? "" : value);
+  }
+}
+
+// Name and value pairs of a description list; `rows` holds [name, value, class or nothing].
+function description(rows) {
+  const list = element("dl", {class: "pairs"});
+  for (const [name, value, style] of rows) {
+    list.append(element("div", {class: style}, element("dt", {}, name), element("dd", {}, value)));
+  }
+  return list;
+}
+
+function style_value(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}

@@ -1,0 +1,134 @@
+// Facts of the scan and of the run: sources, counts, parameters, times.
+
+function draw_facts(data, units) {
+  const {report} = data;
+  const parts = [scan_facts(data, units), result_facts(data, units), parameter_facts(report)];
+  if (report.run) parts.push(run_facts(report.run));
+  if (report.lacuna) parts.push(element("p", {class: "quiet"}, `Written by lacuna ${report.lacuna}.`));
+  find("facts-body").replaceChildren(...parts.filter(Boolean));
+}
+
+function facts_part(title, ...children) {
+  return element("section", {class: "part"}, element("h3", {}, title), ...children);
+}
+
+// A short name of a coordinate system; well-known text starts with KIND["name".
+function crs_name(crs) {
+  const match = /^[A-Z_0-9]+\s*\[\s*"([^"]*)"/i.exec(crs);
+  return match ? match[1] : crs;
+}
+
+function scan_facts(data, units) {
+  const {report} = data;
+  const counts = report.counts || {};
+  const inputs = report.inputs || [];
+  const sample = report.sample || {};
+  const rows = [["Points", format_count(counts.points)]];
+  if (sample.of > 0 || data.points.count > 0) {
+    const is_all = data.points.count >= sample.of;
+    rows.push(["Drawn here", is_all ? "all" : `${format_count(data.points.count)}, spread evenly`]);
+  }
+  for (const [name, value] of left_out(counts)) rows.push([name, format_count(value)]);
+  if (report.bounds) {
+    const {min, max} = report.bounds;
+    rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × "), "wide"]);
+    const decimals = place_decimals(report.mean_edge_length);
+    const corner = (values) => values.map((value) => format_place(value, decimals)).join("  ");
+    rows.push(["Least x y z", corner(min), "wide"], ["Largest x y z", corner(max), "wide"]);
+  } else {
+    rows.push(["Extent", "none: no points"]);
+  }
+  if (report.mean_edge_length > 0) rows.push(["Mean edge", units.length(report.mean_edge_length)]);
+  rows.push(["Resolution", report.resolution > 0 ? units.length(report.resolution) : "not thinned"]);
+  rows.push(["Unit", units.name || "not stated"]);
+  const crs = report.crs ? crs_name(report.crs) : "not stated";
+  rows.push(["CRS", crs, crs.length > 22 ? "wide" : null]);
+  const made = facts_part("Scan", description(rows));
+  if (report.crs && crs !== report.crs) {
+    made.append(element("details", {}, element("summary", {}, "Well-known text"), element("pre", {}, report.crs)));
+  }
+  if (inputs.length > 0) made.append(file_list(inputs));
+  return made;
+}
+
+// [name, count] of points that did not take part, without the zeros.
+function left_out(counts) {
+  const rows = [["Without coordinates", counts.dropped]];
+  for (const [name, value] of Object.entries(counts.filtered_out || {})) rows.push([`Left out by ${name}`, value]);
+  rows.push(["Thinned out", counts.thinned_out], ["Duplicates", counts.duplicates]);
+  return rows.filter(([, value]) => value > 0);
+}
+
+function file_list(inputs) {
+  const list = element("ul", {class: "files"});
+  for (const {file, points} of inputs) {
+    list.append(element("li", {}, element("span", {title: file}, file), element("span", {class: "number"}, format_count(points))));
+  }
+  return element("details", {open: inputs.length <= 4},
+                 element("summary", {}, plural(inputs.length, "file", "files")), list);
+}
+
+function result_facts(data, units) {
+  const {report, loops} = data;
+  const counts = report.counts || {};
+  const names = {holes: "Holes", outer: "Outer curves", loops: "Loops", boundary_points: "Boundary points",
+                 candidates: "Candidates", coherent: "Coherent"};
+  const rows = Object.keys(names).filter((key) => is_number(counts[key])).map((key) => [names[key], format_count(counts[key])]);
+  let area = 0, has_area = false;
+  for (let i = 0; i < loops.count; ++i) {
+    if (loops.is_hole[i] && Number.isFinite(loops.area[i])) { area += loops.area[i]; has_area = true; }
+  }
+  if (has_area) rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
+  const made = facts_part("Result", description(rows));
+  if (loops.count < loops.all) {
+    made.append(element("p", {class: "quiet"},
+        `This page holds the ${format_count(loops.count)} longest of ${format_count(loops.all)} loops; holes.json has all.`));
+  }
+  return made;
+}
+
+function parameter_text(value) {
+  if (Array.isArray(value)) return value.length > 0 ? value.map(parameter_text).join(", ") : "none";
+  if (value === null || value === "") return "none";
+  if (typeof value === "number" && Number.isInteger(value)) return format_count(value);
+  return typeof value === "object" ? JSON.stringify(value) : String(value);
+}
+
+function parameter_facts(report) {
+  const changed = new Set(report.changed || []);
+  const rows = [], others = [];
+  for (const [section, values] of Object.entries(report.parameters || {})) {
+    for (const [key, value] of Object.entries(values || {})) {
+      const is_changed = changed.has(key) || changed.has(`${section}.${key}`);
+      (is_changed ? rows : others).push([element("span", {}, key.replace(/_/g, " "), element("small", {}, section)),
+                                         parameter_text(value), is_changed ? "changed" : null]);
+    }
+  }
+  const made = facts_part("Method", description([["Method", report.method || kMissing], ...rows]));
+  if (others.length > 0) {
+    made.append(element("details", {},
+        element("summary", {}, plural(others.length, "parameter", "parameters") + " at the default"), description(others)));
+  }
+  return made;
+}
+
+function run_facts(run) {
+  const rows = [["Time", format_seconds(run.seconds)]];
+  if (is_number(run.threads)) {
+    rows.push(["Threads", format_count(run.threads) + (is_number(run.cores) ? ` of ${plural(run.cores, "core", "cores")}` : "")]);
+  }
+  if (is_number(run.peak_memory_bytes)) rows.push(["Peak memory", format_bytes(run.peak_memory_bytes)]);
+  if (run.memory_limit_bytes > 0) rows.push(["Memory limit", format_bytes(run.memory_limit_bytes)]);
+  const made = facts_part("Run", description(rows));
+  const phases = (run.phases || []).filter(({seconds}) => is_number(seconds));
+  const most = phases.reduce((best, {seconds}) => Math.max(best, seconds), 0);
+  if (phases.length > 0) {
+    const list = element("ol", {class: "phases"});
+    for (const {name, seconds} of phases) {
+      list.append(element("li", {style: `--part:${most > 0 ? (seconds / most).toFixed(4) : 0}`},
+                          element("span", {}, name), element("span", {class: "number"}, format_seconds(seconds))));
+    }
+    made.append(list);
+  }
+  return made;
+}

@@ -1,0 +1,81 @@
+// Which loops are shown: kind, least diameter, least confidence. Sliders and number fields say the same.
+
+class LoopFilter {
+  // `on_change()` after each change, at most once a picture.
+  constructor(loops, units, on_change) {
+    this.loops = loops;
+    this.on_change = on_change;
+    this.kind = "all";
+    this.size = 0;        // least diameter, in the scan's unit
+    this.confidence = 0;
+    const sizes = Array.from(loops.diameter).filter((value) => value > 0);
+    this.least = sizes.reduce((a, b) => Math.min(a, b), Infinity);
+    this.most = sizes.reduce((a, b) => Math.max(a, b), 0);
+    this.scale = units.scale(this.most, 1);
+    find("size-unit").textContent = this.scale.name;
+    this.connect();
+  }
+
+  connect() {
+    for (const radio of document.getElementsByName("kind")) {
+      radio.addEventListener("change", () => { this.kind = radio.value; this.changed(); });
+    }
+    const {least, most} = this;
+    const slider = find("size-slider"), number = find("size-number");
+    slider.disabled = !(most > 0);
+    slider.addEventListener("input", () => {
+      const part = slider.value / 1000;
+      // A little beyond the largest at the end, so that the slider can leave out all.
+      this.size = part === 0 ? 0 : least * Math.pow((most * 1.02) / least, part);
+      const shown = Number((this.size * this.scale.factor).toPrecision(3));
+      number.value = shown;
+      this.changed();
+    });
+    number.addEventListener("input", () => {
+      this.size = Math.max(0, Number(number.value) || 0) / this.scale.factor;
+      slider.value = this.size <= least || !(most > least) ? 0
+          : Math.round((1000 * Math.log(this.size / least)) / Math.log((most * 1.02) / least));
+      this.changed();
+    });
+    const confidence = find("confidence-slider"), field = find("confidence-number");
+    confidence.addEventListener("input", () => {
+      this.confidence = Number(confidence.value);
+      field.value = confidence.value;
+      this.changed();
+    });
+    field.addEventListener("input", () => {
+      this.confidence = Math.max(0, Number(field.value) || 0);
+      confidence.value = this.confidence;
+      this.changed();
+    });
+    find("filters").addEventListener("submit", (event) => event.preventDefault());
+    find("reset").addEventListener("click", () => this.reset());
+  }
+
+  reset() {
+    find("filters").reset();
+    this.kind = "all";
+    this.size = this.confidence = 0;
+    this.changed();
+  }
+
+  is_active() { return this.kind !== "all" || this.size > 0 || this.confidence > 0; }
+
+  passes(i) {
+    const {is_hole, diameter, confidence} = this.loops;
+    if (this.kind === "hole" && !is_hole[i]) return false;
+    if (this.kind === "outer" && is_hole[i]) return false;
+    if (this.size > 0 && !(diameter[i] >= this.size)) return false;
+    return !(this.confidence > 0) || confidence[i] >= this.confidence;
+  }
+
+  changed() {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame(() => {
+      this.requested = false;
+      find("reset").disabled = !this.is_active();
+      this.on_change();
+    });
+  }
+}

@@ -1,0 +1,93 @@
+// Numbers as people read them: significant digits, thousands separators, units. A missing number is a dash.
+
+const kMissing = "–";
+
+function is_number(value) {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+function format_count(value) {
+  return is_number(value) ? value.toLocaleString("en-US", {maximumFractionDigits: 0}) : kMissing;
+}
+
+function plural(count, one, many) {
+  return `${format_count(count)} ${count === 1 ? one : many}`;
+}
+
+// `digits` significant digits, whole digits never rounded off; very large and small ones with a power of ten.
+function format_number(value, digits = 3) {
+  if (!is_number(value)) return kMissing;
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e9 || size < 1e-4) {
+    const [mantissa, power] = value.toExponential(digits - 1).split("e");
+    const raised = String(Number(power)).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
+    return `${mantissa}×10${raised}`;
+  }
+  const whole = Math.floor(Math.log10(size)) + 1;
+  const shown = Math.max(digits, whole);
+  return value.toLocaleString("en-US", {minimumSignificantDigits: shown, maximumSignificantDigits: shown});
+}
+
+function format_fraction(value) {
+  return is_number(value) ? value.toFixed(3) : kMissing;
+}
+
+// Units of the scan's lengths. Only metres change to a smaller unit; other units stay as they are.
+class Units {
+  constructor(unit) {
+    this.unit = unit || "";
+    this.name = {"us-ft": "ft (US)"}[this.unit] || this.unit;
+  }
+
+  // {factor, name} that suits lengths (power 1) or areas (power 2) up to `largest`.
+  scale(largest, power) {
+    const sign = power === 2 ? "²" : "";
+    const is_small = this.unit === "m" && is_number(largest) && largest > 0 && largest < (power === 2 ? 1e-3 : 0.1);
+    if (is_small) return {factor: power === 2 ? 1e6 : 1e3, name: "mm" + sign};
+    return {factor: 1, name: this.name ? this.name + sign : ""};
+  }
+
+  format(value, power, digits = 3) {
+    if (!is_number(value)) return kMissing;
+    const {factor, name} = this.scale(Math.abs(value), power);
+    return format_number(value * factor, digits) + (name ? " " + name : "");
+  }
+
+  length(value, digits) { return this.format(value, 1, digits); }
+  area(value, digits) { return this.format(value, 2, digits); }
+}
+
+// Decimals that place a point to about a tenth of the point spacing.
+function place_decimals(spacing) {
+  if (!is_number(spacing) || spacing <= 0) return 3;
+  return Math.min(9, Math.max(0, Math.ceil(1 - Math.log10(spacing))));
+}
+
+function format_place(value, decimals) {
+  return is_number(value) ? value.toFixed(decimals).replace("-", "−") : kMissing;
+}
+
+function format_seconds(seconds) {
+  if (!is_number(seconds)) return kMissing;
+  if (seconds < 0.0005) return "0 ms";
+  if (seconds < 1) return `${format_number(seconds * 1000, seconds < 0.1 ? 2 : 3)} ms`;
+  if (seconds < 120) return `${format_number(seconds, 3)} s`;
+  const minutes = Math.floor(seconds / 60);
+  if (minutes < 120) return `${minutes} min ${Math.round(seconds % 60)} s`;
+  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
+function format_bytes(bytes) {
+  if (!is_number(bytes)) return kMissing;
+  const names = ["B", "KiB", "MiB", "GiB", "TiB"];
+  let at = 0;
+  while (bytes >= 1024 && at < names.length - 1) { bytes /= 1024; ++at; }
+  return `${at === 0 ? bytes : format_number(bytes, 3)} ${names[at]}`;
+}
+
+// 1, 2 or 5 times a power of ten, at most `limit`.
+function round_step(limit) {
+  const power = Math.pow(10, Math.floor(Math.log10(limit)));
+  return [5, 2, 1].find((step) => step * power <= limit * 1.0000001) * power;
+}

@@ -1,0 +1,87 @@
+// What the shaders share: the camera in parts, so that large scenes stay still when the camera is close.
+//
+// A vertex is taken relative to the eye before it is turned: near the eye the difference of two close floats is exact.
+// One matrix for all would lose those digits, and a hole of 10 cm in a scan of 1 km would tremble.
+
+const kCameraShader = `
+  uniform vec3 eye_high, eye_low;
+  uniform mat3 turn;
+  vec3 to_view(vec3 place) { return turn * ((place - eye_high) - eye_low); }
+`;
+
+const kDepthShader = `
+  uniform sampler2D depth_map;
+  uniform vec2 resolution;
+  uniform float near, far;
+  float scene_distance(vec2 pixel) {
+    float depth = texture2D(depth_map, pixel / resolution).x;
+    return near * far / (far - depth * (far - near));
+  }
+`;
+
+// One set of uniforms for all materials.
+function make_camera_uniforms() {
+  return {
+    eye_high: {value: new THREE.Vector3()},
+    eye_low: {value: new THREE.Vector3()},
+    turn: {value: new THREE.Matrix3()},
+    near: {value: 0.1},
+    far: {value: 10},
+    focal: {value: 1000},  // pixels at distance 1
+    resolution: {value: new THREE.Vector2(1, 1)},
+    pixel_ratio: {value: 1},
+    depth_map: {value: null},
+    has_depth: {value: 0},
+  };
+}
+
+function update_camera_uniforms(uniforms, camera, height) {
+  const eye = camera.position;
+  const high = [eye.x, eye.y, eye.z].map(Math.fround);
+  uniforms.eye_high.value.set(...high);
+  uniforms.eye_low.value.set(eye.x - high[0], eye.y - high[1], eye.z - high[2]);
+  uniforms.turn.value.setFromMatrix4(camera.matrixWorldInverse);
+  uniforms.near.value = camera.near;
+  uniforms.far.value = camera.far;
+  uniforms.focal.value = height / (2 * Math.tan((camera.fov * Math.PI) / 360));
+}
+
+// A triangle over the whole canvas.
+function screen_geometry() {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+  return geometry;
+}
+
+// Eye-dome lighting (Boucheny 2009): pixels farther away than their neighbours get darker, so edges and steps show.
+function eye_dome_material(camera_uniforms) {
+  return new THREE.ShaderMaterial({
+    depthTest: false,
+    depthWrite: false,
+    uniforms: {...camera_uniforms, colour_map: {value: null}, background: {value: new THREE.Vector3()},
+               strength: {value: 60}},
+    vertexShader: `void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`,
+    fragmentShader: `
+      ${kDepthShader}
+      uniform sampler2D colour_map;
+      uniform vec3 background;
+      uniform float strength, pixel_ratio, has_depth;
+      float step_to(float here, vec2 offset) {
+        return max(0.0, here - log2(scene_distance(gl_FragCoord.xy + offset * pixel_ratio)));
+      }
+      void main() {
+        vec4 colour = texture2D(colour_map, gl_FragCoord.xy / resolution);
+        if (colour.a < 0.5) { gl_FragColor = vec4(background, 1.0); return; }
+        float shade = 1.0;
+        if (has_depth > 0.5) {
+          float here = log2(scene_distance(gl_FragCoord.xy));
+          float sum = step_to(here, vec2(1.4, 0.0)) + step_to(here, vec2(-1.4, 0.0)) +
+                      step_to(here, vec2(0.0, 1.4)) + step_to(here, vec2(0.0, -1.4)) +
+                      step_to(here, vec2(1.0, 1.0)) + step_to(here, vec2(-1.0, -1.0)) +
+                      step_to(here, vec2(1.0, -1.0)) + step_to(here, vec2(-1.0, 1.0));
+          shade = max(0.35, exp(-strength * sum / 8.0));
+        }
+        gl_FragColor = vec4(colour.rgb * shade, 1.0);
+      }`,
+  });
+}

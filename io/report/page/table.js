@@ -1,0 +1,210 @@
+// The table of loops: sorted, filtered, and only the rows in sight are in the document.
+
+const kRowPixels = 30;
+
+// {key, name, kind of value}; "place" sorts by x.
+const kColumns = [
+  {key: "id", name: "Id", kind: "count"},
+  {key: "kind", name: "Kind", kind: "kind"},
+  {key: "area", name: "Area", kind: "area"},
+  {key: "perimeter", name: "Perimeter", kind: "length"},
+  {key: "diameter", name: "Diameter", kind: "length"},
+  {key: "confidence", name: "Confidence", kind: "fraction"},
+  {key: "planarity", name: "Planarity", kind: "fraction"},
+  {key: "points", name: "Points", kind: "count"},
+  {key: "place", name: "Place x, y, z", kind: "place"},
+];
+
+class LoopTable {
+  // `on_choose(index)` when a row is clicked or Enter is pressed on it.
+  constructor(loops, units, decimals, on_choose) {
+    Object.assign(this, {loops, units, decimals, on_choose});
+    this.sort = {key: "area", is_falling: true, holes_first: true};
+    this.shown = [];      // indices of loops, in the order of the rows
+    this.selected = -1;
+    this.focused = 0;     // row
+    this.scales = {};
+    for (const {key, kind} of kColumns) {
+      if (kind !== "length" && kind !== "area") continue;
+      const most = loops[key].reduce((a, b) => (b > a ? b : a), 0);
+      this.scales[key] = units.scale(most, kind === "area" ? 2 : 1);
+    }
+    this.frame = find("rows");
+    this.body = find("body");
+    this.make_head();
+    this.frame.addEventListener("scroll", () => this.render(), {passive: true});
+    new ResizeObserver(() => this.render()).observe(this.frame);
+    this.body.addEventListener("click", (event) => {
+      const row = event.target.closest("tr[data-row]");
+      if (!row || String(getSelection()).length > 0) return;
+      this.focused = Number(row.dataset.row);
+      this.on_choose(this.shown[this.focused]);
+    });
+    this.body.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  make_head() {
+    for (const {key, name, kind} of kColumns) {
+      const unit = this.scales[key] ? this.scales[key].name : kind === "place" ? this.units.name : "";
+      const button = element("button", {type: "button"}, name, unit ? element("span", {class: "unit"}, unit) : null,
+                             element("span", {class: "arrow", "aria-hidden": "true"}));
+      button.addEventListener("click", () => this.sort_by(key));
+      find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
+    }
+    find("table").setAttribute("aria-colcount", kColumns.length);
+  }
+
+  sort_by(key) {
+    const is_same = this.sort.key === key && !this.sort.holes_first;
+    const starts_falling = !["id", "kind", "place"].includes(key);
+    this.sort = {key, is_falling: is_same ? !this.sort.is_falling : starts_falling, holes_first: false};
+    this.order = null;
+    this.show(this.passes);
+    this.frame.scrollTop = 0;
+  }
+
+  // All loops in the order of the sort; missing values come last, equal ones by index.
+  sorted() {
+    if (this.order) return this.order;
+    const {loops, sort} = this;
+    const values = sort.key === "kind" ? loops.is_hole.map((is_hole) => 1 - is_hole)
+        : sort.key === "place" ? Float64Array.from(loops.id, (_, i) => loops.centroid[3 * i]) : loops[sort.key];
+    const sign = sort.is_falling ? -1 : 1;
+    this.order = Array.from({length: loops.count}, (_, i) => i).sort((a, b) => {
+      if (sort.holes_first && loops.is_hole[a] !== loops.is_hole[b]) return loops.is_hole[b] - loops.is_hole[a];
+      const x = values[a], y = values[b];
+      if (Number.isNaN(x) || Number.isNaN(y)) return Number.isNaN(x) - Number.isNaN(y) || a - b;
+      return sign * (x - y) || a - b;
+    });
+    return this.order;
+  }
+
+  show(passes) {
+    this.passes = passes;
+    this.shown = this.sorted().filter(passes);
+    this.focused = Math.max(0, Math.min(this.focused, this.shown.length - 1));
+    for (const head of find("head").children) {
+      const is_sorted = head.dataset.key === this.sort.key;
+      const direction = this.sort.is_falling ? "descending" : "ascending";
+      if (is_sorted) head.setAttribute("aria-sort", direction); else head.removeAttribute("aria-sort");
+    }
+    find("table").setAttribute("aria-rowcount", this.shown.length + 1);
+    find("nothing").hidden = this.shown.length > 0;
+    find("nothing").textContent = this.loops.count === 0 ? "No loops: the scan has no holes and no outer curve."
+                                                         : "No loop passes the filters.";
+    this.rendered = "";
+    this.render();
+  }
+
+  render() {
+    const height = this.frame.clientHeight || 300;
+    const begin = Math.max(0, Math.floor(this.frame.scrollTop / kRowPixels) - 8);
+    const end = Math.min(this.shown.length, begin + Math.ceil(height / kRowPixels) + 18);
+    const state = `${begin} ${end} ${this.selected}`;
+    if (state === this.rendered) return;
+    this.rendered = state;
+    const had_focus = this.body.contains(document.activeElement);
+    const space = (count) => element("tr", {class: "space", "aria-hidden": "true"},
+        element("td", {colspan: kColumns.length, style: `height:${count * kRowPixels}px`}));
+    const rows = [];
+    if (begin > 0) rows.push(space(begin));
+    for (let row = begin; row < end; ++row) rows.push(this.row(row));
+    if (end < this.shown.length) rows.push(space(this.shown.length - end));
+    this.body.replaceChildren(...rows);
+    if (had_focus) this.focus_row(this.focused, false);
+  }
+
+  row(row) {
+    const i = this.shown[row];
+    const is_selected = i === this.selected;
+    const made = element("tr", {"data-row": row, "data-id": this.loops.id[i], tabindex: row === this.focused ? 0 : -1,
+                                "aria-rowindex": row + 2, "aria-selected": is_selected ? "true" : "false",
+                                class: is_selected ? "selected" : null});
+    for (const column of kColumns) made.append(this.cell(column, i));
+    return made;
+  }
+
+  cell({key, kind}, i) {
+    const {loops} = this;
+    if (kind === "kind") {
+      const name = loops.is_hole[i] ? "hole" : "outer";
+      return element("td", {class: "kind"}, element("i", {class: `swatch ${name}`}), name);
+    }
+    if (kind === "place") return element("td", {class: "place"}, this.place(i).join("  "));
+    const value = loops[key][i];
+    if (kind === "count") return element("td", {class: "number"}, format_count(value));
+    if (kind === "fraction") {
+      const is_shown = key === "confidence" && is_number(value);
+      return element("td", {class: "number" + (is_shown ? " meter" : ""), style: is_shown ? `--part:${value}` : null},
+                     format_fraction(value));
+    }
+    return element("td", {class: "number"}, format_number(value * this.scales[key].factor));
+  }
+
+  place(i) {
+    return [0, 1, 2].map((axis) => format_place(this.loops.centroid[3 * i + axis], this.decimals));
+  }
+
+  select(index) {
+    this.selected = index;
+    const row = this.shown.indexOf(index);
+    if (row >= 0) {
+      this.focused = row;
+      this.scroll_to(row);
+    }
+    this.rendered = "";
+    this.render();
+  }
+
+  scroll_to(row) {
+    const head = find("head").offsetHeight;
+    const top = row * kRowPixels, view = this.frame.clientHeight - head;
+    if (top < this.frame.scrollTop) this.frame.scrollTop = top;
+    if (top + kRowPixels > this.frame.scrollTop + view) this.frame.scrollTop = top + kRowPixels - view;
+  }
+
+  focus_row(row, is_scrolled = true) {
+    this.focused = Math.max(0, Math.min(this.shown.length - 1, row));
+    if (is_scrolled) { this.scroll_to(this.focused); this.rendered = ""; this.render(); }
+    for (const made of this.body.querySelectorAll("tr[data-row]")) {
+      made.tabIndex = Number(made.dataset.row) === this.focused ? 0 : -1;
+      if (made.tabIndex === 0) made.focus({preventScroll: true});
+    }
+  }
+
+  key(event) {
+    const page = Math.max(1, Math.floor(this.frame.clientHeight / kRowPixels) - 2);
+    const moves = {ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity};
+    if (event.key in moves) {
+      this.focus_row(Math.max(0, Math.min(this.shown.length - 1, this.focused + moves[event.key])));
+    } else if (event.key === "Enter" || event.key === " ") {
+      this.on_choose(this.shown[this.focused]);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  // The row after (1) or before (-1) the selected one, as an index; -1 without rows.
+  neighbour(direction) {
+    if (this.shown.length === 0) return -1;
+    const row = this.shown.indexOf(this.selected);
+    if (row < 0) return this.shown[direction > 0 ? 0 : this.shown.length - 1];
+    return this.shown[(row + direction + this.shown.length) % this.shown.length];
+  }
+
+  // Comma-separated values of the rows shown, with all digits, as holes.csv has them.
+  csv() {
+    const {loops} = this;
+    const text = (value) => (Number.isFinite(value) ? String(value) : "");
+    const lines = ["id,kind,points,confidence,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz"];
+    for (const i of this.shown) {
+      const numbers = ["points", "confidence", "perimeter", "area", "diameter", "planarity", "mean_probability"];
+      lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...numbers.map((name) => text(loops[name][i])),
+                  ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), text),
+                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text)].join(","));
+    }
+    return lines.join("\n") + "\n";
+  }
+}

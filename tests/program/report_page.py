@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Checks report.html in a real browser: headless Chromium, with WebGL in software.
+
+    report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks]
+
+--screenshot  a picture at the end (with --run: after that JavaScript and its flight)
+--no-webgl    a browser without WebGL: the message, the table and the facts
+Prints what it checked; exits with 1 and one line on failure, with 77 if Selenium or Chromium is missing.
+Debian: python3-selenium chromium chromium-driver.
+"""
+
+import argparse
+import shutil
+import sys
+import time
+from pathlib import Path
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    webdriver = None
+
+WAIT_SECONDS = 60
+LEAST_COVERED = 0.02  # of the canvas
+# Counts, in the page, the pixels that are not background and those of the colours of holes and outer curves.
+COUNT_PIXELS = """
+const {width, height, pixels} = lacuna.read_pixels(), colours = lacuna.colours();
+const near = (i, c, most) => Math.abs(pixels[i] - c[0]) <= most && Math.abs(pixels[i + 1] - c[1]) <= most &&
+                             Math.abs(pixels[i + 2] - c[2]) <= most;
+let covered = 0, hole = 0, outer = 0;
+for (let i = 0; i < pixels.length; i += 4) {
+  if (!near(i, colours.view, 6)) ++covered;
+  if (near(i, colours.hole, 3)) ++hole;
+  if (near(i, colours.outer, 3)) ++outer;
+}
+return {covered: covered / (width * height), hole, outer};
+"""
+
+
+class Failed(Exception):
+    pass
+
+
+def require(is_true, text):
+    if not is_true:
+        raise Failed(text)
+    print(f"ok: {text}")
+
+
+def open_browser(arguments):
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which("chromium")
+    for option in ["--headless=new", "--no-sandbox", "--hide-scrollbars", "--disable-dev-shm-usage", "--force-color-profile=srgb"]:
+        options.add_argument(option)
+    if arguments.no_webgl:
+        options.add_argument("--disable-3d-apis")
+    else:
+        options.add_argument("--use-angle=swiftshader")
+        options.add_argument("--enable-unsafe-swiftshader")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+    driver.set_page_load_timeout(WAIT_SECONDS)
+    driver.set_script_timeout(WAIT_SECONDS)
+    width, height = (int(value) for value in arguments.size.split("x"))
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                           {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
+        {"name": "prefers-color-scheme", "value": "dark" if arguments.dark else "light"}]})
+    return driver
+
+
+def wait_for(driver, expression, text, seconds=WAIT_SECONDS):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if driver.execute_script(f"return Boolean({expression})"):
+            return
+        time.sleep(0.05)
+    raise Failed(f"timed out: {text}")
+
+
+def still(driver):
+    wait_for(driver, "lacuna.is_still()", "the view comes to rest")
+
+
+def camera(driver):
+    return driver.execute_script("return lacuna.camera()")
+
+
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+
+
+def press(driver, key):
+    webdriver.ActionChains(driver).send_keys(key).perform()
+
+
+def set_size_filter(driver, value):
+    driver.execute_script("const s = document.getElementById('size-slider'); s.value = arguments[0];"
+                          "s.dispatchEvent(new Event('input'));", value)
+    driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
+
+
+def check_points(driver):
+    if driver.execute_script("return lacuna.points") == 0:
+        require(driver.find_element(By.ID, "facts").text != "", "no points: the facts are there")
+        return
+    seen = driver.execute_script(COUNT_PIXELS)
+    require(seen["covered"] > LEAST_COVERED, f"points cover {100 * seen['covered']:.1f} % of the view")
+
+
+def check_filter(driver, count):
+    before = driver.execute_script(COUNT_PIXELS)
+    require(before["hole"] + before["outer"] > 50,
+            f"loops are drawn ({before['hole']} pixels of holes, {before['outer']} of outer curves)")
+    set_size_filter(driver, 1000)
+    require(driver.execute_script("return lacuna.visible_loops()") == 0, "the filter can leave out all loops")
+    after = driver.execute_script(COUNT_PIXELS)
+    require(after["hole"] + after["outer"] == 0, "loops left out are not drawn")
+    set_size_filter(driver, 500)
+    part = driver.execute_script("return lacuna.visible_loops()")
+    require(0 < part < count or count == 1, f"the filter shows {part} of {count} loops at the middle of the slider")
+    driver.find_element(By.ID, "reset").click()
+    wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all loops")
+
+
+def check_flight(driver):
+    home = camera(driver)
+    row = driver.find_element(By.CSS_SELECTOR, "#body tr[data-row='0']")
+    identity = int(row.get_attribute("data-id"))
+    row.click()
+    still(driver)
+    require(driver.execute_script("return lacuna.selected()") == identity, f"a click selects the first row (id {identity})")
+    away = distance(camera(driver), home)
+    require(away > 0, f"the camera flies to it ({away:.4g})")
+    press(driver, Keys.ESCAPE)
+    still(driver)
+    back = distance(camera(driver), home)
+    require(back < 1e-4 * away + 1e-9, "Escape flies back")
+    require(driver.execute_script("return lacuna.selected()") is None, "Escape deselects")
+
+
+def check_keys(driver):
+    press(driver, "n")
+    still(driver)
+    first = driver.execute_script("return lacuna.selected()")
+    require(first is not None, f"N selects a loop (id {first})")
+    press(driver, Keys.ESCAPE)
+    still(driver)
+    home = camera(driver)
+    press(driver, "1")
+    still(driver)
+    require(distance(camera(driver), home) > 0, "1 turns the view")
+    press(driver, "?")
+    require(driver.execute_script("return document.getElementById('help').open"), "? opens the list of keys")
+    press(driver, Keys.ESCAPE)
+
+
+def check_without_webgl(driver):
+    require("WebGL" in driver.find_element(By.ID, "message").text, "without WebGL there is a message")
+    count = driver.execute_script("return lacuna.visible_loops()")
+    rows = len(driver.find_elements(By.CSS_SELECTOR, "#body tr[data-row]"))
+    require(min(count, 1) <= rows, f"the table has {rows} rows of {count}")
+    require("Points" in driver.find_element(By.ID, "facts").get_attribute("textContent"), "the facts are there")
+    if count > 0:
+        driver.find_element(By.CSS_SELECTOR, "#body tr[data-row]").click()
+        require(driver.execute_script("return lacuna.selected()") is not None, "a click selects a row")
+
+
+def check_console(driver):
+    entries = [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+    require(not entries, "no error in the console" + (f": {entries[0]}" if entries else ""))
+
+
+def run(driver, arguments):
+    begin = time.monotonic()
+    driver.get(arguments.report.resolve().as_uri())
+    wait_for(driver, "window.lacuna && window.lacuna.ready", "the page is ready")
+    times = driver.execute_script("return lacuna.times")
+    print(f"ready: {arguments.report.stat().st_size / 1e6:.1f} MB in {time.monotonic() - begin:.2f} s; in the page: "
+          + ", ".join(f"{name} {value / 1000:.2f} s" for name, value in times.items()))
+    if not arguments.no_checks:
+        if arguments.no_webgl:
+            check_without_webgl(driver)
+        else:
+            require(driver.execute_script("return lacuna.has_view"), "there is a 3D view")
+            check_points(driver)
+            count = driver.execute_script("return lacuna.visible_loops()")
+            if count > 0:
+                check_filter(driver, count)
+                check_flight(driver)
+                check_keys(driver)
+    if arguments.run:
+        print("run:", driver.execute_script(arguments.run))
+        still(driver)
+        time.sleep(0.4)
+    if arguments.screenshot:
+        driver.save_screenshot(str(arguments.screenshot))
+    check_console(driver)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("report", type=Path)
+    parser.add_argument("--screenshot", type=Path)
+    parser.add_argument("--size", default="1400x900")
+    parser.add_argument("--dark", action="store_true")
+    parser.add_argument("--no-webgl", action="store_true")
+    parser.add_argument("--no-checks", action="store_true")
+    parser.add_argument("--run", help="JavaScript before the picture")
+    arguments = parser.parse_args()
+    if webdriver is None or not shutil.which("chromium") or not shutil.which("chromedriver"):
+        print("report_page.py: skipped: python3-selenium, chromium or chromium-driver is missing")
+        return 77
+    driver = open_browser(arguments)
+    try:
+        run(driver, arguments)
+    except Failed as failure:
+        print(f"report_page.py: {failure}", file=sys.stderr)
+        return 1
+    finally:
+        driver.quit()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
