@@ -17,7 +17,7 @@ using namespace lacuna::peers;
 namespace fs = std::filesystem;
 
 constexpr const char* kVertices =
-    "\nproperty float x\nproperty float y\nproperty float z\nproperty uint id\n";
+    "\nproperty float x\nproperty float y\nproperty float z\nproperty uint scalar_id\n";
 
 std::ofstream create(const fs::path& file) {
   std::ofstream out(file);
@@ -39,7 +39,8 @@ void write_boundary(const fs::path& file, const Cloud& cloud, const Boundary& bo
 
 // PCL finds no loops.
 void write_no_loops(const fs::path& file) {
-  create(file) << "ply\nformat ascii 1.0\nelement vertex 0" << kVertices << "property int loop\nend_header\n";
+  create(file) << "ply\nformat ascii 1.0\nelement vertex 0" << kVertices
+               << "property int scalar_loop\nend_header\n";
 }
 
 void run(const char* scan, const fs::path& folder, int neighbours, double degrees) {

@@ -2,6 +2,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/number.hpp"
+#include "io/results/loop_colours.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,7 @@ namespace {
 constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
 constexpr float kMargin = 1.05f;
 constexpr float kLineWidth = 2.5f;  // pixels
-const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(214, 60, 30),
-    kHole(196, 0, 60), kOuter(0, 90, 181);
+const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(214, 60, 30);
 
 // Colours and depths of a picture's parts. A larger depth is nearer.
 class Canvas {
@@ -114,7 +114,8 @@ void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
   const float nearer = 3 * scene.points.spacing;
   const Scene::Loops& loops = scene.loops;
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const Eigen::Vector3f& colour = loops.measures[loop].kind == LoopKind::kHole ? kHole : kOuter;
+    const auto [red, green, blue, index] = colour_of(loops.measures[loop].kind);
+    const Eigen::Vector3f colour(red, green, blue);
     const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
     for (std::size_t i = first; i < end; ++i) {
       const Eigen::Vector3f a = project(loops.vertices[i]);

@@ -9,15 +9,17 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
                     .properties = position_and_id(detection, scan)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;
-  vertex.properties.push_back({"scalar_probability", Scalar::kFloat32, {}});
+  vertex.properties.insert(vertex.properties.end() - 1, {"scalar_probability", Scalar::kFloat32, {}});
   vertex.properties.push_back({"scalar_loop", Scalar::kInt32, {}});
+  vertex.properties.push_back({"quality", Scalar::kFloat32, {}});  // the probability as MeshLab has it
   PlyWriter writer(out, {vertex});
 
   detection.for_each_boundary_point([&](const BoundaryPoint& point) {
     for (const double component : point.position) writer.put_as(coordinate, component);
-    writer.put_as(id, static_cast<double>(value(point.id)));
     writer.put(point.probability);
+    writer.put_as(id, static_cast<double>(value(point.id)));
     writer.put(point.loop);
+    writer.put(point.probability);
   });
   writer.finish();
 }

@@ -1,32 +1,44 @@
+#include "io/results/digits.hpp"
+#include "io/results/loop_measures.hpp"
 #include "io/results/results.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
 namespace lacuna {
 namespace {
 
-// The shortest digits that are this number; empty where it is not finite.
+// Empty where it is not finite.
 void append(std::string& line, double value) {
-  char digits[32];
   line += ',';
-  if (std::isfinite(value)) line.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  if (std::isfinite(value)) append_shortest(line, value);
 }
 
 }  // namespace
 
+std::string_view table_header() {
+  static const std::string header = [] {
+    std::string names = "id,kind";
+    for (const LoopMeasure& measure : kLoopMeasures) names += "," + std::string(measure.name);
+    return names + ",x,y,z,nx,ny,nz";
+  }();
+  return header;
+}
+
 void write_table(const Detection& detection, OutputFile& out) {
-  out.write(std::string(kTableHeader) + "\n");
+  out.write(std::string(table_header()) + "\n");
   for (std::size_t id = 0; id < detection.loops().size(); ++id) {
     const LoopMeasures& loop = detection.loops()[id];
-    std::string line =
-        std::to_string(id) + "," + std::string(name_of(loop.kind)) + "," + std::to_string(loop.points);
-    for (const double value : {loop.confidence, loop.perimeter, loop.area, loop.diameter, loop.planarity,
-                               loop.mean_probability, loop.centroid.x(), loop.centroid.y(), loop.centroid.z(),
-                               loop.normal.x(), loop.normal.y(), loop.normal.z()}) {
-      append(line, value);
+    std::string line = std::to_string(id) + "," + name_of(loop.kind);
+    for (const LoopMeasure& measure : kLoopMeasures) {
+      if (measure.is_count) {
+        line += "," + std::to_string(static_cast<std::uint64_t>(measure.of(loop)));
+      } else {
+        append(line, measure.of(loop));
+      }
+    }
+    for (const Eigen::Vector3d& vector : {loop.centroid, loop.normal}) {
+      for (const double component : vector) append(line, component);
     }
     out.write(line + "\n");
   }

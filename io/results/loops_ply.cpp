@@ -1,5 +1,6 @@
 #include "engine/run/error.hpp"
 #include "io/ply/ply_writer.hpp"
+#include "io/results/loop_colours.hpp"
 #include "io/results/results.hpp"
 
 #include <cassert>
@@ -25,7 +26,11 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   PlyElement vertex{.name = "vertex", .count = points, .properties = position_and_id(detection, scan)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;
-  vertex.properties.push_back({"loop", Scalar::kInt32, {}});
+  vertex.properties.insert(vertex.properties.end() - 1, {"scalar_loop", Scalar::kInt32, {}});
+  vertex.properties.push_back({"scalar_outer", Scalar::kUint8, {}});
+  vertex.properties.push_back({"quality", Scalar::kFloat32, {}});
+  for (const char* colour : {"red", "green", "blue"})
+    vertex.properties.push_back({colour, Scalar::kUint8, {}});
   // A closed loop has as many edges as points.
   const PlyElement edge{.name = "edge",
                         .count = points,
@@ -33,12 +38,16 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   PlyWriter writer(out, {vertex, edge});
 
   for (std::size_t loop = 0; loop < detection.loops().size(); ++loop) {
-    const Loop members = detection.read_loop(loop).points;
+    const auto [measures, members] = detection.read_loop(loop);
+    const LoopColour& colour = colour_of(measures.kind);
     assert(members.size() == detection.loops()[loop].points);
     for (const LoopPoint& point : members) {
       for (const double component : point.position) writer.put_as(coordinate, component);
-      writer.put_as(id, static_cast<double>(value(point.id)));
       writer.put(static_cast<std::int32_t>(loop));
+      writer.put_as(id, static_cast<double>(value(point.id)));
+      writer.put(static_cast<std::uint8_t>(measures.kind == LoopKind::kOuter));
+      writer.put(point.probability);
+      for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) writer.put(part);
     }
   }
   std::int32_t first = 0;

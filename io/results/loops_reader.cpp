@@ -48,8 +48,8 @@ std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::s
 }
 
 std::vector<LoopIds> read_ply_loops(const std::filesystem::path& file) {
-  const std::vector<std::uint64_t> ids = read_column(file, "id");
-  const std::vector<std::uint64_t> loop_of = read_column(file, "loop");
+  const std::vector<std::uint64_t> ids = read_column(file, "scalar_id");
+  const std::vector<std::uint64_t> loop_of = read_column(file, "scalar_loop");
   std::vector<LoopIds> loops;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const bool known = loop_of[i] + 1 == loops.size();
@@ -93,7 +93,7 @@ std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
 }
 
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {
-  return read_column(file, "id");
+  return read_column(file, "scalar_id");
 }
 
 }  // namespace lacuna

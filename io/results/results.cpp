@@ -3,6 +3,9 @@
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/ply/ply_writer.hpp"
+#include "io/results/loops_dxf.hpp"
+#include "io/results/loops_obj.hpp"
+#include "io/results/loops_vtp.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -40,8 +43,14 @@ const std::vector<ResultFile>& all_results() {
        [](C c) { return c.output.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
        [](C c) { return c.output.vdb; }},
+      {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
+       [](C c) { return c.output.obj; }},
+      {"loops.dxf", kDxfMark, [](D d, S, C, OutputFile& out) { write_loops_dxf(d, out); },
+       [](C c) { return c.output.dxf; }},
+      {"loops.vtp", kVtpMark, [](D d, S, C, OutputFile& out) { write_loops_vtp(d, out); },
+       [](C c) { return c.output.vtp; }},
       {"report.html", kReportMark, nullptr, never},
-      {"holes.csv", kTableHeader, [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
+      {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
   return results;
@@ -116,7 +125,7 @@ std::vector<PlyProperty> position_and_id(const Detection& detection, const FileS
   return {{"x", coordinate, {}},
           {"y", coordinate, {}},
           {"z", coordinate, {}},
-          {"id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
+          {"scalar_id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
 }
 
 }  // namespace lacuna

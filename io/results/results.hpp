@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and
-// those that the config asks for.
+// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and those
+// that the config asks for.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
@@ -23,8 +23,9 @@ std::vector<std::filesystem::path> result_files(const Config& config, const std:
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite);
 
-// Writes the result files as one set (io/results/output_set.hpp). A points.ply or probability.vdb of an
-// earlier run does not belong to the new results: it goes. Makes the folder if it is missing. Throws `Error`.
+// Writes the result files as one set (io/results/output_set.hpp). A file of an earlier run that this one does
+// not write, such as points.ply, does not belong to the new results: it goes. Makes the folder if it is
+// missing. Throws `Error`.
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
 
@@ -45,16 +46,17 @@ void write_holes(const Detection& detection, const FileScan& scan, const Config&
 void write_run(const Detection& detection, const Config& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
-inline constexpr std::string_view kTableHeader =
-    "id,kind,points,confidence,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz";
+std::string_view table_header();
 void write_table(const Detection& detection, OutputFile& out);
 
-// Element vertex: x y z, id, loop (an index into the report's loops). Element edge: vertex1 vertex2, closing
-// each loop.
+// Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
+// have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
+// (0: hole, 1: outer), quality, red green blue (io/results/loop_colours.hpp). Element edge: vertex1 vertex2,
+// closing each loop.
 void write_loops(const Detection& detection, const FileScan& scan, OutputFile& out);
 
-// Every point that is coherent or on a loop, in ascending id: x y z, id, scalar_probability, scalar_loop (-1:
-// none).
+// Every point that is coherent or on a loop, in ascending id: x y z, scalar_probability, scalar_id,
+// scalar_loop (-1: none), quality (the probability).
 void write_boundary(const Detection& detection, const FileScan& scan, OutputFile& out);
 
 // The points of the sample, in ascending id: x y z, scalar_id, nx ny nz, scalar_probability, and the colours

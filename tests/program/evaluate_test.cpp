@@ -237,7 +237,7 @@ TEST_CASE("confidences of the report are judged by the area under the ROC curve"
   folder.write(
       "out/loops.ply",
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
-      "property uint id\nproperty int loop\nend_header\n" +
+      "property uint scalar_id\nproperty int scalar_loop\nend_header\n" +
           rows);
   const auto area = [&](const std::string& first, const std::string& second) {
     folder.write("out/holes.json", R"({"counts": {"points": 5}, "inputs": [{"file": "a.ply"}], "loops": [{)" +

@@ -11,7 +11,8 @@ using Loops = std::vector<LoopIds>;
 
 std::string loops_ply(const std::string& rows, std::size_t count) {
   return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty double id\nproperty int loop\n"
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty double scalar_id\n"
+         "property int scalar_loop\n"
          "end_header\n" +
          rows;
 }
@@ -57,13 +58,16 @@ TEST_CASE("a PLY without loops, or with broken ones, is told with its place", "[
   const std::string points =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
       "property float z\nend_header\n";
-  CHECK_THAT(loops_error(folder.write("a.ply", points)), Contains("no property 'id'"));
+  CHECK_THAT(loops_error(folder.write("a.ply", points)), Contains("no property 'scalar_id'"));
   CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 0\n0 0 0 1 2\n", 2))),
              Contains("vertex 1 (from 0): loop 2 where 1 would be the next"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1.5 0\n", 1))), Contains("'id' is 1.5"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 nan 0\n", 1))), Contains("'id' is nan"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1.5 0\n", 1))),
+             Contains("'scalar_id' is 1.5"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 nan 0\n", 1))),
+             Contains("'scalar_id' is nan"));
   CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1e17 0\n", 1))), Contains("whole number"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 -1\n", 1))), Contains("'loop' is -1"));
+  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 -1\n", 1))),
+             Contains("'scalar_loop' is -1"));
 }
 
 }  // namespace lacuna::test

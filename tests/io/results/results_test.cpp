@@ -27,7 +27,8 @@ class FakeDetection final : public Detection {
   FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
     ReportedLoop loop;
     for (const std::uint64_t id : ids) {
-      loop.points.push_back({.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}});
+      loop.points.push_back(
+          {.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}, .probability = 0.25f});
     }
     loop.measures = {
         .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
@@ -172,10 +173,11 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   write_results(detection, scan, Config{}, folder.path());
   const Table table = read_table(folder / "loops.ply");
-  CHECK(table.names == Names{"x", "y", "z", "id", "loop"});
+  CHECK(table.names ==
+        Names{"x", "y", "z", "scalar_loop", "scalar_id", "scalar_outer", "quality", "red", "green", "blue"});
   REQUIRE(table.rows.size() == 7);
-  CHECK(table.rows[1] == std::vector<double>{0.5f, 2, 3, 5, 0});
-  CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 6, 1});
+  CHECK(table.rows[1] == std::vector<double>{0.5f, 2, 3, 0, 5, 0, 0.25, 230, 80, 30});
+  CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 1, 6, 1, 0.25, 30, 130, 230});
   Bytes edges;
   for (const std::int32_t end : {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 6, 6, 3}) edges << end;
   CHECK(read_file(folder / "loops.ply").ends_with(edges.str()));
@@ -191,10 +193,10 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.boundary = {
       {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
   write_results(detection, scan, Config{}, folder.path());
-  CHECK(read_table(folder / "loops.ply").rows.at(2)[3] == 5'000'000'001.0);
+  CHECK(read_table(folder / "loops.ply").rows.at(2)[4] == 5'000'000'001.0);
   const Table boundary = read_table(folder / "boundary.ply");
-  CHECK(boundary.names == Names{"x", "y", "z", "id", "scalar_probability", "scalar_loop"});
-  CHECK(boundary.rows == Rows{{0.1, 2, 3, 5'000'000'001.0, 0.75, 0}});
+  CHECK(boundary.names == Names{"x", "y", "z", "scalar_probability", "scalar_id", "scalar_loop", "quality"});
+  CHECK(boundary.rows == Rows{{0.1, 2, 3, 0.75, 5'000'000'001.0, 0, 0.75}});
 }
 
 TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {

@@ -1,0 +1,29 @@
+// The measures of loops by name, for all writers: a new one is a line of this table. holes.json alone has its
+// own list, which its schema describes.
+#pragma once
+
+#include "engine/model/loop.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace lacuna {
+
+struct LoopMeasure {
+  std::string_view name;
+  std::string_view short_name;  // at most 10 characters: a column of a Shapefile
+  double (*of)(const LoopMeasures& loop);
+  bool is_count = false;  // a whole number
+};
+
+inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
+    {"points", "points", [](const LoopMeasures& loop) { return static_cast<double>(loop.points); }, true},
+    {"confidence", "confidence", [](const LoopMeasures& loop) { return loop.confidence; }},
+    {"perimeter", "perimeter", [](const LoopMeasures& loop) { return loop.perimeter; }},
+    {"area", "area", [](const LoopMeasures& loop) { return loop.area; }},
+    {"diameter", "diameter", [](const LoopMeasures& loop) { return loop.diameter; }},
+    {"planarity", "planarity", [](const LoopMeasures& loop) { return loop.planarity; }},
+    {"mean_probability", "mean_prob", [](const LoopMeasures& loop) { return loop.mean_probability; }},
+});
+
+}  // namespace lacuna

@@ -1,0 +1,43 @@
+#include "io/results/loops_obj.hpp"
+
+#include "io/results/digits.hpp"
+#include "io/results/loop_measures.hpp"
+
+#include <string>
+
+namespace lacuna {
+namespace {
+
+std::string head_of(std::size_t id, const LoopMeasures& loop) {
+  const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
+  std::string text = "\n";
+  for (const LoopMeasure& measure : kLoopMeasures) {
+    text += "# " + std::string(measure.name) + " ";
+    append_plain(text, measure.of(loop));
+    text += "\n";
+  }
+  return text + "o " + name + "\n";
+}
+
+}  // namespace
+
+void write_loops_obj(const Detection& detection, OutputFile& out) {
+  out.write(kObjMark);
+  std::uint64_t next = 1;  // vertices count from 1, over all objects
+  for (std::size_t id = 0; id < detection.loops().size(); ++id) {
+    const ReportedLoop loop = detection.read_loop(id);
+    out.write(head_of(id, loop.measures));
+    std::string line;
+    for (const LoopPoint& point : loop.points) {
+      line = "v";
+      for (const double component : point.position) append_plain(line += " ", component);
+      out.write(line += "\n");
+    }
+    out.write("l");
+    for (std::size_t i = 0; i < loop.points.size(); ++i) out.write(" " + std::to_string(next + i));
+    out.write(" " + std::to_string(next) + "\n");
+    next += loop.points.size();
+  }
+}
+
+}  // namespace lacuna

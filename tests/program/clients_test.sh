@@ -1,0 +1,148 @@
+#!/usr/bin/env bash
+# Each result, opened in a program that is not Lacuna: counts and values are those of holes.json. Skipped, with the names
+# of what is missing, unless all of these programs are installed.
+set -euo pipefail
+program=${LACUNA_PROGRAM:?}
+python=/usr/bin/python3  # Debian's own: python3-vtk9 is a package of it
+
+missing=()
+for command in ogr2ogr:gdal-bin CloudCompare:cloudcompare xvfb-run:xvfb pcl_ply2pcd:pcl-tools vdb_print:libopenvdb-tools; do
+  command -v "${command%:*}" >/dev/null || missing+=("${command#*:}")
+done
+"$python" -c 'import vtkmodules.vtkIOXML' 2>/dev/null || missing+=(python3-vtk9)
+if ((${#missing[@]} > 0)); then
+  echo "skipped: not installed: ${missing[*]}"
+  exit 77
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export HOME=$work XDG_RUNTIME_DIR=$work  # for what these programs keep of a user
+chmod 700 "$work"
+cd "$work"
+
+# One scan near the origin, for programs of single precision, and the same one on Earth.
+"$program" synth surface near.ply --points 12000 --holes 4 --hole-radius 3 6 --order random >/dev/null
+"$python" - <<'END'
+import struct
+content = open("near.ply", "rb").read()
+head, rows = content.split(b"end_header\n", 1)
+assert head.count(b"property float") == head.count(b"property") == 3
+with open("earth.txt", "w") as text:
+    print("x y z", file=text)
+    for x, y, z in struct.iter_unpack("<3f", rows):
+        print(repr(x + 500_000.1), repr(y + 5_400_000.1), repr(z), file=text)
+END
+for scan in near.ply earth.txt; do
+  "$program" detect "$scan" --out "${scan%.*}" --obj --dxf --vtp --vdb --points --quiet
+done
+
+for name in loops boundary; do
+  xvfb-run -a CloudCompare -SILENT -NO_TIMESTAMP -O "near/$name.ply" -C_EXPORT_FMT ASC -ADD_HEADER -PREC 9 \
+    -SAVE_CLOUDS FILE "$name.asc" >cloudcompare.log || { cat cloudcompare.log; exit 1; }
+  pcl_ply2pcd "near/$name.ply" "$name.binary.pcd" >pcl.log 2>&1 || { cat pcl.log; exit 1; }
+  pcl_convert_pcd_ascii_binary "$name.binary.pcd" "$name.pcd" 0 >pcl.log 2>&1 || { cat pcl.log; exit 1; }
+done
+vdb_print -l near/probability.vdb >vdb.txt
+ogr2ogr -f GeoJSON dxf.json earth/loops.dxf -lco COORDINATE_PRECISION=15  # at 10, GDAL takes ...0000x for a rounding error
+
+"$python" - <<'END'
+import json
+import math
+import re
+from pathlib import Path
+
+from vtkmodules.vtkIOGeometry import vtkOBJReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+near, earth = (json.loads(Path(name, "holes.json").read_text(encoding="utf-8")) for name in ("near", "earth"))
+assert len(near["loops"]) == len(earth["loops"]) == 5
+points = [(*point, id, loop["id"], loop["kind"] == "outer")
+          for loop in near["loops"] for point, id in zip(loop["coordinates"], loop["ids"], strict=True)]
+COLOURS = {False: (230, 80, 30), True: (30, 130, 230)}
+
+
+def equal(found, expected, tolerance):
+    assert len(found) == len(expected), (len(found), len(expected))
+    for one, other in zip(found, expected):
+        assert len(one) == len(other), (one, other)
+        assert all(math.isclose(a, b, rel_tol=0, abs_tol=tolerance) for a, b in zip(one, other)), (one, other)
+
+
+def table(file, names, is_head):
+    """The columns of these names of a text, and its rows."""
+    lines = Path(file).read_text(encoding="utf-8").splitlines()
+    head = next(i for i, line in enumerate(lines) if is_head(line))
+    columns = lines[head].removeprefix("//").removeprefix("FIELDS").split()
+    assert all(name in columns for name in names), columns
+    rows = [line.split() for line in lines[head + 1:] if line[0] in "-0123456789"]
+    return [[float(row[columns.index(name)]) for name in names] for row in rows]
+
+
+def read(reader, file):
+    reader.SetFileName(file)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def lines_of(data):
+    for i in range(data.GetNumberOfCells()):
+        ids = data.GetCell(i).GetPointIds()
+        ids = [ids.GetId(k) for k in range(ids.GetNumberOfIds())]
+        assert ids[0] == ids[-1]
+        yield [data.GetPoint(k) for k in ids[:-1]]
+
+
+# VTK
+data = read(vtkXMLPolyDataReader(), "earth/loops.vtp")
+assert [list(map(list, line)) for line in lines_of(data)] == [loop["coordinates"] for loop in earth["loops"]]
+cells = data.GetCellData()
+for name in ("id", "points", "confidence", "perimeter", "area", "diameter", "planarity", "mean_probability"):
+    values = cells.GetArray(name)
+    assert [values.GetTuple1(i) for i in range(5)] == [loop[name] for loop in earth["loops"]], name
+kinds = cells.GetArray("kind")
+assert [kinds.GetTuple1(i) for i in range(5)] == [loop["kind"] == "outer" for loop in earth["loops"]]
+ids = data.GetPointData().GetArray("id")
+assert [ids.GetTuple1(i) for i in range(ids.GetNumberOfTuples())] == [id for loop in earth["loops"] for id in loop["ids"]]
+print("VTK reads loops.vtp")
+for line, loop in zip(lines_of(read(vtkOBJReader(), "near/loops.obj")), near["loops"], strict=True):
+    equal(line, loop["coordinates"], 1e-7)
+print("VTK reads loops.obj")
+data = read(vtkPLYReader(), "near/loops.ply")
+equal([data.GetPoint(i) for i in range(data.GetNumberOfPoints())], [point[:3] for point in points], 1e-7)
+print("VTK reads loops.ply")
+
+# GDAL
+features = json.loads(Path("dxf.json").read_text(encoding="utf-8"))["features"]
+layers = {"holes": "hole", "outer_curves": "outer"}
+assert [layers[feature["properties"]["Layer"]] for feature in features] == [loop["kind"] for loop in earth["loops"]]
+for feature, loop in zip(features, earth["loops"], strict=True):
+    line = feature["geometry"]["coordinates"]
+    assert feature["geometry"]["type"] == "LineString" and line[0] == line[-1]
+    equal(line[:-1], loop["coordinates"], 1e-9)
+print("GDAL reads loops.dxf")
+
+# CloudCompare, of which the prefix "scalar_" goes
+found = table("loops.asc", ["X", "Y", "Z", "id", "loop", "outer", "R", "G", "B"], lambda line: line.startswith("//"))
+equal(found, [(*point, *COLOURS[point[5]]) for point in points], 1e-7)
+cloud = table("boundary.asc", ["X", "Y", "Z", "id", "probability", "loop"], lambda line: line.startswith("//"))
+assert len(cloud) == near["counts"]["boundary_points"]
+assert all(0 < row[4] <= 1 for row in cloud)
+print("CloudCompare reads loops.ply and boundary.ply")
+
+# PCL
+is_head = lambda line: line.startswith("FIELDS")
+equal(table("loops.pcd", ["x", "y", "z", "scalar_id", "scalar_loop", "scalar_outer"], is_head), points, 1e-6)
+equal(table("boundary.pcd", ["x", "y", "z", "scalar_id", "quality", "scalar_loop"], is_head), cloud, 1e-6)
+print("PCL reads loops.ply and boundary.ply")
+
+# OpenVDB
+text = Path("vdb.txt").read_text(encoding="utf-8")
+assert "Name: boundary_probability" in text
+most = float(re.search(r"Max value: (\S+)", text)[1])
+voxels = int(re.search(r"active voxels: +([\d,]+)", text)[1].replace(",", ""))
+assert math.isclose(most, max(row[4] for row in cloud), abs_tol=1e-5), most
+assert 0 < voxels <= near["counts"]["points"]
+print("OpenVDB reads probability.vdb")
+END
