@@ -15,7 +15,7 @@ namespace {
 constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
 constexpr float kMargin = 1.05f;
 constexpr float kLineWidth = 2.5f;  // pixels
-const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(214, 60, 30);
+const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(0, 84, 74);
 
 // Colours and depths of a picture's parts. A larger depth is nearer.
 class Canvas {
@@ -139,7 +139,7 @@ View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) 
   return view;
 }
 
-// Half of the height that holds these positions, but for the outermost hundredth along each axis.
+// Half of the height that holds these positions, but for outliers.
 void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view) {
   if (positions.empty()) return;
   const auto range = [&](const Eigen::Vector3f& axis) {
@@ -150,7 +150,9 @@ void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view
       std::nth_element(along.begin(), at, along.end());
       return *at;
     };
-    const float low = rank(0.005), high = rank(0.995);
+    float low = rank(0.005), high = rank(0.995);
+    const auto [least, most] = std::minmax_element(along.begin(), along.end());
+    if (*most - *least < 2 * (high - low)) low = *least, high = *most;
     return std::pair{(low + high) / 2, (high - low) / 2};
   };
   const auto [x, half_width] = range(view.right);
