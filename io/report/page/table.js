@@ -52,6 +52,9 @@ class LoopTable {
       find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
     }
     find("table").setAttribute("aria-colcount", kColumns.length);
+    let longest = 11;
+    for (let i = 0; i < this.loops.count; ++i) longest = Math.max(longest, this.place(i).join("  ").length);
+    find("table").style.setProperty("--place", `${longest}`);
   }
 
   sort_by(key) {
@@ -89,6 +92,7 @@ class LoopTable {
       if (is_sorted) head.setAttribute("aria-sort", direction); else head.removeAttribute("aria-sort");
     }
     find("table").setAttribute("aria-rowcount", this.shown.length + 1);
+    find("table").hidden = this.loops.count === 0;
     find("nothing").hidden = this.shown.length > 0;
     find("nothing").textContent = this.loops.count === 0 ? "No loops: the scan has no holes and no outer curve."
                                                          : "No loop passes the filters.";

@@ -5,10 +5,10 @@ const kStillMilliseconds = 160;  // after this all points are drawn
 const kPickPixels = 9;
 
 class View {
-  // `on_frame(view)` after each picture, `on_loop(index or -1, is_double)` for a click, `on_hover(index or -1, x, y)`.
-  constructor(canvas, data, {on_frame, on_loop, on_hover}) {
+  // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
+  constructor(canvas, context, data, {on_frame, on_loop, on_hover}) {
     Object.assign(this, {canvas, data, on_frame, on_loop, on_hover});
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: false, alpha: false});
+    this.renderer = new THREE.WebGLRenderer({canvas, context});
     this.renderer.autoClear = false;
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
     this.camera.up.set(0, 0, 1);
@@ -43,6 +43,7 @@ class View {
     this.cloud = new PointCloud(this.data, this.spacing, this.uniforms);
     this.point_scene.add(this.cloud.object);
     this.eye_dome = eye_dome_material(this.uniforms);
+    this.eye_dome.uniforms.strength.value = this.data.has_normals ? 55 : 170;
     const screen = new THREE.Mesh(screen_geometry(), this.eye_dome);
     screen.frustumCulled = false;
     this.screen_scene.add(screen);
@@ -443,11 +444,12 @@ class View {
   }
 }
 
-function has_webgl() {
+// The canvas' WebGL context; null where the browser gives none.
+function webgl_context(canvas) {
+  const wanted = {antialias: false, alpha: false, depth: false, stencil: false, powerPreference: "high-performance"};
   try {
-    const canvas = document.createElement("canvas");
-    return Boolean(canvas.getContext("webgl") || canvas.getContext("experimental-webgl"));
+    return canvas.getContext("webgl", wanted) || canvas.getContext("experimental-webgl", wanted);
   } catch (error) {
-    return false;
+    return null;
   }
 }
