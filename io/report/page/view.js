@@ -48,11 +48,15 @@ class View {
     screen.frustumCulled = false;
     this.screen_scene.add(screen);
 
-    const indices = Array.from({length: loops.count}, (_, i) => i);
-    const longest = indices.reduce((best, i) => Math.max(best, loops.first[i + 1] - loops.first[i]), 0);
-    const make = (reserved) => new LoopLines(loops, reserved, this.uniforms);
-    this.lines = {outer: make(indices.filter((i) => !loops.is_hole[i])), hole: make(indices.filter((i) => loops.is_hole[i]))};
-    this.lines.selected = make(longest > 0 ? [indices.find((i) => loops.first[i + 1] - loops.first[i] === longest)] : []);
+    const corners = new LineCorners(loops);
+    const sizes = {outer: 0, hole: 0, selected: 0};
+    for (let i = 0; i < loops.count; ++i) {
+      const edges = loops.first[i + 1] - loops.first[i];
+      sizes[loops.is_hole[i] ? "hole" : "outer"] += edges;
+      sizes.selected = Math.max(sizes.selected, edges);
+    }
+    this.lines = {};
+    for (const name of Object.keys(sizes)) this.lines[name] = new LoopLines(corners, sizes[name], this.uniforms);
     const add = (name, style) => this.lines[name].add_pass(this.line_scene, style);
     this.passes = {
       outer_casing: add("outer", {width: 3.6, order: 1, opacity: 0.75}),
@@ -96,9 +100,11 @@ class View {
     this.canvas.addEventListener("dblclick", (event) => this.centre_at(event.clientX, event.clientY));
     let hovered = 0;
     this.canvas.addEventListener("pointermove", (event) => {
-      if (event.buttons !== 0 || event.pointerType === "touch" || event.timeStamp - hovered < 50) return;
-      hovered = event.timeStamp;
+      if (event.buttons !== 0 || event.pointerType === "touch" || event.timeStamp < hovered || this.flight) return;
+      const begin = performance.now();
       this.on_hover(this.loop_at(event.clientX, event.clientY), event.clientX, event.clientY);
+      // A slow machine looks less often.
+      hovered = event.timeStamp + 40 + 4 * (performance.now() - begin);
     });
     this.canvas.addEventListener("pointerleave", () => this.on_hover(-1, 0, 0));
   }
@@ -400,9 +406,11 @@ class View {
   // Fewer points while the view moves, if the machine does not keep up.
   adapt(now, is_moving) {
     const interval = now - (this.last_step || 0);
+    const was_moving = this.was_moving;
     this.last_step = now;
-    if (!is_moving || interval > 500) return;
-    if (interval > 45) this.budget = Math.max(Math.min(60000, this.cloud.count), Math.round(this.budget * 0.75));
+    this.was_moving = is_moving;
+    if (!is_moving || !was_moving) return;
+    if (interval > 45) this.budget = Math.max(Math.min(60000, this.cloud.count), Math.round(this.budget * (interval > 150 ? 0.4 : 0.75)));
     if (interval < 20) this.budget = Math.min(this.cloud.count, Math.round(this.budget * 1.15) + 1);
   }
 
@@ -422,6 +430,8 @@ class View {
     const dash = Math.pow(2, Math.round(Math.log2(13 * this.uniforms.pixel_ratio.value * pixel)));
     const pull = 2.5 * this.cloud.spacing;
     for (const uniforms of [...Object.values(this.passes), ...this.picks]) uniforms.pull.value = pull;
+    // A machine that does not keep up draws no casings while the view moves.
+    for (const name of ["outer", "hole"]) this.lines[name].set_casing(count === this.cloud.count);
     this.passes.outer.dash.value = this.passes.outer_casing.dash.value = dash;
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0, 0);
