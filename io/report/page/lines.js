@@ -3,15 +3,16 @@
 // The corners of all quads are made once. A filter only writes the indices of the quads that are drawn. Instances of
 // one quad would need a quarter of the memory, but graphics in software takes seconds for 100,000 of them.
 
-// Per corner: one end of the edge, the other end; then length along the loop, loop * 4 + end * 2 + side, edge of the loop.
+// Per corner: one end of the edge, the other end; then length along the loop, loop * 4 + end * 2 + side, edge of the loop,
+// radius of the loop.
 const kLineVertexShader = `
   ${kCameraShader}
   uniform vec2 resolution;
-  uniform float near, half_width, pixel_ratio;
+  uniform float near, half_width, pixel_ratio, focal, crowded;
   attribute vec3 other;
-  attribute vec3 more;
+  attribute vec4 more;
   varying vec2 place;       // pixels along and across the edge, from its start
-  varying float edge_pixels, along, inverse_distance, loop_number;
+  varying float edge_pixels, along, inverse_distance, loop_number, half_pixels;
   void main() {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     loop_number = floor(more.y / 4.0 + 0.001);
@@ -37,7 +38,10 @@ const kLineVertexShader = `
     float stride = exp2(floor(log2(max(1.0, 1.2 * pixel_ratio / max(edge_pixels, 1e-3)))));
     if (mod(more.z, stride) > 0.5) return;
     vec2 direction = edge_pixels > 1e-4 ? (end - start) / edge_pixels : vec2(1.0, 0.0);
-    float reach = half_width * pixel_ratio + 1.0;
+    // Where there are very many, those that look small have thin lines.
+    float looks_large = smoothstep(5.0, 40.0, more.w * focal / max(-mine.z, 1e-9) / pixel_ratio);
+    half_pixels = half_width * pixel_ratio * mix(crowded, 1.0, looks_large);
+    float reach = half_pixels + 1.0;
     place = vec2(is_end ? edge_pixels + reach : -reach, side * reach);
     vec2 pixel = start + direction * place.x + vec2(-direction.y, direction.x) * place.y;
     inverse_distance = -1.0 / mine.z;
@@ -47,12 +51,12 @@ const kLineVertexShader = `
 const kLineFragmentShader = `
   ${kDepthShader}
   uniform vec3 colour;
-  uniform float half_width, pixel_ratio, has_depth, hidden, opacity, pull, dash;
+  uniform float has_depth, hidden, opacity, pull, dash;
   varying vec2 place;
-  varying float edge_pixels, along, inverse_distance, loop_number;
+  varying float edge_pixels, along, inverse_distance, loop_number, half_pixels;
   void main() {
     float beyond = place.x - clamp(place.x, 0.0, edge_pixels);
-    float cover = clamp(half_width * pixel_ratio + 0.5 - length(vec2(beyond, place.y)), 0.0, 1.0);
+    float cover = clamp(half_pixels + 0.5 - length(vec2(beyond, place.y)), 0.0, 1.0);
     if (cover <= 0.0) discard;
     if (dash > 0.0 && fract(along / dash) > 0.62) discard;
     float shown = 1.0;
@@ -69,31 +73,44 @@ const kLineFragmentShader = `
     #endif
   }`;
 
+// Half the diagonal of the box around vertices `begin` to `end`.
+function loop_radius(vertices, begin, end) {
+  let sum = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    let low = Infinity, high = -Infinity;
+    for (let i = begin; i < end; ++i) {
+      low = Math.min(low, vertices[3 * i + axis]);
+      high = Math.max(high, vertices[3 * i + axis]);
+    }
+    if (end > begin) sum += (high - low) * (high - low);
+  }
+  return Math.sqrt(sum) / 2;
+}
+
 // Corners of the quads of all loops, four per edge, in the order of the loops' vertices.
 class LineCorners {
   constructor({count, first, vertices}) {
     const edges = vertices.length / 3;
     this.first = first;
     this.edges = edges;
-    const here = new Float32Array(edges * 12), other = new Float32Array(edges * 12), more = new Float32Array(edges * 12);
+    const here = new Float32Array(edges * 12), other = new Float32Array(edges * 12), more = new Float32Array(edges * 16);
     for (let loop = 0; loop < count; ++loop) {
       let length = 0;
+      const radius = loop_radius(vertices, first[loop], first[loop + 1]);
       for (let i = first[loop]; i < first[loop + 1]; ++i) {
         const a = 3 * i, b = 3 * (i + 1 < first[loop + 1] ? i + 1 : first[loop]);
         const next = length + Math.hypot(vertices[b] - vertices[a], vertices[b + 1] - vertices[a + 1], vertices[b + 2] - vertices[a + 2]);
         for (let corner = 0; corner < 4; ++corner) {
           const from = corner < 2 ? a : b, to = corner < 2 ? b : a, at = 12 * i + 3 * corner;
           for (let k = 0; k < 3; ++k) { here[at + k] = vertices[from + k]; other[at + k] = vertices[to + k]; }
-          more[at] = corner < 2 ? length : next;
-          more[at + 1] = 4 * loop + corner;
-          more[at + 2] = i - first[loop];
+          more.set([corner < 2 ? length : next, 4 * loop + corner, i - first[loop], radius], 16 * i + 4 * corner);
         }
         length = next;
       }
     }
     // The arrays are freed once the graphics memory has them.
     const attribute = (array, size) => new THREE.BufferAttribute(array, size).onUpload(function () { this.array = null; });
-    this.attributes = {position: attribute(here, 3), other: attribute(other, 3), more: attribute(more, 3)};
+    this.attributes = {position: attribute(here, 3), other: attribute(other, 3), more: attribute(more, 4)};
   }
 }
 
@@ -123,6 +140,7 @@ class LoopLines {
         hidden: {value: 0},
         pull: {value: 0},
         dash: {value: 0},
+        crowded: {value: 1},
       },
       defines: is_pick ? {PICK: 1} : {},
       vertexShader: kLineVertexShader,

@@ -122,7 +122,7 @@ class LoopTable {
     const i = this.shown[row];
     const is_selected = i === this.selected;
     const made = element("tr", {"data-row": row, "data-id": this.loops.id[i], tabindex: row === this.focused ? 0 : -1,
-                                "aria-rowindex": row + 2, "aria-selected": is_selected ? "true" : "false",
+                                "aria-rowindex": row + 2, "aria-current": is_selected ? "true" : null,
                                 class: is_selected ? "selected" : null});
     for (const column of kColumns) made.append(this.cell(column, i));
     return made;

@@ -43,7 +43,7 @@ class View {
     this.cloud = new PointCloud(this.data, this.spacing, this.uniforms);
     this.point_scene.add(this.cloud.object);
     this.eye_dome = eye_dome_material(this.uniforms);
-    this.eye_dome.uniforms.strength.value = this.data.has_normals ? 55 : 170;
+    this.eye_dome.uniforms.strength.value = this.data.has_normals ? 60 : 150;
     const screen = new THREE.Mesh(screen_geometry(), this.eye_dome);
     screen.frustumCulled = false;
     this.screen_scene.add(screen);
@@ -290,6 +290,9 @@ class View {
   // Loops that pass the filters (indices, any order), and the selected one, -1 for none.
   set_loops(visible) {
     const {is_hole} = this.data.loops;
+    // Line width of those that look small, as a part of the full one.
+    const crowded = Math.min(1, Math.max(0.35, Math.pow(400 / Math.max(1, visible.length), 0.3)));
+    for (const name of ["outer", "outer_casing", "hole", "hole_casing"]) this.passes[name].crowded.value = crowded;
     this.lines.hole.show(visible.filter((i) => is_hole[i]));
     this.lines.outer.show(visible.filter((i) => !is_hole[i]));
     this.update_lines();
@@ -428,6 +431,7 @@ class View {
     this.cloud.set_drawn(count);
     const pixel = to_target / this.uniforms.focal.value;
     const dash = Math.pow(2, Math.round(Math.log2(13 * this.uniforms.pixel_ratio.value * pixel)));
+    this.eye_dome.uniforms.slack.value = 0.3 * this.cloud.uniforms.size.value;
     const pull = 2.5 * this.cloud.spacing;
     for (const uniforms of [...Object.values(this.passes), ...this.picks]) uniforms.pull.value = pull;
     // A machine that does not keep up draws no casings while the view moves.
