@@ -46,8 +46,8 @@ class LoopTable {
   make_head() {
     for (const {key, name, kind} of kColumns) {
       const unit = this.scales[key] ? this.scales[key].name : kind === "place" ? this.units.name : "";
-      const button = element("button", {type: "button"}, name, unit ? element("span", {class: "unit"}, unit) : null,
-                             element("span", {class: "arrow", "aria-hidden": "true"}));
+      const button = element("button", {type: "button"}, element("span", {class: "arrow", "aria-hidden": "true"}), name,
+                             unit ? element("span", {class: "unit"}, unit) : null);
       button.addEventListener("click", () => this.sort_by(key));
       find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
     }
