@@ -27,22 +27,34 @@ function pose_of_places(places, from, aspect) {
   const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
               back[0] * right[1] - back[1] * right[0]];
   const axes = [right, up, back];
+  const turned = new Float64Array(places.length);
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  const along = (i, axis) => places[i] * axis[0] + places[i + 1] * axis[1] + places[i + 2] * axis[2];
-  for (let i = 0; i < places.length; i += 3) {
-    for (let k = 0; k < 3; ++k) {
-      const value = along(i, axes[k]);
-      low[k] = Math.min(low[k], value);
-      high[k] = Math.max(high[k], value);
-    }
+  for (let i = 0; i < places.length; ++i) {
+    const k = i % 3, at = i - k;
+    turned[i] = places[at] * axes[k][0] + places[at + 1] * axes[k][1] + places[at + 2] * axes[k][2];
+    low[k] = Math.min(low[k], turned[i]);
+    high[k] = Math.max(high[k], turned[i]);
   }
   const middle = low.map((value, k) => (value + high[k]) / 2);
   const tall = Math.tan((kFieldOfView * Math.PI) / 360);
-  let distance = 1e-6;
-  for (let i = 0; i < places.length; i += 3) {
-    const toward = along(i, back) - middle[2];
-    distance = Math.max(distance, toward + Math.abs(along(i, right) - middle[0]) / (tall * aspect),
-                        toward + Math.abs(along(i, up) - middle[1]) / tall);
+  const slopes = [tall * aspect, tall];
+  let distance = 0;
+  // Near parts look larger: the middle of the picture is found step by step.
+  for (let step = 0; step < 4; ++step) {
+    distance = 1e-6;
+    for (let i = 0; i < turned.length; i += 3) {
+      const toward = turned[i + 2] - middle[2];
+      for (let k = 0; k < 2; ++k) distance = Math.max(distance, toward + Math.abs(turned[i + k] - middle[k]) / slopes[k]);
+    }
+    for (let k = 0; k < 2; ++k) {
+      let least = Infinity, most = -Infinity;
+      for (let i = 0; i < turned.length; i += 3) {
+        const seen = (turned[i + k] - middle[k]) / Math.max(1e-9, distance - (turned[i + 2] - middle[2]));
+        least = Math.min(least, seen);
+        most = Math.max(most, seen);
+      }
+      if (step < 3) middle[k] += ((least + most) / 2) * distance * 0.9;
+    }
   }
   const target = [0, 1, 2].map((axis) => axes.reduce((sum, unit, k) => sum + unit[axis] * middle[k], 0));
   return {target, distance, polar: from.polar, azimuth: from.azimuth};

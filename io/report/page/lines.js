@@ -1,57 +1,62 @@
 // Loops as thick lines. WebGL's own lines are one pixel wide, so each edge is a quad of the width asked for.
 //
-// One buffer holds the vertices of all loops drawn, each loop closed by its first vertex once more. Instance i is the
-// edge from vertex i to i + 1; where these belong to two loops it has no area. A filter writes the buffer again.
+// The corners of all quads are made once. A filter only writes the indices of the quads that are drawn. Instances of
+// one quad would need a quarter of the memory, but graphics in software takes seconds for 100,000 of them.
 
-const kVertexNumbers = 5;  // x, y, z, length along the loop, loop
-
+// Per corner: one end of the edge, the other end; then length along the loop, loop * 4 + end * 2 + side, edge of the loop,
+// radius of the loop.
 const kLineVertexShader = `
   ${kCameraShader}
   uniform vec2 resolution;
-  uniform float near, half_width, pixel_ratio;
-  attribute vec3 from, to;
-  attribute vec2 from_more, to_more;
+  uniform float near, half_width, pixel_ratio, focal, crowded;
+  attribute vec3 other;
+  attribute vec4 more;
   varying vec2 place;       // pixels along and across the edge, from its start
-  varying float edge_pixels, along, inverse_distance, loop_number;
+  varying float edge_pixels, along, inverse_distance, loop_number, half_pixels;
   void main() {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    loop_number = from_more.y;
-    vec3 a = to_view(from), b = to_view(to);
+    loop_number = floor(more.y / 4.0 + 0.001);
+    float code = more.y - 4.0 * loop_number;
+    bool is_end = code > 1.5;
+    float side = mod(code, 2.0) > 0.5 ? 1.0 : -1.0;
+    vec3 mine = to_view(position), far_end = to_view(other);
     float limit = -near;
-    if (from_more.y != to_more.y || (a.z > limit && b.z > limit)) return;
-    float a_along = from_more.x, b_along = to_more.x;
-    if (a.z > limit) {
-      float part = (limit - a.z) / (b.z - a.z);
-      a = mix(a, b, part);
-      a_along = mix(a_along, b_along, part);
-    } else if (b.z > limit) {
-      float part = (limit - b.z) / (a.z - b.z);
-      b = mix(b, a, part);
-      b_along = mix(b_along, a_along, part);
+    if (mine.z > limit && far_end.z > limit) return;
+    along = more.x;
+    if (mine.z > limit) {
+      float part = (limit - mine.z) / (far_end.z - mine.z);
+      along += (is_end ? -1.0 : 1.0) * part * distance(mine, far_end);
+      mine = mix(mine, far_end, part);
+    } else if (far_end.z > limit) {
+      far_end = mix(far_end, mine, (limit - far_end.z) / (mine.z - far_end.z));
     }
+    vec3 a = is_end ? far_end : mine, b = is_end ? mine : far_end;
     vec2 scale = vec2(projectionMatrix[0][0], projectionMatrix[1][1]) * resolution * 0.5;
     vec2 start = a.xy / -a.z * scale, end = b.xy / -b.z * scale;
     edge_pixels = length(end - start);
+    // Of edges much shorter than a pixel, one in 2, 4, 8 is enough: the others lie under its round ends.
+    float stride = exp2(floor(log2(max(1.0, 1.2 * pixel_ratio / max(edge_pixels, 1e-3)))));
+    if (mod(more.z, stride) > 0.5) return;
     vec2 direction = edge_pixels > 1e-4 ? (end - start) / edge_pixels : vec2(1.0, 0.0);
-    vec2 across = vec2(-direction.y, direction.x);
-    float reach = half_width * pixel_ratio + 1.0;
-    place = vec2(position.x * edge_pixels + (position.x * 2.0 - 1.0) * reach, position.y * reach);
-    vec2 pixel = start + direction * place.x + across * place.y;
-    float part = clamp(place.x / max(edge_pixels, 1e-4), 0.0, 1.0);
-    along = mix(a_along, b_along, part);
-    inverse_distance = mix(-1.0 / a.z, -1.0 / b.z, part);
+    // Where there are very many, those that look small have thin lines.
+    float looks_large = smoothstep(5.0, 40.0, more.w * focal / max(-mine.z, 1e-9) / pixel_ratio);
+    half_pixels = half_width * pixel_ratio * mix(crowded, 1.0, looks_large);
+    float reach = half_pixels + 1.0;
+    place = vec2(is_end ? edge_pixels + reach : -reach, side * reach);
+    vec2 pixel = start + direction * place.x + vec2(-direction.y, direction.x) * place.y;
+    inverse_distance = -1.0 / mine.z;
     gl_Position = vec4(pixel / (resolution * 0.5), 0.0, 1.0);
   }`;
 
 const kLineFragmentShader = `
   ${kDepthShader}
   uniform vec3 colour;
-  uniform float half_width, pixel_ratio, has_depth, hidden, opacity, pull, dash;
+  uniform float has_depth, hidden, opacity, pull, dash;
   varying vec2 place;
-  varying float edge_pixels, along, inverse_distance, loop_number;
+  varying float edge_pixels, along, inverse_distance, loop_number, half_pixels;
   void main() {
     float beyond = place.x - clamp(place.x, 0.0, edge_pixels);
-    float cover = clamp(half_width * pixel_ratio + 0.5 - length(vec2(beyond, place.y)), 0.0, 1.0);
+    float cover = clamp(half_pixels + 0.5 - length(vec2(beyond, place.y)), 0.0, 1.0);
     if (cover <= 0.0) discard;
     if (dash > 0.0 && fract(along / dash) > 0.62) discard;
     float shown = 1.0;
@@ -68,26 +73,58 @@ const kLineFragmentShader = `
     #endif
   }`;
 
+// Half the diagonal of the box around vertices `begin` to `end`.
+function loop_radius(vertices, begin, end) {
+  let sum = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    let low = Infinity, high = -Infinity;
+    for (let i = begin; i < end; ++i) {
+      low = Math.min(low, vertices[3 * i + axis]);
+      high = Math.max(high, vertices[3 * i + axis]);
+    }
+    if (end > begin) sum += (high - low) * (high - low);
+  }
+  return Math.sqrt(sum) / 2;
+}
+
+// Corners of the quads of all loops, four per edge, in the order of the loops' vertices.
+class LineCorners {
+  constructor({count, first, vertices}) {
+    const edges = vertices.length / 3;
+    this.first = first;
+    this.edges = edges;
+    const here = new Float32Array(edges * 12), other = new Float32Array(edges * 12), more = new Float32Array(edges * 16);
+    for (let loop = 0; loop < count; ++loop) {
+      let length = 0;
+      const radius = loop_radius(vertices, first[loop], first[loop + 1]);
+      for (let i = first[loop]; i < first[loop + 1]; ++i) {
+        const a = 3 * i, b = 3 * (i + 1 < first[loop + 1] ? i + 1 : first[loop]);
+        const next = length + Math.hypot(vertices[b] - vertices[a], vertices[b + 1] - vertices[a + 1], vertices[b + 2] - vertices[a + 2]);
+        for (let corner = 0; corner < 4; ++corner) {
+          const from = corner < 2 ? a : b, to = corner < 2 ? b : a, at = 12 * i + 3 * corner;
+          for (let k = 0; k < 3; ++k) { here[at + k] = vertices[from + k]; other[at + k] = vertices[to + k]; }
+          more.set([corner < 2 ? length : next, 4 * loop + corner, i - first[loop], radius], 16 * i + 4 * corner);
+        }
+        length = next;
+      }
+    }
+    // The arrays are freed once the graphics memory has them.
+    const attribute = (array, size) => new THREE.BufferAttribute(array, size).onUpload(function () { this.array = null; });
+    this.attributes = {position: attribute(here, 3), other: attribute(other, 3), more: attribute(more, 4)};
+  }
+}
+
+// Some of the loops, drawn in one or more passes.
 class LoopLines {
-  // Reserves space for `reserved` loops of `data.loops` (indices).
-  constructor(loops, reserved, camera_uniforms) {
-    this.loops = loops;
-    let size = 0;
-    for (const loop of reserved) size += loops.first[loop + 1] - loops.first[loop] + 1;
+  // At most `edges` edges of `corners`.
+  constructor(corners, edges, camera_uniforms) {
+    this.corners = corners;
     this.camera_uniforms = camera_uniforms;
-    this.numbers = new Float32Array(Math.max(2, size) * kVertexNumbers);
-    this.buffer = new THREE.InstancedInterleavedBuffer(this.numbers, kVertexNumbers, 1);
-    this.buffer.setUsage(THREE.DynamicDrawUsage);
-    this.geometry = new THREE.InstancedBufferGeometry();
-    this.geometry.setAttribute("position", new THREE.BufferAttribute(
-        new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
-    const attribute = (name, count, offset) =>
-        this.geometry.setAttribute(name, new THREE.InterleavedBufferAttribute(this.buffer, count, offset));
-    attribute("from", 3, 0);
-    attribute("from_more", 2, 3);
-    attribute("to", 3, kVertexNumbers);
-    attribute("to_more", 2, kVertexNumbers + 3);
-    this.geometry.maxInstancedCount = 0;
+    this.geometry = new THREE.BufferGeometry();
+    for (const [name, attribute] of Object.entries(corners.attributes)) this.geometry.setAttribute(name, attribute);
+    this.indices = new THREE.BufferAttribute(new Uint32Array(Math.max(6, edges * 6)), 1);
+    this.indices.setUsage(THREE.DynamicDrawUsage);
+    this.geometry.setIndex(this.indices);
     this.objects = [];
     this.count = 0;
   }
@@ -103,6 +140,7 @@ class LoopLines {
         hidden: {value: 0},
         pull: {value: 0},
         dash: {value: 0},
+        crowded: {value: 1},
       },
       defines: is_pick ? {PICK: 1} : {},
       vertexShader: kLineVertexShader,
@@ -123,33 +161,34 @@ class LoopLines {
   }
 
   // Draws these loops (indices), no others.
-  show(indices) {
-    const {first, vertices} = this.loops;
-    const out = this.numbers;
+  show(loops) {
+    const {first} = this.corners;
+    const out = this.indices.array;
     let at = 0;
-    for (const loop of indices) {
-      const begin = first[loop], end = first[loop + 1];
-      let length = 0, x = 0, y = 0, z = 0;
-      for (let i = begin; i <= end && end > begin; ++i) {
-        const from = 3 * (i === end ? begin : i);
-        const next_x = vertices[from], next_y = vertices[from + 1], next_z = vertices[from + 2];
-        if (i > begin) length += Math.hypot(next_x - x, next_y - y, next_z - z);
-        x = out[at] = next_x;
-        y = out[at + 1] = next_y;
-        z = out[at + 2] = next_z;
-        out[at + 3] = length;
-        out[at + 4] = loop;
-        at += kVertexNumbers;
+    for (const loop of loops) {
+      for (let i = first[loop]; i < first[loop + 1]; ++i) {
+        const corner = 4 * i;
+        out[at] = corner;
+        out[at + 1] = out[at + 4] = corner + 1;
+        out[at + 2] = out[at + 3] = corner + 2;
+        out[at + 5] = corner + 3;
+        at += 6;
       }
     }
-    this.count = Math.max(0, at / kVertexNumbers - 1);
-    this.buffer.updateRange = {offset: 0, count: at};
-    this.buffer.needsUpdate = true;
-    this.geometry.maxInstancedCount = this.count;
+    this.count = at / 6;
+    this.indices.updateRange = {offset: 0, count: Math.max(6, at)};
+    this.indices.needsUpdate = true;
+    this.geometry.setDrawRange(0, at);
     this.set_visible(true);
   }
 
+  // The first pass is the casing.
+  set_casing(is_drawn) {
+    this.objects[0].visible = is_drawn && this.is_visible;
+  }
+
   set_visible(is_visible) {
-    for (const object of this.objects) object.visible = is_visible && this.count > 0;
+    this.is_visible = is_visible && this.count > 0;
+    for (const object of this.objects) object.visible = this.is_visible;
   }
 }

@@ -52,12 +52,13 @@ class Page {
       find("message").hidden = false;
       find("view").classList.add("no-view");
     };
-    if (typeof THREE === "undefined" || !has_webgl()) {
+    const context = webgl_context(find("canvas"));
+    if (typeof THREE === "undefined" || !context) {
       say("No 3D view", "This browser gives no WebGL. The table, the charts and the facts work without it.");
       return;
     }
     try {
-      this.view = new View(find("canvas"), this.data, {
+      this.view = new View(find("canvas"), context, this.data, {
         on_frame: (view) => { draw_scale(view, this.units); draw_triad(view.camera); },
         on_loop: (index) => this.click_loop(index),
         on_hover: (index, x, y) => this.hover(index, x, y),
@@ -68,7 +69,6 @@ class Page {
     }
     if (this.data.points.count === 0 && this.data.loops.count === 0) {
       say("Nothing to show", "The scan has no points.");
-      find("view").classList.remove("no-view");
     } else if (this.data.points.count === 0) {
       find("colouring").disabled = true;
     }

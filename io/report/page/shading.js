@@ -59,13 +59,13 @@ function eye_dome_material(camera_uniforms) {
     depthTest: false,
     depthWrite: false,
     uniforms: {...camera_uniforms, colour_map: {value: null}, background: {value: new THREE.Vector3()},
-               strength: {value: 60}},
+               strength: {value: 60}, slack: {value: 0}},
     vertexShader: `void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`,
     fragmentShader: `
       ${kDepthShader}
       uniform sampler2D colour_map;
       uniform vec3 background;
-      uniform float strength, pixel_ratio, has_depth;
+      uniform float strength, pixel_ratio, has_depth, slack;  // slack: steps between discs of one surface
       float step_to(float here, vec2 offset) {
         return max(0.0, here - log2(scene_distance(gl_FragCoord.xy + offset * pixel_ratio)));
       }
@@ -74,7 +74,8 @@ function eye_dome_material(camera_uniforms) {
         if (colour.a < 0.5) { gl_FragColor = vec4(background, 1.0); return; }
         float shade = 1.0;
         if (has_depth > 0.5) {
-          float here = log2(scene_distance(gl_FragCoord.xy));
+          float away = scene_distance(gl_FragCoord.xy);
+          float here = log2(max(away - slack, away * 0.5));
           float sum = step_to(here, vec2(1.4, 0.0)) + step_to(here, vec2(-1.4, 0.0)) +
                       step_to(here, vec2(0.0, 1.4)) + step_to(here, vec2(0.0, -1.4)) +
                       step_to(here, vec2(1.0, 1.0)) + step_to(here, vec2(-1.0, -1.0)) +

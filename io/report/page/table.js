@@ -46,12 +46,15 @@ class LoopTable {
   make_head() {
     for (const {key, name, kind} of kColumns) {
       const unit = this.scales[key] ? this.scales[key].name : kind === "place" ? this.units.name : "";
-      const button = element("button", {type: "button"}, name, unit ? element("span", {class: "unit"}, unit) : null,
-                             element("span", {class: "arrow", "aria-hidden": "true"}));
+      const button = element("button", {type: "button"}, element("span", {class: "arrow", "aria-hidden": "true"}), name,
+                             unit ? element("span", {class: "unit"}, unit) : null);
       button.addEventListener("click", () => this.sort_by(key));
       find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
     }
     find("table").setAttribute("aria-colcount", kColumns.length);
+    let longest = 11;
+    for (let i = 0; i < this.loops.count; ++i) longest = Math.max(longest, this.place(i).join("  ").length);
+    find("table").style.setProperty("--place", `${longest}`);
   }
 
   sort_by(key) {
@@ -89,6 +92,7 @@ class LoopTable {
       if (is_sorted) head.setAttribute("aria-sort", direction); else head.removeAttribute("aria-sort");
     }
     find("table").setAttribute("aria-rowcount", this.shown.length + 1);
+    find("table").hidden = this.loops.count === 0;
     find("nothing").hidden = this.shown.length > 0;
     find("nothing").textContent = this.loops.count === 0 ? "No loops: the scan has no holes and no outer curve."
                                                          : "No loop passes the filters.";
@@ -118,7 +122,7 @@ class LoopTable {
     const i = this.shown[row];
     const is_selected = i === this.selected;
     const made = element("tr", {"data-row": row, "data-id": this.loops.id[i], tabindex: row === this.focused ? 0 : -1,
-                                "aria-rowindex": row + 2, "aria-selected": is_selected ? "true" : "false",
+                                "aria-rowindex": row + 2, "aria-current": is_selected ? "true" : null,
                                 class: is_selected ? "selected" : null});
     for (const column of kColumns) made.append(this.cell(column, i));
     return made;

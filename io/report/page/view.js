@@ -5,10 +5,10 @@ const kStillMilliseconds = 160;  // after this all points are drawn
 const kPickPixels = 9;
 
 class View {
-  // `on_frame(view)` after each picture, `on_loop(index or -1, is_double)` for a click, `on_hover(index or -1, x, y)`.
-  constructor(canvas, data, {on_frame, on_loop, on_hover}) {
+  // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
+  constructor(canvas, context, data, {on_frame, on_loop, on_hover}) {
     Object.assign(this, {canvas, data, on_frame, on_loop, on_hover});
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: false, alpha: false});
+    this.renderer = new THREE.WebGLRenderer({canvas, context});
     this.renderer.autoClear = false;
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
     this.camera.up.set(0, 0, 1);
@@ -43,15 +43,20 @@ class View {
     this.cloud = new PointCloud(this.data, this.spacing, this.uniforms);
     this.point_scene.add(this.cloud.object);
     this.eye_dome = eye_dome_material(this.uniforms);
+    this.eye_dome.uniforms.strength.value = this.data.has_normals ? 60 : 150;
     const screen = new THREE.Mesh(screen_geometry(), this.eye_dome);
     screen.frustumCulled = false;
     this.screen_scene.add(screen);
 
-    const indices = Array.from({length: loops.count}, (_, i) => i);
-    const longest = indices.reduce((best, i) => Math.max(best, loops.first[i + 1] - loops.first[i]), 0);
-    const make = (reserved) => new LoopLines(loops, reserved, this.uniforms);
-    this.lines = {outer: make(indices.filter((i) => !loops.is_hole[i])), hole: make(indices.filter((i) => loops.is_hole[i]))};
-    this.lines.selected = make(longest > 0 ? [indices.find((i) => loops.first[i + 1] - loops.first[i] === longest)] : []);
+    const corners = new LineCorners(loops);
+    const sizes = {outer: 0, hole: 0, selected: 0};
+    for (let i = 0; i < loops.count; ++i) {
+      const edges = loops.first[i + 1] - loops.first[i];
+      sizes[loops.is_hole[i] ? "hole" : "outer"] += edges;
+      sizes.selected = Math.max(sizes.selected, edges);
+    }
+    this.lines = {};
+    for (const name of Object.keys(sizes)) this.lines[name] = new LoopLines(corners, sizes[name], this.uniforms);
     const add = (name, style) => this.lines[name].add_pass(this.line_scene, style);
     this.passes = {
       outer_casing: add("outer", {width: 3.6, order: 1, opacity: 0.75}),
@@ -95,9 +100,11 @@ class View {
     this.canvas.addEventListener("dblclick", (event) => this.centre_at(event.clientX, event.clientY));
     let hovered = 0;
     this.canvas.addEventListener("pointermove", (event) => {
-      if (event.buttons !== 0 || event.pointerType === "touch" || event.timeStamp - hovered < 50) return;
-      hovered = event.timeStamp;
+      if (event.buttons !== 0 || event.pointerType === "touch" || event.timeStamp < hovered || this.flight) return;
+      const begin = performance.now();
       this.on_hover(this.loop_at(event.clientX, event.clientY), event.clientX, event.clientY);
+      // A slow machine looks less often.
+      hovered = event.timeStamp + 40 + 4 * (performance.now() - begin);
     });
     this.canvas.addEventListener("pointerleave", () => this.on_hover(-1, 0, 0));
   }
@@ -283,6 +290,9 @@ class View {
   // Loops that pass the filters (indices, any order), and the selected one, -1 for none.
   set_loops(visible) {
     const {is_hole} = this.data.loops;
+    // Line width of those that look small, as a part of the full one.
+    const crowded = Math.min(1, Math.max(0.35, Math.pow(400 / Math.max(1, visible.length), 0.3)));
+    for (const name of ["outer", "outer_casing", "hole", "hole_casing"]) this.passes[name].crowded.value = crowded;
     this.lines.hole.show(visible.filter((i) => is_hole[i]));
     this.lines.outer.show(visible.filter((i) => !is_hole[i]));
     this.update_lines();
@@ -399,9 +409,11 @@ class View {
   // Fewer points while the view moves, if the machine does not keep up.
   adapt(now, is_moving) {
     const interval = now - (this.last_step || 0);
+    const was_moving = this.was_moving;
     this.last_step = now;
-    if (!is_moving || interval > 500) return;
-    if (interval > 45) this.budget = Math.max(Math.min(60000, this.cloud.count), Math.round(this.budget * 0.75));
+    this.was_moving = is_moving;
+    if (!is_moving || !was_moving) return;
+    if (interval > 45) this.budget = Math.max(Math.min(60000, this.cloud.count), Math.round(this.budget * (interval > 150 ? 0.4 : 0.75)));
     if (interval < 20) this.budget = Math.min(this.cloud.count, Math.round(this.budget * 1.15) + 1);
   }
 
@@ -419,8 +431,11 @@ class View {
     this.cloud.set_drawn(count);
     const pixel = to_target / this.uniforms.focal.value;
     const dash = Math.pow(2, Math.round(Math.log2(13 * this.uniforms.pixel_ratio.value * pixel)));
+    this.eye_dome.uniforms.slack.value = 0.3 * this.cloud.uniforms.size.value;
     const pull = 2.5 * this.cloud.spacing;
     for (const uniforms of [...Object.values(this.passes), ...this.picks]) uniforms.pull.value = pull;
+    // A machine that does not keep up draws no casings while the view moves.
+    for (const name of ["outer", "hole"]) this.lines[name].set_casing(count === this.cloud.count);
     this.passes.outer.dash.value = this.passes.outer_casing.dash.value = dash;
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0, 0);
@@ -443,11 +458,12 @@ class View {
   }
 }
 
-function has_webgl() {
+// The canvas' WebGL context; null where the browser gives none.
+function webgl_context(canvas) {
+  const wanted = {antialias: false, alpha: false, depth: false, stencil: false, powerPreference: "high-performance"};
   try {
-    const canvas = document.createElement("canvas");
-    return Boolean(canvas.getContext("webgl") || canvas.getContext("experimental-webgl"));
+    return canvas.getContext("webgl", wanted) || canvas.getContext("experimental-webgl", wanted);
   } catch (error) {
-    return false;
+    return null;
   }
 }
