@@ -5,10 +5,10 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libopenvdb-dev libtbb-dev libeigen3-dev libnanoflann-dev libspdlog-dev libtomlplusplus-dev
-  libcli11-dev nlohmann-json3-dev libhwy-dev libpugixml-dev catch2
+  libcli11-dev nlohmann-json3-dev libhwy-dev libpugixml-dev libgdal-dev catch2
   # OpenVDB's headers include Boost's, and its CMake module asks for these:
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev
-  python3 python3-jsonschema  # scripts of tests and benchmarks
+  python3 python3-jsonschema gdal-bin  # scripts of tests and benchmarks
 )
 
 missing=()

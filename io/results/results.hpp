@@ -14,7 +14,8 @@
 namespace lacuna {
 
 // The files that a run writes: loops.ply, boundary.ply, holes.csv, run.json, holes.json, and those that the
-// config wants: points.ply, probability.vdb, loops.obj, loops.dxf, loops.vtp.
+// config wants: points.ply, probability.vdb, loops.obj, loops.dxf, loops.vtp, loops.gpkg,
+// loops.geojson, loops.shp with .shx, .dbf, .cpg and, with a coordinate reference system, .prj.
 std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
