@@ -89,7 +89,10 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   std::string summary = print_summary(*detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()});
-  for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
+  for (const fs::path& file : written) {
+    if (!fs::exists(file)) continue;  // loops.prj, without a coordinate reference system
+    summary += "written: " + visible(file.string()) + "\n";
+  }
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }

@@ -16,9 +16,10 @@ namespace lacuna {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
-OutputFile::OutputFile(std::filesystem::path name, const std::filesystem::path& place)
-    : name_(std::move(name)),
-      descriptor_(::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+OutputFile::OutputFile(std::filesystem::path name, const std::filesystem::path& place, Writer writer)
+    : name_(std::move(name)), place_(place), writer_(writer) {
+  if (writer == Writer::kLibrary) return;
+  descriptor_ = ::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("cannot be made", errno);
   buffer_.reserve(kBufferBytes);
 }
@@ -59,11 +60,17 @@ void OutputFile::put(std::uint64_t at, std::span<const std::byte> bytes) {
   }
 }
 
-void OutputFile::close() {
-  if (descriptor_ < 0) return;
-  flush();
+bool OutputFile::close() {
+  if (writer_ == Writer::kLibrary) {
+    descriptor_ = ::open(place_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor_ < 0 && errno == ENOENT) return false;
+    if (descriptor_ < 0) fail("cannot be written", errno);
+  }
+  if (descriptor_ < 0) return true;
+  if (writer_ == Writer::kThis) flush();
   if (::fsync(descriptor_) != 0) fail("cannot be written", errno);
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be written", errno);
+  return true;
 }
 
 void OutputFile::fail(const char* what, int reason) const {

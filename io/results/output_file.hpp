@@ -1,5 +1,5 @@
-// A file that is being written, through one buffer. Every failure of the disk is an `Error` with the file's
-// name.
+// A file that is being written, through one buffer or by another library. Every failure of the disk is an
+// `Error` with the file's name.
 #pragma once
 
 #include <cstddef>
@@ -11,29 +11,37 @@
 
 namespace lacuna {
 
+// Who writes the bytes: this class, or a library that makes the file by itself, or does not.
+enum class Writer { kThis, kLibrary };
+
 class OutputFile {
  public:
-  // Makes the new file `place`. `name` is what errors call it: the path that it will have in the end.
-  OutputFile(std::filesystem::path name, const std::filesystem::path& place);
+  // Makes the new file `place`, or leaves that to the library. `name` is what errors call it: the path that
+  // it will have in the end.
+  OutputFile(std::filesystem::path name, const std::filesystem::path& place, Writer writer = Writer::kThis);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::filesystem::path& path() const { return name_; }
+  const std::filesystem::path& place() const { return place_; }
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   // Puts `text` over the first bytes of the file, which are written already: a count known at the end.
   void overwrite_start(std::string_view text);
 
-  void close();  // all bytes are on the disk afterwards, and nothing can be written any more
+  // All bytes are on the disk afterwards, and nothing can be written any more. False: the library has made no
+  // file.
+  bool close();
 
  private:
   void flush();
   void put(std::uint64_t at, std::span<const std::byte> bytes);
   [[noreturn]] void fail(const char* what, int reason) const;
 
-  std::filesystem::path name_;
+  std::filesystem::path name_, place_;
+  Writer writer_;
   int descriptor_ = -1;
   std::uint64_t end_ = 0;  // of what is in the file; the buffer follows
   std::vector<std::byte> buffer_;

@@ -2,6 +2,7 @@
 
 #include "engine/run/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -67,18 +68,21 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_own_file(const fs::path& file, std::string_view mark) {
+bool is_own_file(const fs::path& file, const Mark& mark) {
   const auto found = find(file);
   if (!found || !S_ISREG(found->st_mode)) return false;  // a pipe or a device is not even opened
+  if (!mark.sister.empty())
+    return is_own_file(fs::path(file).replace_extension(mark.sister), Mark(mark.start, mark.fits));
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
-  std::string begin(mark.size(), '\0');
+  std::string begin(mark.fits ? Mark::kReach : mark.start.size(), '\0');
   const ssize_t length = ::pread(descriptor, begin.data(), begin.size(), 0);
   ::close(descriptor);
-  return length == static_cast<ssize_t>(mark.size()) && begin == mark;
+  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+  return begin.starts_with(mark.start) && (!mark.fits || mark.fits(begin));
 }
 
-void check_output(const fs::path& file, std::string_view mark, Overwrite overwrite) {
+void check_output(const fs::path& file, const Mark& mark, Overwrite overwrite) {
   if (!file.has_filename()) throw Error("\"" + file.string() + "\": a file name is needed");
   const auto found = find(file);
   if (!found) return;
@@ -93,14 +97,14 @@ void check_output(const fs::path& file, std::string_view mark, Overwrite overwri
   }
 }
 
-OutputFile& OutputSet::add(const fs::path& file, std::string_view mark) {
+OutputFile& OutputSet::add(const fs::path& file, const Mark& mark, Writer writer) {
   const auto found = find(file);
   check_output(file, mark, overwrite_);
   Member& member = join(file, found);
-  return member.content.emplace(member.name, member.staged);
+  return member.content.emplace(member.name, member.staged, writer);
 }
 
-void OutputSet::drop(const fs::path& file, std::string_view mark) {
+void OutputSet::drop(const fs::path& file, const Mark& mark) {
   const auto found = find(file);
   if (is_own_file(file, mark)) join(file, found);
 }
@@ -118,7 +122,7 @@ OutputSet::Member& OutputSet::join(const fs::path& file, const std::optional<str
 
 void OutputSet::commit() {
   for (Member& member : members_) {
-    if (member.content) member.content->close();
+    if (member.content && !member.content->close()) member.content.reset();
   }
   const RemovalPause pause;
   try {

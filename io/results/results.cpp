@@ -3,6 +3,8 @@
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/ply/ply_writer.hpp"
+#include "io/results/gis_library.hpp"
+#include "io/results/gis_marks.hpp"
 #include "io/results/loops_dxf.hpp"
 #include "io/results/loops_obj.hpp"
 #include "io/results/loops_vtp.hpp"
@@ -17,9 +19,10 @@ namespace {
 
 struct ResultFile {
   std::string_view name;
-  std::string_view mark;
+  Mark mark;
   void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
   bool (*is_wanted)(const Config&);
+  Writer writer = Writer::kThis;
 };
 
 using D = const Detection&;
@@ -30,6 +33,16 @@ bool always(C) {
 }
 bool never(C) {
   return false;
+}
+
+// The parts of a Shapefile that GDAL makes together with its .shp.
+ResultFile shapefile_part(std::string_view name) {
+  return {name, shapefile_mark(), [](D, S, C, OutputFile&) {}, [](C c) { return c.output.shp; },
+          Writer::kLibrary};
+}
+
+bool needs_gis_library(const Config& config) {
+  return config.output.gpkg || config.output.geojson || config.output.shp;
 }
 
 // In the order in which they appear: the report comes last, and stands for all the others.
@@ -50,6 +63,19 @@ const std::vector<ResultFile>& all_results() {
       {"loops.vtp", kVtpMark, [](D d, S, C, OutputFile& out) { write_loops_vtp(d, out); },
        [](C c) { return c.output.vtp; }},
       {"report.html", kReportMark, nullptr, never},
+      {"loops.gpkg", geopackage_mark(),
+       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kGeoPackage, out); },
+       [](C c) { return c.output.gpkg; }, Writer::kLibrary},
+      {"loops.geojson", kGeoJsonMark,
+       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kGeoJson, out); },
+       [](C c) { return c.output.geojson; }},
+      {"loops.shp", shapefile_mark(),
+       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kShapefile, out); },
+       [](C c) { return c.output.shp; }, Writer::kLibrary},
+      shapefile_part("loops.shx"),
+      shapefile_part("loops.dbf"),
+      shapefile_part("loops.prj"),  // with a crs
+      shapefile_part("loops.cpg"),
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
@@ -90,6 +116,7 @@ std::vector<std::filesystem::path> result_files(const Config& config, const std:
 
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
+  if (needs_gis_library(config)) check_gis_library();
   for (const ResultFile& result : results_of(config)) {
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
@@ -110,7 +137,8 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   OutputSet set(overwrite);
   const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;
-  for (const ResultFile& result : results) files.push_back(&set.add(folder / result.name, result.mark));
+  for (const ResultFile& result : results)
+    files.push_back(&set.add(folder / result.name, result.mark, result.writer));
   for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(results.size(),

@@ -1,0 +1,19 @@
+// How files for GIS are recognised that an earlier run wrote. These formats have no comments at their start.
+#pragma once
+
+#include "io/results/output_set.hpp"
+
+#include <string_view>
+
+namespace lacuna {
+
+inline constexpr std::string_view kGeoJsonMark =
+    "{\n\"type\": \"FeatureCollection\",\n\"name\": \"lacuna_loops\",\n";
+
+// An SQLite file that names the layer and its description in its first pages.
+Mark geopackage_mark();
+
+// The .dbf has the fields of the loops' measures. The mark of the .shp, .shx, .prj and .cpg, too.
+Mark shapefile_mark();
+
+}  // namespace lacuna

@@ -1,0 +1,268 @@
+#include "io/results/loops_gis.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/results/loop_measures.hpp"
+#include "io/results/shapefile_check.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The date in the head of the GeoPackage and of the Shapefile: the same in every run.
+constexpr const char* kDay = "1970-01-01";
+constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
+
+// Settings of GDAL, for this thread alone, as long as it lives.
+class Setting {
+ public:
+  Setting(const char* key, const char* value) : key_(key) { CPLSetThreadLocalConfigOption(key, value); }
+  ~Setting() { CPLSetThreadLocalConfigOption(key_, nullptr); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  const char* key_;
+};
+
+// Keeps the first failure that GDAL reports in this thread, instead of printing it.
+class Failures {
+ public:
+  Failures() {
+    CPLPushErrorHandlerEx(
+        [](CPLErr level, CPLErrorNum, const char* text) {
+          auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
+          if (level >= CE_Failure && first.empty()) first = text;
+        },
+        &first_);
+  }
+  ~Failures() { CPLPopErrorHandler(); }
+  Failures(const Failures&) = delete;
+  Failures& operator=(const Failures&) = delete;
+
+  const std::string& first() const { return first_; }
+  void forget() { first_.clear(); }
+
+ private:
+  std::string first_;
+};
+
+void register_drivers() {
+  static const bool done = [] {
+    const Setting no_file_of_the_user("GDAL_CONFIG_FILE", "");
+    RegisterOGRGeoPackage();
+    RegisterOGRGeoJSON();
+    RegisterOGRShape();
+    OSRSetPROJEnableNetwork(FALSE);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+// Where the GeoJSON goes: GDAL does not look whether what it writes to "/vsistdout/" arrives, so this does.
+class TextSink {
+ public:
+  explicit TextSink(const GisTask& task) : task_(task) {
+    VSIStdoutSetRedirection(&TextSink::write, reinterpret_cast<FILE*>(this));
+  }
+  ~TextSink() { VSIStdoutSetRedirection(&std::fwrite, stdout); }
+  TextSink(const TextSink&) = delete;
+  TextSink& operator=(const TextSink&) = delete;
+
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  static std::size_t write(const void* data, std::size_t size, std::size_t count, FILE* stream) {
+    auto& sink = *reinterpret_cast<TextSink*>(stream);
+    try {
+      if (!sink.failure_) sink.task_.take({static_cast<const char*>(data), size * count});
+    } catch (...) {  // passes no frame of GDAL's
+      sink.failure_ = std::current_exception();
+    }
+    return sink.failure_ ? 0 : count;
+  }
+
+  const GisTask& task_;
+  std::exception_ptr failure_;
+};
+
+struct Format {
+  const char* driver;
+  std::vector<std::string> options;  // of its layer
+};
+
+Format format_of(GisFormat format) {
+  switch (format) {
+    case GisFormat::kGeoPackage:
+      return {"GPKG", {std::string("DESCRIPTION=") + kGisDescription}};
+    case GisFormat::kGeoJson:
+      // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
+      return {"GeoJSON", {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"}};
+    case GisFormat::kShapefile:
+      break;
+  }
+  return {"ESRI Shapefile", {"SHPT=ARCZ", "ENCODING=UTF-8", std::string("DBF_DATE_LAST_UPDATE=") + kDay}};
+}
+
+// Writes one file.
+class LoopsWriter {
+ public:
+  explicit LoopsWriter(const GisTask& task) : task_(task) {}
+
+  bool write() {
+    const bool understands_crs = set_crs();
+    create();
+    for (std::size_t id = 0; id < task_.detection.loops().size(); ++id)
+      put(id, task_.detection.read_loop(id));
+    if (has_transaction_) require(dataset_->CommitTransaction() == OGRERR_NONE);
+    dataset_.reset();
+    require(true);
+    if (task_.format == GisFormat::kShapefile) check_parts();
+    return understands_crs;
+  }
+
+ private:
+  // A failure that GDAL reports without saying so in its answer is one, too.
+  void require(bool is_well) const {
+    if (is_well && failures_.first().empty()) return;
+    const std::string& reason = failures_.first();
+    throw Error(task_.name.string() +
+                ": cannot be written: GDAL: " + (reason.empty() ? "no reason given" : reason));
+  }
+
+  void check_parts() const {
+    const fs::path cut = find_cut_part(task_.place, has_crs_);
+    if (cut.empty()) return;
+    const fs::path name = fs::path(task_.name).replace_extension(cut.extension());
+    throw Error(name.string() + ": cannot be written: its end is missing; is the disk full?");
+  }
+
+  bool set_crs() {
+    if (!task_.crs.empty()) {
+      const char* const kept_in_scan[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+      has_crs_ = crs_.SetFromUserInput(task_.crs.c_str(), kept_in_scan) == OGRERR_NONE;
+      failures_.forget();
+    }
+    if (!has_crs_) crs_.Clear();
+    crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);  // x is east
+    // The driver writes nothing but a code of EPSG. A compound system may have codes for its parts alone.
+    if (has_crs_ && task_.format == GisFormat::kGeoJson && !crs_.GetAuthorityCode(nullptr))
+      crs_.StripVertical();
+    return has_crs_ || task_.crs.empty();
+  }
+
+  void create() {
+    const Format format = format_of(task_.format);
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(format.driver);
+    require(driver != nullptr);
+    const std::string place = task_.format == GisFormat::kGeoJson ? "/vsistdout/" : task_.place.string();
+    dataset_.reset(driver->Create(place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    require(dataset_ != nullptr);
+    // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
+    if (!has_crs_ && task_.format == GisFormat::kGeoPackage) crs_.SetLocalCS("Undefined Cartesian SRS");
+    layer_ = dataset_->CreateLayer(kGisLayer, crs_.IsEmpty() ? nullptr : &crs_, wkbLineString25D,
+                                   list_of(format.options).List());
+    require(layer_ != nullptr);
+    add_field("id", OFTInteger64);
+    add_field("kind", OFTString);
+    for (const LoopMeasure& measure : kLoopMeasures)
+      add_field(name_of_field(measure), measure.is_count ? OFTInteger64 : OFTReal);
+    if (dataset_->TestCapability(ODsCTransactions)) {
+      has_transaction_ = true;
+      require(dataset_->StartTransaction() == OGRERR_NONE);
+    }
+  }
+
+  static CPLStringList list_of(const std::vector<std::string>& options) {
+    CPLStringList list;
+    for (const std::string& option : options) list.AddString(option.c_str());
+    return list;
+  }
+
+  std::string name_of_field(const LoopMeasure& measure) const {
+    return std::string(task_.format == GisFormat::kShapefile ? measure.short_name : measure.name);
+  }
+
+  void add_field(const std::string& name, OGRFieldType type) {
+    OGRFieldDefn field(name.c_str(), type);
+    if (type == OFTString) field.SetWidth(5);  // "outer"
+    require(layer_->CreateField(&field) == OGRERR_NONE);
+  }
+
+  void put(std::size_t id, const ReportedLoop& loop) {
+    OGRFeature feature(layer_->GetLayerDefn());
+    // Of longer numbers the 24 characters of a Shapefile's field would keep the first ones.
+    const double most = task_.format == GisFormat::kShapefile ? 1e20 : HUGE_VAL;
+    int field = 0;
+    feature.SetField(field++, static_cast<GIntBig>(id));
+    feature.SetField(field++, lacuna::name_of(loop.measures.kind));
+    for (const LoopMeasure& measure : kLoopMeasures) {
+      const double value = measure.of(loop.measures);
+      if (!std::isfinite(value) || std::abs(value) >= most) {
+        feature.SetFieldNull(field++);
+      } else if (measure.is_count) {
+        feature.SetField(field++, static_cast<GIntBig>(value));
+      } else {
+        feature.SetField(field++, value);
+      }
+    }
+    auto line = std::make_unique<OGRLineString>();
+    const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
+    line->setNumPoints(count + 1);
+    for (int i = 0; i <= count; ++i) {
+      const Eigen::Vector3d& at = loop.points[static_cast<std::size_t>(i % count)].position;
+      line->setPoint(i, at.x(), at.y(), at.z());
+    }
+    feature.SetGeometryDirectly(line.release());
+    require(layer_->CreateFeature(&feature) == OGRERR_NONE);
+  }
+
+  const GisTask& task_;
+  Failures failures_;
+  OGRSpatialReference crs_;
+  bool has_crs_ = false, has_transaction_ = false;
+  Dataset dataset_;
+  OGRLayer* layer_ = nullptr;  // the dataset's
+};
+
+}  // namespace
+
+extern "C" bool lacuna_write_loops_gis(const GisTask& task) {
+  register_drivers();
+  const Setting time("OGR_CURRENT_DATE", kTime),
+      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+  if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
+  const TextSink sink(task);
+  LoopsWriter writer(task);
+  bool understands_crs = false;
+  try {
+    understands_crs = writer.write();
+  } catch (const Error&) {
+    sink.check();  // GDAL's failure may be that of the sink
+    throw;
+  }
+  sink.check();
+  return understands_crs;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,41 @@
+// The loops for geographic information systems, through GDAL. GDAL costs 35 MiB and 70 ms at the start of a
+// program: what needs it is a library of its own, lacuna_gis.so, which the program loads where such a result
+// is wanted.
+#pragma once
+
+#include "engine/model/detection.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+
+enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson, kShapefile };
+
+// The layer of each file. An earlier file is recognised by it.
+inline constexpr const char* kGisLayer = "lacuna_loops";
+inline constexpr const char* kGisDescription = "loops of lacuna detect";
+
+struct GisTask {
+  const Detection& detection;
+  GisFormat format;
+  std::string crs;                                  // as FileScan::common_crs
+  std::filesystem::path name;                       // what errors call it
+  std::filesystem::path place;                      // of a GeoPackage or Shapefile, where it is made
+  std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
+};
+
+// Writes the loops in order, each a closed line with z and the fields id, kind and the measures, empty where
+// one is not finite. The coordinates are those of the scan, with all digits. Holds one loop in memory. The
+// same loops give the same bytes. Returns false where GDAL does not understand the crs: the file has none
+// then. Throws `Error` with GDAL's text.
+using WriteLoopsGis = bool(const GisTask& task);
+
+// In lacuna_gis.so:
+inline constexpr const char* kWriteLoopsGis = "lacuna_write_loops_gis";
+extern "C" WriteLoopsGis lacuna_write_loops_gis;
+
+}  // namespace lacuna
