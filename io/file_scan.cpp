@@ -26,6 +26,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     const RowFilter filter(config_, files_.back(), *reader);
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
+    formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     rows_read_.push_back(0);

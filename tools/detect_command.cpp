@@ -84,7 +84,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   std::string summary = print_summary(*detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()});
-  for (const fs::path& file : result_files(config, out))
+  for (const fs::path& file : result_files(scan, config, out))
     summary += "written: " + visible(file.string()) + "\n";
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;

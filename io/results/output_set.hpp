@@ -1,9 +1,8 @@
 // Files that appear under their names all together, or not at all.
 //
-// 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that begins as
-// the same
-//    command writes it (its mark). With Overwrite::kAny it may be the name of any regular file. Links,
-//    folders, pipes and devices are always refused.
+// 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that has the mark
+//    of the same command. With Overwrite::kAny it may be the name of any regular file. Links, folders, pipes
+//    and devices are always refused.
 // 2. The content goes to a new file in a private folder beside the name, `.lacuna-XXXXXX`. Other names in the
 // output
 //    folder are neither used nor looked at.
@@ -22,6 +21,7 @@
 #include "io/results/output_file.hpp"
 #include "io/temporary_folder.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <list>
 #include <map>
@@ -35,21 +35,33 @@ namespace lacuna {
 
 enum class Overwrite { kOwn, kAny };
 
-// What `file` begins with, if the command that asks wrote it.
-bool is_own_file(const std::filesystem::path& file, std::string_view mark);
+// What shows that the command that asks wrote a file: a text at a byte of it.
+struct FileMark {
+  FileMark(std::string_view text, std::uint64_t offset = 0) : text(text), offset(offset) {}
+  FileMark(const char* text) : text(text) {}
+
+  // Anywhere in the first line, which ends within 1 MiB.
+  static constexpr std::uint64_t kInFirstLine = UINT64_MAX;
+
+  std::string_view text;
+  std::uint64_t offset = 0;
+};
+
+// Whether `file` is a regular file with the mark.
+bool is_own_file(const std::filesystem::path& file, const FileMark& mark);
 
 // Throws `Error` if a file of this name may not be written. Cheap: a program checks before the work.
-void check_output(const std::filesystem::path& file, std::string_view mark, Overwrite overwrite);
+void check_output(const std::filesystem::path& file, const FileMark& mark, Overwrite overwrite);
 
 class OutputSet {
  public:
   explicit OutputSet(Overwrite overwrite) : overwrite_(overwrite) {}
 
   // Checks the name and opens the file. The reference is valid as long as the set.
-  OutputFile& add(const std::filesystem::path& file, std::string_view mark);
+  OutputFile& add(const std::filesystem::path& file, const FileMark& mark);
 
   // An own file of this name, if there is one, goes with commit; any other stays.
-  void drop(const std::filesystem::path& file, std::string_view mark);
+  void drop(const std::filesystem::path& file, const FileMark& mark);
 
   // All or none. Throws `Error`.
   void commit();
