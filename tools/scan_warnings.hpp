@@ -17,8 +17,8 @@ std::string crs_name(const std::string& crs);
 // coordinate reference system is not that of the first.
 std::vector<std::string> input_warnings(const FileScan& scan);
 
-// After a run: too few points for their neighbourhoods, and coordinates that are too coarse for their
-// spacing.
+// After a run: too few points for their neighbourhoods, coordinates that are too coarse for their spacing, and
+// rows that points.las cannot hold.
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config);
 
 }  // namespace lacuna

@@ -158,7 +158,9 @@ std::vector<LasExtraBytes> result_extra(std::span<const ResultColumn> results, c
   for (const ResultColumn& result : results) {
     std::string name = result.name;
     if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
-    const std::string description = std::string(kLacunaDescription) + name;
+    // Normals are the next run's input, not a result that it replaces.
+    const bool is_normal = name == result.name;
+    const std::string description = is_normal ? "estimated normal" : std::string(kLacunaDescription) + name;
     const auto is_taken = [&](const LasExtraField& field) { return field.what.name == name; };
     while (std::any_of(form.extra.begin(), form.extra.end(), is_taken)) name.insert(0, "lacuna_");
     extra.push_back(las_extra_of(name, result.type, description));
