@@ -75,8 +75,8 @@ struct LasForm {
 struct LasParts {
   std::vector<LasPart> las;
   std::vector<ImportedColumn> imported;  // x y z too, if there are files of other formats
-  Eigen::AlignedBox3d bounds;  // of points from other formats or with a pose; empty: not known, or none
-  std::string crs;             // of files of other formats
+  Eigen::AlignedBox3d bounds;            // of all points where coordinates change, once known
+  std::string crs;                       // of files of other formats
 };
 
 // Throws `Error` where it is not possible: coordinates that do not fit one scale, times of different kinds,

@@ -53,8 +53,18 @@ LasInput examine(const FileScan& scan, std::span<const ResultColumn> results) {
   return input;
 }
 
-// Reads all files of other formats, and the positions of those with a pose, for what their values are.
+// Whether no coordinate changes.
+bool has_one_scale(const LasParts& parts) {
+  return parts.imported.empty() && std::all_of(parts.las.begin(), parts.las.end(), [&](const LasPart& part) {
+           return !part.has_pose && part.header.scale == parts.las.front().header.scale &&
+                  part.header.offset == parts.las.front().header.offset;
+         });
+}
+
+// Reads what the files of other formats hold, and, where coordinates change, where the points of LAS files
+// are: their headers may be wrong.
 void survey(const FileScan& scan, LasInput& input) {
+  if (has_one_scale(input.parts)) return;
   std::optional<ImportSurvey> others;
   if (!input.parts.imported.empty()) others.emplace(input.others);
   const RowLayout place = packed_layout(std::vector<std::pair<std::string, Scalar>>{
@@ -62,7 +72,6 @@ void survey(const FileScan& scan, LasInput& input) {
   ImportSurvey moved(place);
   std::vector<std::byte> block;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    if (is_las(scan, i) && !scan.poses()[i]) continue;
     const RowLayout& layout = is_las(scan, i) ? place : input.others;
     const auto rows = joined_rows(scan, layout, i, i + 1);
     constexpr std::size_t kRows = std::size_t{1} << 14;
