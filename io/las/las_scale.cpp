@@ -98,7 +98,7 @@ LasScale join_scales(const LasParts& parts) {
     double smallest = std::abs(made.scale[axis]);
     for (const LasPart* part : fixed) smallest = std::min(smallest, std::abs(part->header.scale[axis]));
     const double first = fixed.front()->header.offset[axis];
-    const LasPart* refused = nullptr;
+    bool is_exact = false;  // with some scale
     std::optional<double> offset;
     double scale = smallest;
     for (int i = 0; i <= kFinest && !offset; ++i) {
@@ -106,18 +106,22 @@ LasScale join_scales(const LasParts& parts) {
       const auto other = std::find_if(fixed.begin(), fixed.end(), [&](const LasPart* part) {
         return !las_step(part->header.scale[axis], part->header.offset[axis], scale, first);
       });
-      if (other != fixed.end()) {
-        refused = *other;
-        continue;
-      }
+      if (other != fixed.end()) continue;
+      is_exact = true;
       const auto at = static_cast<Eigen::Index>(axis);
       offset = fitting_offset(bounds.min()[at], bounds.max()[at], scale, first);
     }
-    if (!offset && refused != nullptr)
-      throw Error(refused->name + ": coordinates with a scale of " +
-                  std::to_string(refused->header.scale[axis]) + " and an offset of " +
-                  std::to_string(refused->header.offset[axis]) +
+    if (!is_exact) {
+      const auto other = std::find_if(fixed.begin(), fixed.end(), [&](const LasPart* part) {
+        return part->header.scale[axis] != fixed.front()->header.scale[axis] ||
+               part->header.offset[axis] != first;
+      });
+      const LasPart& refused = other == fixed.end() ? *fixed.front() : **other;
+      throw Error(refused.name + ": coordinates with a scale of " +
+                  std::to_string(refused.header.scale[axis]) + " and an offset of " +
+                  std::to_string(refused.header.offset[axis]) +
                   " cannot join those of the first file in one LAS file exactly" + kWayOut);
+    }
     if (!offset)
       throw Error(fixed.front()->name + ": with its scale, one LAS file cannot hold coordinates from " +
                   std::to_string(bounds.min()[static_cast<Eigen::Index>(axis)]) + " to " +
