@@ -1,4 +1,4 @@
-#include "io/las/las_header.hpp"
+#include "io/las/las_writer.hpp"
 #include "io/results/points.hpp"
 #include "io/results/results.hpp"
 #include "tests/io/io_support.hpp"
@@ -410,14 +410,29 @@ TEST_CASE("LAS and other files together share fields and extra bytes by name", "
     CHECK(column(table, "x")[i + 1] == Approx(column(read_table(folder / "a.las"), "x")[i]).epsilon(1e-14));
 }
 
-TEST_CASE("a coordinate system of another format stands in points.las as text", "[io][results]") {
-  // Only LAS names one in this project's tests: its text is given to a file of another format by hand.
+TEST_CASE("a coordinate system without a LAS file stands in points.las as text or as keys", "[io][results]") {
   const ScratchFolder folder;
-  LasFile las = file_of(6, 4);
-  las.records = {las_record("LASF_Projection", 2112, "PROJCS[\"here\"]")};
-  FileScan scan({folder.write("a.las", las.bytes())}, {});
-  detect_to(folder, scan, 5, las_config());
-  CHECK(open_scan(folder / "out" / "points.las", {})->crs() == "PROJCS[\"here\"]");
+  const std::string long_text = "PROJCS[\"" + std::string(70'000, 'x') + "\"]";
+  for (const std::string& crs : {std::string("PROJCS[\"here\"]"), long_text, std::string("EPSG:25832"),
+                                 std::string("EPSG:4258+5783")}) {
+    LasParts parts;
+    parts.imported = {{.property = {"x", Scalar::kFloat64, 0}}};
+    parts.crs = crs;
+    const LasForm form = join_las(parts);
+    const bool has_code = crs.starts_with("EPSG");
+    CHECK(form.point_format == (has_code ? 0 : 6));
+    const auto file = folder / "a.las";
+    std::filesystem::remove(file);
+    OutputFile out(file, file);
+    LasWriter writer(out, form, {}, {}, crs);
+    const std::string point = las_point(form.record_bytes, 1, 2, 3);
+    writer.put(std::as_bytes(std::span(point)));
+    writer.finish();
+    out.close();
+    CHECK((open_scan(file, {})->crs() == crs));
+    CHECK(read_table(file).rows.size() == 1);
+    CHECK(at<std::uint16_t>(read_file(file), 6) == (has_code ? 0 : 16));
+  }
 }
 
 TEST_CASE("extra bytes of another program with the name of a result stay", "[io][results]") {
