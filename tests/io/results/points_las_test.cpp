@@ -412,7 +412,9 @@ TEST_CASE("LAS and other files together share fields and extra bytes by name", "
 
 TEST_CASE("a coordinate system without a LAS file stands in points.las as text or as keys", "[io][results]") {
   const ScratchFolder folder;
-  const std::string long_text = "PROJCS[\"" + std::string(70'000, 'x') + "\"]";
+  std::string long_text(70'000, 'x');
+  long_text.insert(0, "PROJCS[\"");
+  long_text += "\"]";
   for (const std::string& crs : {std::string("PROJCS[\"here\"]"), long_text, std::string("EPSG:25832"),
                                  std::string("EPSG:4258+5783")}) {
     LasParts parts;
