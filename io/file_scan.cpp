@@ -34,6 +34,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
     units_.push_back(reader->length_unit());
+    formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     rows_read_.push_back(0);

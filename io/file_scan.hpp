@@ -45,6 +45,8 @@ class FileScan : public PointSource {
   const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
   // Rows that each file's header declares; text files declare none.
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
+  // Of each file, as ScanReader::format says.
+  const std::vector<std::string>& formats() const { return formats_; }
   // Of each file; empty where it names none, or has a pose.
   const std::vector<std::string>& crs() const { return crs_; }
   // The one that all files share; empty: they differ, or name none.
@@ -70,7 +72,7 @@ class FileScan : public PointSource {
   InputConfig config_;
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
-  std::vector<std::string> crs_, units_;
+  std::vector<std::string> crs_, units_, formats_;
   bool has_normals_ = false, reads_slowly_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;

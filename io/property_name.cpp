@@ -19,4 +19,13 @@ std::string property_name(std::string_view given) {
   return name;
 }
 
+std::string bare_name(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
+    if (c >= 'a' && c <= 'z') bare += c;
+  }
+  return bare.starts_with("scalar") ? bare.substr(6) : bare;
+}
+
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 #include "io/row_filter.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/property_name.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -18,16 +19,6 @@ std::optional<Eigen::AlignedBox3d> box_of(const std::vector<double>& bounds) {
   const double* const max = min + bounds.size() / 2;
   return Eigen::AlignedBox3d(Eigen::Vector3d(min[0], min[1], is_flat ? -kInfinite : min[2]),
                              Eigen::Vector3d(max[0], max[1], is_flat ? kInfinite : max[2]));
-}
-
-// One spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".
-std::string bare_name(std::string_view name) {
-  std::string bare;
-  for (const char c : name) {
-    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
-    if (c >= 'a' && c <= 'z') bare += c;
-  }
-  return bare.starts_with("scalar") ? bare.substr(6) : bare;
 }
 
 Property find_property(const std::filesystem::path& file, const RowLayout& layout, const char* name,

@@ -79,7 +79,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   write_results(*detection, scan, config, out, overwrite);
-  std::vector<fs::path> written = result_files(config, out);
+  std::vector<fs::path> written = result_files(scan, config, out);
   if (config.output.report) written.push_back(write_report(out, overwrite));
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))

@@ -4,6 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
+#include "io/results/points.hpp"
 #include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
@@ -53,7 +54,8 @@ struct FileInfo {
 
 struct RunInfo {
   Estimate estimate;
-  std::uint64_t points_ply_bytes = 0;
+  std::string points_file;
+  std::uint64_t points_bytes = 0;
   double seconds = 0;
 };
 
@@ -78,7 +80,8 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   run.estimate = estimate(scan, config, workspace.path(), silence);
   const Summary& summary = run.estimate.summary;
-  run.points_ply_bytes = point_row_bytes(scan, config.output) * summary.counts.points;
+  run.points_file = points_file(scan, config.output);
+  run.points_bytes = point_row_bytes(scan, config.output) * summary.counts.points;
 
   const double threads = std::max<double>(1, static_cast<double>(summary.threads));
   const std::uint64_t points = summary.counts.points - summary.counts.thinned_out;
@@ -131,7 +134,7 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << "\n  threads       " << summary.threads << "\n  workspace     "
             << print_size(run.estimate.workspace_bytes)
             << " on disk; up to three times that if the scan is noisy"
-            << "\n  points.ply    " << print_size(run.points_ply_bytes) << ", with --points"
+            << "\n  " << run.points_file << "    " << print_size(run.points_bytes) << ", with --points"
             << "\n  other output  depends on the holes found"
             << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
 }
@@ -166,7 +169,8 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
   root["workspace_bytes"] = run.estimate.workspace_bytes;
-  root["points_ply_bytes"] = run.points_ply_bytes;
+  root["points_file"] = run.points_file;
+  root["points_bytes"] = run.points_bytes;
   root["estimated_seconds"] = run.seconds;
   root["estimate"] = assumption();
   std::cout << print(root, 2) << "\n";

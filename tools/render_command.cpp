@@ -40,11 +40,11 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
 void run_render(const RenderArguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  check_output(arguments.out, kPictureMark, overwrite);
+  check_output(arguments.out, picture_mark(), overwrite);
   const Scene scene = read_scene(arguments.folder);
   const View view = find_view(scene, arguments.view, width, height);
   OutputSet set(overwrite);
-  write_png(render(scene, view, width, height, arguments.as_it_came), set.add(arguments.out, kPictureMark));
+  write_png(render(scene, view, width, height, arguments.as_it_came), set.add(arguments.out, picture_mark()));
   set.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
 }

@@ -2,6 +2,7 @@
 
 #include "engine/pipeline.hpp"
 #include "engine/run/machine_memory.hpp"
+#include "io/results/points.hpp"
 #include "tools/summary.hpp"
 #include "tools/visible_text.hpp"
 
@@ -85,6 +86,12 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
               << " apart; the scan needs double precision, or smaller coordinates";
       warnings.push_back(warning.str());
     }
+  }
+  // Points of LAS files are finite, so that all of these are from other formats.
+  const std::uint64_t not_finite = counts.dropped - scan.filtered_out().total();
+  if (config.output.points && not_finite > 0 && points_format(scan, config.output) == PointsFormat::kLas) {
+    warnings.push_back("points.las is without the " + print_count(not_finite) +
+                       " points that have no finite position, which LAS cannot hold; ids count them");
   }
   return warnings;
 }

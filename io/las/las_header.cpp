@@ -10,6 +10,8 @@
 namespace lacuna {
 namespace {
 
+constexpr std::size_t kHead = 60;  // of an extended record
+
 // By point format.
 constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 constexpr std::array<std::size_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};  // by minor version
@@ -37,12 +39,17 @@ std::vector<LasExtraBytes> extra_bytes_of(std::span<const std::byte> data) {
                         .offset = 0};
     if (extra.type != 0 && (extra.options & kHasScale) != 0) extra.scale = value_at<double>(data, 112);
     if (extra.type != 0 && (extra.options & kHasOffset) != 0) extra.offset = value_at<double>(data, 136);
+    std::copy_n(data.begin(), kExtraDescriptor, extra.descriptor.begin());
     all.push_back(std::move(extra));
   }
   return all;
 }
 
 constexpr std::string_view kProjection = "LASF_Projection";
+
+bool is_extra_bytes(std::string_view user, std::uint16_t number) {
+  return user == "LASF_Spec" && number == 4;
+}
 
 // A variable length record. Those of other users and numbers are passed over.
 void read_record(InputFile& in, LasHeader& header) {
@@ -53,9 +60,10 @@ void read_record(InputFile& in, LasHeader& header) {
   const auto number = value_at<std::uint16_t>(head, 18), bytes = value_at<std::uint16_t>(head, 20);
   if (in.position() + bytes > header.points_at)
     in.fail_at_byte(place, "a variable length record goes on beyond the first point");
+  header.records.push_back({user, number, place, kRecordHeader + bytes});
   std::vector<std::byte> data(bytes);
   in.read(data.data(), data.size());
-  if (user == "LASF_Spec" && number == 4) header.extra_bytes = extra_bytes_of(data);
+  if (is_extra_bytes(user, number)) header.extra_bytes = extra_bytes_of(data);
   if (user == kProjection) header.crs.take(number, data);
   if (user == "laszip encoded" && number == 22204) header.laszip = std::move(data);
 }
@@ -63,7 +71,6 @@ void read_record(InputFile& in, LasHeader& header) {
 // Of LAS 1.4, behind the points: `count` records, the first at byte `place`.
 void read_extended_records(const std::filesystem::path& file, std::uint64_t place, std::uint32_t count,
                            LasHeader& header) {
-  constexpr std::size_t kHead = 60;
   constexpr std::uint64_t kLongestText = 1 << 20;
   InputFile in(file, kHead);
   in.skip(std::min(place, in.remaining()));
@@ -75,14 +82,42 @@ void read_extended_records(const std::filesystem::path& file, std::uint64_t plac
     if (bytes > in.remaining())
       in.fail_at_byte(in.position() - kHead, "an extended record of " + std::to_string(bytes) +
                                                  " bytes goes on beyond the end of the file");
-    if (text_at(head, 2, 16) != kProjection || bytes > kLongestText) {
+    const std::string user = text_at(head, 2, 16);
+    header.extended.push_back({user, number, in.position() - kHead, kHead + bytes});
+    const bool is_extra = is_extra_bytes(user, number) && header.extra_bytes.empty();
+    if ((user != kProjection && !is_extra) || bytes > kLongestText) {
       in.skip(bytes);
       continue;
     }
     std::vector<std::byte> data(bytes);
     in.read(data.data(), data.size());
-    header.crs.take(number, data);
+    if (is_extra) {
+      header.extra_bytes = extra_bytes_of(data);
+    } else {
+      header.crs.take(number, data);
+    }
   }
+}
+
+// Waveforms within the file: LAS 1.3 has their record behind the points, and no count of such records.
+void find_waveforms(const std::filesystem::path& file, std::uint64_t place, LasHeader& header) {
+  constexpr std::uint16_t kIsInside = 2;
+  if ((value_at<std::uint16_t>(header.bytes, 6) & kIsInside) == 0 || place == 0) return;
+  const auto found = std::find_if(header.extended.begin(), header.extended.end(),
+                                  [&](const LasRecordPlace& record) { return record.at == place; });
+  if (found != header.extended.end()) {
+    header.waveforms_at = place;
+    return;
+  }
+  InputFile in(file, kHead);
+  if (place > in.remaining() || in.remaining() - place < kHead) return;
+  in.skip(place);
+  std::array<std::byte, kHead> head;
+  in.read(head.data(), head.size());
+  const auto bytes = value_at<std::uint64_t>(head, 20);
+  if (bytes > in.remaining()) return;
+  header.waveforms_at = place;
+  header.extended.push_back({text_at(head, 2, 16), value_at<std::uint16_t>(head, 18), place, kHead + bytes});
 }
 
 void check_points(const InputFile& in, const LasHeader& header) {
@@ -123,6 +158,7 @@ LasHeader read_las_header(InputFile& in) {
   }
   head.resize(header_bytes);
   in.read(head.data() + kHeaderBytes[0], head.size() - kHeaderBytes[0]);
+  header.bytes = head;
 
   // The upper two bits of the format say that LASzip has compressed the points.
   const auto format = value_at<std::uint8_t>(head, 104);
@@ -153,6 +189,7 @@ LasHeader read_las_header(InputFile& in) {
   if (minor == 4)
     read_extended_records(in.file(), value_at<std::uint64_t>(head, 235), value_at<std::uint32_t>(head, 243),
                           header);
+  if (minor >= 3) find_waveforms(in.file(), value_at<std::uint64_t>(head, 227), header);
   in.skip(header.points_at - in.position());
   return header;
 }

@@ -20,6 +20,15 @@ struct LasExtraBytes {
   std::uint8_t type;     // 1 to 10: one value; 11 to 30: two or three of these; 0: bytes without a type
   std::uint8_t options;  // of type 0 the number of bytes, else which of the following count
   double scale, offset;  // value = stored * scale + offset
+  std::array<std::byte, 192> descriptor{};  // as it stands in the record
+};
+
+// Where a variable length record is in its file, of either kind.
+struct LasRecordPlace {
+  std::string user;
+  std::uint16_t number;
+  std::uint64_t at;     // of its own header
+  std::uint64_t bytes;  // with that header
 };
 
 struct LasHeader {
@@ -33,13 +42,17 @@ struct LasHeader {
   std::vector<LasExtraBytes> extra_bytes;
   std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty: none
   LasCrs crs;
+  std::vector<std::byte> bytes;  // the whole header block, as it stands in the file
+  std::vector<LasRecordPlace> records, extended;
+  std::optional<std::uint64_t> waveforms_at;  // of the extended record with waveforms, where they are inside
 };
 
 // Bytes of a point in this format, without extra bytes.
 std::size_t las_point_bytes(int point_format);
 
 // Reads up to `points_at`; `in` is at the file's beginning. Extended records behind the points are read for
-// the coordinate reference system alone. Throws `Error` where the header contradicts itself or the file.
+// the coordinate reference system and for extra bytes alone. Throws `Error` where the header contradicts
+// itself or the file.
 LasHeader read_las_header(InputFile& in);
 
 }  // namespace lacuna

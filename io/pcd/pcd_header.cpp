@@ -1,8 +1,10 @@
 #include "io/pcd/pcd_header.hpp"
 
 #include "io/line_words.hpp"
+#include "io/number.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <optional>
 #include <set>
@@ -63,6 +65,16 @@ void parse_data(Parser& parser, LineWords& words) {
   parser.fail("unknown encoding " + in_quotes(name) + "; allowed are ascii, binary and binary_compressed");
 }
 
+// Nothing depends on the quaternion, so that one which is not complete is that of no turn.
+void parse_direction(Parser& parser, LineWords& words) {
+  std::array<double, 4> quaternion{};
+  std::size_t count = 0;
+  for (std::string_view word; words.next(word) && count < 4; ++count) {
+    if (!parse_number(word, quaternion[count])) return;
+  }
+  if (count == 4) std::copy(quaternion.begin(), quaternion.end(), parser.header.viewpoint.begin() + 3);
+}
+
 // False at the end of the header.
 bool parse_line(Parser& parser, std::string_view line) {
   LineWords words(parser.in, line);
@@ -103,7 +115,8 @@ bool parse_line(Parser& parser, std::string_view line) {
     parse_data(parser, words);
     return false;
   } else if (keyword == "VIEWPOINT") {
-    for (double& coordinate : parser.header.viewpoint) coordinate = words.number<double>(kViewpoint);
+    for (std::size_t i = 0; i < 3; ++i) parser.header.viewpoint[i] = words.number<double>(kViewpoint);
+    parse_direction(parser, words);
   } else {
     parser.fail(
         "unknown keyword " + in_quotes(keyword) +
@@ -187,7 +200,29 @@ PcdHeader read_pcd_header(InputFile& in) {
   }
   require_types(parser);
   parser.header.rows = count_rows(parser);
+  const bool is_image = parser.width && parser.height;
+  parser.header.width = is_image ? *parser.width : parser.header.rows;
+  parser.header.height = is_image ? *parser.height : 1;
   return std::move(parser.header);
+}
+
+std::string print_pcd_header(const PcdHeader& header) {
+  std::string fields, sizes, types, counts, viewpoint;
+  for (const PcdField& field : header.fields) {
+    fields += ' ' + field.name;
+    sizes += ' ' + std::to_string(field.size);
+    types += std::string(" ") + field.type;
+    counts += ' ' + std::to_string(field.count);
+  }
+  for (const double number : header.viewpoint) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    viewpoint += ' ' + std::string(digits.data(), end);
+  }
+  return std::string(kPcdMark) + "VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types +
+         "\nCOUNT" + counts + "\nWIDTH " + std::to_string(header.width) + "\nHEIGHT " +
+         std::to_string(header.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
+         std::to_string(header.rows) + "\nDATA " + pcd_name(header.encoding) + '\n';
 }
 
 }  // namespace lacuna

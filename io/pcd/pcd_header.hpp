@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna {
@@ -29,11 +30,17 @@ struct PcdHeader {
   std::vector<PcdField> fields;  // at least one, with at most 65,536 values together
   std::uint64_t rows = 0;        // as declared: nothing may be allocated by it
   PcdEncoding encoding = PcdEncoding::kAscii;
-  std::array<double, 3> viewpoint{};  // the scanner's position, in the coordinates of the points
+  std::uint64_t width = 0, height = 1;  // of the image that the rows are; their product is `rows`
+  // The scanner's position, in the coordinates of the points, and the quaternion w x y z of its direction.
+  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};
 
   std::size_t row_bytes() const;
   std::size_t padding_bytes() const;  // of them, in fields named "_"
 };
+
+// The header as text up to and with the line DATA, version .7, with kPcdMark.
+std::string print_pcd_header(const PcdHeader& header);
+inline constexpr std::string_view kPcdMark = "# .PCD v0.7 - written by Lacuna\n";
 
 // Reads up to and with the line DATA. Versions .5 to .7; without SIZE, TYPE or COUNT, values are single
 // floats; WIDTH x HEIGHT must equal POINTS where both are given. Throws `Error` with the line.

@@ -1,201 +1,37 @@
 #include "io/pcd/pcd_reader.hpp"
 
-#include "io/line_words.hpp"
-#include "io/pcd/lzf.hpp"
+#include "io/number.hpp"
 #include "io/pcd/pcd_fields.hpp"
-#include "io/pcd/pcd_header.hpp"
+#include "io/pcd/pcd_rows.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cassert>
-#include <cstring>
-#include <utility>
 
 namespace lacuna {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
-constexpr std::size_t kMostColumns = 256;  // of a compressed file: each takes a stream
-
-std::uint32_t read_size(InputFile& in) {
-  std::array<std::byte, 4> bytes;
-  in.read(bytes.data(), bytes.size());
-  std::uint32_t size = 0;
-  for (std::size_t i = 0; i < 4; ++i) size |= std::to_integer<std::uint32_t>(bytes[i]) << 8 * i;
-  return size;
-}
-
 class PcdReader final : public ScanReader {
  public:
   explicit PcdReader(const std::filesystem::path& file)
-      : in_(file), header_(read_pcd_header(in_)), layout_(pcd_layout(in_, header_)), left_(header_.rows) {
-    raw_stride_ = header_.row_bytes();
-    if (header_.encoding == PcdEncoding::kCompressed) {
-      if (header_.rows > 0) open_block();
-    } else {
-      require_size();
-    }
-  }
+      : rows_(file), layout_(pcd_layout(rows_.in(), rows_.header())) {}
 
-  std::string format() const override { return std::string("PCD, ") + pcd_name(header_.encoding); }
+  std::string format() const override { return std::string("PCD, ") + pcd_name(rows_.header().encoding); }
   const RowLayout& layout() const override { return layout_; }
   std::vector<Eigen::Vector3d> no_return_places() const override {
-    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Map(header_.viewpoint.data())};
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Map(rows_.header().viewpoint.data())};
   }
-  std::optional<std::uint64_t> expected_rows() const override { return header_.rows; }
+  std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / std::max(layout_.stride, raw_stride_));
-    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
+    batch.count = rows_.next(raw_, max_rows);
     batch.bytes.resize(batch.count * layout_.stride);
-    if (batch.count == 0) {
-      require_end(in_, padding());
-      return false;
-    }
-    raw_.resize(batch.count * raw_stride_);
-    if (header_.encoding == PcdEncoding::kAscii) {
-      for (std::size_t row = 0; row < batch.count; ++row) read_text_row(raw_.data() + row * raw_stride_);
-    } else {
-      if (header_.encoding == PcdEncoding::kBinary) {
-        in_.read(raw_.data(), raw_.size());
-      } else {
-        read_columns(batch.count);
-      }
-      if constexpr (std::endian::native == std::endian::big) swap_pcd_rows(header_, raw_.data(), batch.count);
-    }
-    convert_pcd_rows(header_, raw_.data(), layout_, batch);
-    left_ -= batch.count;
-    return true;
+    if (batch.count > 0) convert_pcd_rows(rows_.header(), raw_.data(), layout_, batch);
+    return batch.count > 0;
   }
 
  private:
-  // PCL reserves more than the rows or the compressed block need, up to a page, and leaves the rest zero.
-  std::string_view padding() const {
-    using std::string_view_literals::operator""sv;
-    if (header_.encoding == PcdEncoding::kAscii) return kBlanks;
-    return header_.encoding == PcdEncoding::kBinary ? "\0 \t\r\n\v\f"sv : "\0"sv;
-  }
-
-  // The rows of an uncompressed file.
-  void require_size() const {
-    const bool is_text = header_.encoding == PcdEncoding::kAscii;
-    std::uint64_t least = raw_stride_, left = in_.remaining();
-    if (is_text) {
-      // A character and a blank for each value, but the last line may have no end.
-      least = 0;
-      for (const PcdField& field : header_.fields) least += 2 * field.count;
-      ++left;
-    }
-    if (header_.rows > left / least) fail_too_short();
-  }
-
-  [[noreturn]] void fail_too_short() const {
-    in_.fail_at_byte(in_.position() + in_.remaining(), "the file ends here, too early for the " +
-                                                           std::to_string(header_.rows) +
-                                                           " points of its header; it must be complete");
-  }
-
-  // A compressed file: two sizes, then the block.
-  void open_block() {
-    const std::uint64_t place = in_.position();
-    if (in_.remaining() < 8) fail_too_short();
-    block_bytes_ = read_size(in_);
-    unpacked_bytes_ = read_size(in_);
-    if (block_bytes_ > in_.remaining()) fail_too_short();
-    // PCL leaves padding out of the block; other writers may not.
-    const std::uint64_t with_padding = raw_stride_;
-    const std::uint64_t without = raw_stride_ - header_.padding_bytes();
-    has_padding_ = is_product(unpacked_bytes_, header_.rows, with_padding);
-    if (!has_padding_ && !is_product(unpacked_bytes_, header_.rows, without)) {
-      in_.fail_at_byte(place + 4, std::to_string(unpacked_bytes_) + " uncompressed bytes are not " +
-                                      std::to_string(header_.rows) + " points of " + std::to_string(without) +
-                                      " bytes; they must be equal");
-    }
-    if (unpacked_bytes_ > block_bytes_ * kLzfLargestRatio) {
-      in_.fail_at_byte(place, std::to_string(block_bytes_) + " compressed bytes cannot come to the " +
-                                  std::to_string(unpacked_bytes_) + " declared; at most " +
-                                  std::to_string(kLzfLargestRatio) + " times as many are possible");
-    }
-    const auto columns = std::count_if(header_.fields.begin(), header_.fields.end(),
-                                       [](const PcdField& field) { return !field.is_padding(); });
-    if (static_cast<std::size_t>(columns) > kMostColumns) {
-      in_.fail_at_byte(place, std::to_string(columns) + " fields; compressed files may have " +
-                                  std::to_string(kMostColumns));
-    }
-  }
-
-  static bool is_product(std::uint64_t product, std::uint64_t a, std::uint64_t b) {
-    return b == 0 ? product == 0 : product % b == 0 && product / b == a;
-  }
-
-  // Unpacks the whole block once, to find where each column begins.
-  void start_columns() {
-    LzfStream stream(in_.file(), in_.position(), block_bytes_, unpacked_bytes_);
-    for (const PcdField& field : header_.fields) {
-      if (field.is_padding() && !has_padding_) continue;
-      if (!field.is_padding()) columns_.push_back(stream.fork());
-      stream.skip(header_.rows * field.bytes());
-    }
-    stream.require_end();
-    in_.skip(block_bytes_);
-  }
-
-  void read_columns(std::size_t count) {
-    if (columns_.empty()) start_columns();
-    std::size_t offset = 0, column = 0;
-    for (const PcdField& field : header_.fields) {
-      if (!field.is_padding()) {
-        column_bytes_.resize(count * field.bytes());
-        columns_[column++].read(column_bytes_.data(), column_bytes_.size());
-        for (std::size_t row = 0; row < count; ++row) {
-          std::memcpy(raw_.data() + row * raw_stride_ + offset, column_bytes_.data() + row * field.bytes(),
-                      field.bytes());
-        }
-      }
-      offset += field.bytes();
-    }
-  }
-
-  void read_text_row(std::byte* to) {
-    std::string_view line, word;
-    do {
-      const auto next = in_.next_line();
-      if (!next) {
-        in_.fail_at_line(in_.line(), "the file ends here with fewer rows than the " +
-                                         std::to_string(header_.rows) + " points of its header");
-      }
-      line = *next;
-    } while (!LineWords(in_, line).next(word));
-    constexpr const char* kNeeded = "every row must have a value for each field";
-    LineWords words(in_, line);
-    for (const PcdField& field : header_.fields) {
-      for (std::size_t i = 0; i < field.count; ++i, to += field.size) {
-        if (field.is_padding()) {
-          if (!words.next(word)) words.fail(std::string("fewer values than needed; ") + kNeeded);
-          continue;
-        }
-        with_pcd_type(field, [&](auto value) {
-          value = words.number<decltype(value)>(kNeeded);
-          std::memcpy(to, &value, sizeof value);
-        });
-      }
-    }
-    words.require_end(kNeeded);
-  }
-
-  InputFile in_;
-  PcdHeader header_;
+  PcdRows rows_;
   RowLayout layout_;
-  std::uint64_t left_;             // rows not yet read
-  std::size_t raw_stride_ = 0;     // of a row as the header describes it, padding included
-  std::vector<std::byte> raw_;     // rows, in the machine's byte order
-  std::uint64_t block_bytes_ = 0;  // compressed
-  std::uint64_t unpacked_bytes_ = 0;
-  bool has_padding_ = false;        // the block has columns of padding
-  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are asked for
-  std::vector<std::byte> column_bytes_;
+  std::vector<std::byte> raw_;  // rows as the header describes them
 };
 
 }  // namespace

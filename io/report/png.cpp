@@ -5,6 +5,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <png.h>
 
@@ -34,6 +35,11 @@ void write_part(png_structp png, png_bytep data, std::size_t bytes) {
 }
 
 }  // namespace
+
+FileMark picture_mark() {
+  constexpr std::uint64_t kText = 8 + 25 + 8;  // behind the signature, the header and the text's length and type
+  return {std::string_view("Software\0Lacuna", 15), kText};
+}
 
 void write_png(const Picture& picture, OutputFile& out) {
   Sink sink{out, nullptr, {}};

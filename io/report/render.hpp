@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/report/scene.hpp"
-#include "io/results/output_file.hpp"
+#include "io/results/output_set.hpp"
 
 #include <cstddef>
 #include <string_view>
@@ -34,8 +34,8 @@ View find_view(const Scene& scene, std::string_view name, std::size_t width, std
 // point.
 Picture render(const Scene& scene, const View& view, std::size_t width, std::size_t height, bool as_it_came);
 
-// How an own picture begins.
-inline constexpr std::string_view kPictureMark = "\x89PNG";
+// By which an own picture is recognised: its first text, behind the sizes.
+FileMark picture_mark();
 
 // PNG, 8 bits for each colour.
 void write_png(const Picture& picture, OutputFile& out);

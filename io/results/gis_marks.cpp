@@ -32,11 +32,11 @@ bool has_fields(std::string_view head) {
 
 }  // namespace
 
-Mark geopackage_mark() {
+FileMark geopackage_mark() {
   return {"SQLite format 3\0"sv, has_layer};
 }
 
-Mark shapefile_mark() {
+FileMark shapefile_mark() {
   return {"\3"sv, has_fields, ".dbf"};
 }
 

@@ -11,9 +11,9 @@ inline constexpr std::string_view kGeoJsonMark =
     "{\n\"type\": \"FeatureCollection\",\n\"name\": \"lacuna_loops\",\n";
 
 // An SQLite file that names the layer and its description in its first pages.
-Mark geopackage_mark();
+FileMark geopackage_mark();
 
 // The .dbf has the fields of the loops' measures. The mark of the .shp, .shx, .prj and .cpg, too.
-Mark shapefile_mark();
+FileMark shapefile_mark();
 
 }  // namespace lacuna

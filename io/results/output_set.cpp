@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;  // of a mark in the first line
+
 [[noreturn]] void fail(const fs::path& name, const std::string& what, int reason) {
   throw Error(name.string() + ": " + what + ": " + std::strerror(reason));
 }
@@ -68,21 +70,24 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_own_file(const fs::path& file, const Mark& mark) {
+bool is_own_file(const fs::path& file, const FileMark& mark) {
   const auto found = find(file);
   if (!found || !S_ISREG(found->st_mode)) return false;  // a pipe or a device is not even opened
   if (!mark.sister.empty())
-    return is_own_file(fs::path(file).replace_extension(mark.sister), Mark(mark.start, mark.fits));
+    return is_own_file(fs::path(file).replace_extension(mark.sister), FileMark(mark.text, mark.fits));
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
-  std::string begin(mark.fits ? Mark::kReach : mark.start.size(), '\0');
-  const ssize_t length = ::pread(descriptor, begin.data(), begin.size(), 0);
+  const bool is_in_line = mark.offset == FileMark::kInFirstLine;
+  std::string begin(is_in_line ? kLongestLine : mark.fits ? FileMark::kReach : mark.text.size(), '\0');
+  const ssize_t length =
+      ::pread(descriptor, begin.data(), begin.size(), is_in_line ? 0 : static_cast<off_t>(mark.offset));
   ::close(descriptor);
-  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
-  return begin.starts_with(mark.start) && (!mark.fits || mark.fits(begin));
+  begin.resize(length < 0 ? 0 : static_cast<std::size_t>(length));
+  if (is_in_line) return std::string_view(begin).substr(0, begin.find('\n')).find(mark.text) != std::string_view::npos;
+  return begin.starts_with(mark.text) && (!mark.fits || mark.fits(begin));
 }
 
-void check_output(const fs::path& file, const Mark& mark, Overwrite overwrite) {
+void check_output(const fs::path& file, const FileMark& mark, Overwrite overwrite) {
   if (!file.has_filename()) throw Error("\"" + file.string() + "\": a file name is needed");
   const auto found = find(file);
   if (!found) return;
@@ -97,14 +102,14 @@ void check_output(const fs::path& file, const Mark& mark, Overwrite overwrite) {
   }
 }
 
-OutputFile& OutputSet::add(const fs::path& file, const Mark& mark, Writer writer) {
+OutputFile& OutputSet::add(const fs::path& file, const FileMark& mark, Writer writer) {
   const auto found = find(file);
   check_output(file, mark, overwrite_);
   Member& member = join(file, found);
   return member.content.emplace(member.name, member.staged, writer);
 }
 
-void OutputSet::drop(const fs::path& file, const Mark& mark) {
+void OutputSet::drop(const fs::path& file, const FileMark& mark) {
   const auto found = find(file);
   if (is_own_file(file, mark)) join(file, found);
 }

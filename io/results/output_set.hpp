@@ -1,9 +1,8 @@
 // Files that appear under their names all together, or not at all.
 //
-// 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file with the mark
-// that the
-//    same command gives it. With Overwrite::kAny it may be the name of any regular file. Links,
-//    folders, pipes and devices are always refused.
+// 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that has the mark
+//    of the same command. With Overwrite::kAny it may be the name of any regular file. Links, folders, pipes
+//    and devices are always refused.
 // 2. The content goes to a new file in a private folder beside the name, `.lacuna-XXXXXX`. Other names in the
 // output
 //    folder are neither used nor looked at.
@@ -22,6 +21,7 @@
 #include "io/results/output_file.hpp"
 #include "io/temporary_folder.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <list>
 #include <map>
@@ -35,25 +35,29 @@ namespace lacuna {
 
 enum class Overwrite { kOwn, kAny };
 
-// How a file is recognised that an earlier run of the command wrote.
-struct Mark {
+// What shows that a file was written by an earlier run of the command: a text at a byte of it.
+struct FileMark {
+  FileMark(std::string_view text, std::uint64_t offset = 0) : text(text), offset(offset) {}
+  FileMark(const char* text) : text(text) {}
+  FileMark(std::string_view text, bool (*fits)(std::string_view), std::string_view sister = {})
+      : text(text), fits(fits), sister(sister) {}
+
+  // Anywhere in the first line, which ends within 1 MiB.
+  static constexpr std::uint64_t kInFirstLine = UINT64_MAX;
   // First bytes of the file that `fits` has at most.
   static constexpr std::size_t kReach = 128 * 1024;
 
-  std::string_view start;                                // the file begins with it
-  bool (*fits)(std::string_view first_bytes) = nullptr;  // and these fit, where more is to check
+  std::string_view text;
+  std::uint64_t offset = 0;
+  bool (*fits)(std::string_view first_bytes) = nullptr;  // and these fit, where more is to be checked
   std::string_view sister;  // not this file has the mark, but that of this extension
-
-  Mark(std::string_view start_of_file) : start(start_of_file) {}
-  Mark(std::string_view start_of_file, bool (*also_fits)(std::string_view), std::string_view of_sister = {})
-      : start(start_of_file), fits(also_fits), sister(of_sister) {}
 };
 
-// Whether the command that asks wrote `file`.
-bool is_own_file(const std::filesystem::path& file, const Mark& mark);
+// Whether `file` is a regular file with the mark.
+bool is_own_file(const std::filesystem::path& file, const FileMark& mark);
 
 // Throws `Error` if a file of this name may not be written. Cheap: a program checks before the work.
-void check_output(const std::filesystem::path& file, const Mark& mark, Overwrite overwrite);
+void check_output(const std::filesystem::path& file, const FileMark& mark, Overwrite overwrite);
 
 class OutputSet {
  public:
@@ -62,10 +66,10 @@ class OutputSet {
   // Checks the name and opens the file. The reference is valid as long as the set. A library must make its
   // file at the OutputFile's place before commit, and have closed it; where it makes none, the file that has
   // the name goes.
-  OutputFile& add(const std::filesystem::path& file, const Mark& mark, Writer writer = Writer::kThis);
+  OutputFile& add(const std::filesystem::path& file, const FileMark& mark, Writer writer = Writer::kThis);
 
   // An own file of this name, if there is one, goes with commit; any other stays.
-  void drop(const std::filesystem::path& file, const Mark& mark);
+  void drop(const std::filesystem::path& file, const FileMark& mark);
 
   // All or none. Throws `Error`.
   void commit();

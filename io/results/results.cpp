@@ -2,12 +2,14 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
+#include "io/pcd/pcd_header.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/loops_dxf.hpp"
 #include "io/results/loops_obj.hpp"
 #include "io/results/loops_vtp.hpp"
+#include "io/results/points.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -19,7 +21,7 @@ namespace {
 
 struct ResultFile {
   std::string_view name;
-  Mark mark;
+  FileMark mark;
   void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
   bool (*is_wanted)(const Config&);
   Writer writer = Writer::kThis;
@@ -33,6 +35,11 @@ bool always(C) {
 }
 bool never(C) {
   return false;
+}
+
+template <PointsFormat format>
+bool has_points(C config) {
+  return config.output.points && config.output.points_format == format;
 }
 
 // The parts of a Shapefile that GDAL makes together with its .shp.
@@ -50,8 +57,16 @@ const std::vector<ResultFile>& all_results() {
   static const std::vector<ResultFile> results = {
       {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }, always},
       {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }, always},
-      {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points(d, s, c.output, out); },
-       [](C c) { return c.output.points; }},
+      {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points_ply(d, s, c.output, out); },
+       has_points<PointsFormat::kPly>},
+      {"points.las", points_las_mark(),
+       [](D d, S s, C c, OutputFile& out) { write_points_las(d, s, c.output, out); },
+       has_points<PointsFormat::kLas>},
+      {"points.pcd", kPcdMark, [](D d, S s, C c, OutputFile& out) { write_points_pcd(d, s, c.output, out); },
+       has_points<PointsFormat::kPcd>},
+      {"points.csv", points_csv_mark(),
+       [](D d, S s, C c, OutputFile& out) { write_points_csv(d, s, c.output, out); },
+       has_points<PointsFormat::kCsv>},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.output.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
@@ -82,6 +97,13 @@ const std::vector<ResultFile>& all_results() {
   return results;
 }
 
+// With the format of the annotated scan that `input` stands for.
+Config with_points_format(Config config, const FileScan& scan) {
+  config.output.points_format = points_format(scan, config.output);
+  return config;
+}
+
+// The format is a chosen one here and below, not `input`.
 std::vector<ResultFile> results_of(const Config& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
@@ -108,21 +130,25 @@ void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> result_files(const FileScan& scan, const Config& config,
+                                                const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const ResultFile& result : results_of(config)) files.push_back(folder / result.name);
+  for (const ResultFile& result : results_of(with_points_format(config, scan)))
+    files.push_back(folder / result.name);
   return files;
 }
 
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
+  const Config chosen = with_points_format(config, scan);
+  if (config.output.points) check_points(scan, config.output);
   if (needs_gis_library(config)) check_gis_library();
-  for (const ResultFile& result : results_of(config)) {
+  for (const ResultFile& result : results_of(chosen)) {
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
   }
   if (config.output.report) check_output(folder / "report.html", kReportMark, overwrite);
-  for (const ResultFile& result : unwanted_results(config)) {
+  for (const ResultFile& result : unwanted_results(chosen)) {
     if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
   }
 }
@@ -135,11 +161,12 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   if (error) throw Error(folder.string() + ": the folder cannot be made: " + error.message());
 
   OutputSet set(overwrite);
-  const std::vector<ResultFile> results = results_of(config);
+  const Config chosen = with_points_format(config, scan);
+  const std::vector<ResultFile> results = results_of(chosen);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results)
     files.push_back(&set.add(folder / result.name, result.mark, result.writer));
-  for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
+  for (const ResultFile& result : unwanted_results(chosen)) set.drop(folder / result.name, result.mark);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(results.size(),
                  [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });

@@ -14,12 +14,13 @@
 namespace lacuna {
 
 // The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and those
-// that the config asks for.
-std::vector<std::filesystem::path> result_files(const Config& config, const std::filesystem::path& folder);
+// that the config asks for; the annotated scan in its format (io/results/points.hpp).
+std::vector<std::filesystem::path> result_files(const FileScan& scan, const Config& config,
+                                                const std::filesystem::path& folder);
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
-// `detect`, with Overwrite::kAny any regular file, but never an input. write_results checks it, too; a
-// program checks before the work.
+// `detect`, with Overwrite::kAny any regular file, but never an input. Throws also if the annotated scan
+// cannot be written in its format. write_results checks it, too; a program checks before the work.
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite);
 
@@ -65,21 +66,12 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
 
-// All rows of the input, in order: its scalar properties as they came, then the results. Files are
-// joined by property name: in double where types differ, NaN or 0 in the rows of a file that has none. A
-// property of the input with the name of a result is left out. Reads every file once more.
-void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
-                  OutputFile& out);
-
 // The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the
 // coordinates of the scan. The same grid gives the same bytes. Throws `Error`.
 void write_probability_grid(const Detection& detection, OutputFile& out);
 
 // How a probability.vdb begins.
 std::string_view vdb_mark();
-
-// Bytes of a row of points.ply.
-std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config);
 
 // For the writers: x, y and z in the scan's precision, and the id. PLY has no integer of 64 bits: ids
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -208,7 +209,7 @@ TEST_CASE("a file that the program did not write is refused before the work, and
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   fs::create_directory(scratch / "out");
-  const std::vector<std::string> detect = {"detect", scan, "--out", (scratch / "out").string(), "--points"};
+  const std::vector<std::string> detect = {"detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format", "ply"};
   const std::vector<std::string> synth = {"synth", "scan", (scratch / "out/points.ply").string(), "--points",
                                           "100"};
   const std::string mine = scratch.write("out/points.ply", "x y z\n1 2 3\n");
@@ -239,7 +240,7 @@ TEST_CASE("files, links, folders and pipes of like names are not touched, by a s
   fs::create_symlink(mine, out / "loops.ply.partial");
   REQUIRE(mkfifo((out / "points.ply.partial").c_str(), 0600) == 0);
   fs::create_directories(out / "holes.json.partial" / "mine");
-  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--quiet"};
+  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--quiet"};
   const auto is_untouched = [&] {
     return test::read_file(mine) == "precious" &&
            test::read_file(out / "boundary.ply.partial") == "precious" &&
@@ -268,7 +269,7 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(300));
   const fs::path out = scratch / "out";
-  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--quiet"};
+  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--quiet"};
   REQUIRE(run_program(arguments).exit_code == 0);
   std::string before = test::read_file(out / "holes.json");
   const auto is_writing = [&] {
@@ -331,7 +332,7 @@ TEST_CASE("a signal ends the run and removes the workspace") {
   }
 }
 
-TEST_CASE("info tells the size of points.ply, whatever the files hold") {
+TEST_CASE("info tells the size of the annotated scan, whatever the files hold") {
   const ScratchFolder scratch;
   const std::string text = scratch.write("scan.txt", sheet(20));
   const std::string ply = scratch.write(
@@ -340,15 +341,27 @@ TEST_CASE("info tells the size of points.ply, whatever the files hold") {
       "property float nx\nproperty float ny\nproperty float nz\nproperty int scalar_loop\nend_header\n"
       "3 4 0 0 0 1 7\n");
   for (const std::vector<std::string>& scans : {std::vector<std::string>{text}, {ply}, {text, ply}}) {
-    std::vector<std::string> arguments = {"info", "--points", "--normals", "--json"};
-    arguments.insert(arguments.end(), scans.begin(), scans.end());
-    const auto told = nlohmann::json::parse(run_program(arguments).out);
-    arguments = {"detect", "--points", "--normals", "--quiet", "--out", (scratch / "out").string()};
-    arguments.insert(arguments.end(), scans.begin(), scans.end());
-    REQUIRE(run_program(arguments).exit_code == 0);
-    const std::string points = test::read_file(scratch / "out" / "points.ply");
-    const std::size_t header = points.find("end_header\n") + 11;
-    CHECK(told.at("points_ply_bytes") == points.size() - header);
+    for (const std::string format : {"ply", "pcd", "las"}) {
+      std::vector<std::string> arguments = {"info", "--points", "--normals", "--json", "--points-format",
+                                            format};
+      arguments.insert(arguments.end(), scans.begin(), scans.end());
+      const auto told = nlohmann::json::parse(run_program(arguments).out);
+      arguments[0] = "detect";
+      arguments[3] = "--quiet";
+      arguments.insert(arguments.end(), {"--out", (scratch / "out").string()});
+      REQUIRE(run_program(arguments).exit_code == 0);
+      REQUIRE(told.at("points_file") == "points." + format);
+      const std::string points = test::read_file(scratch / "out" / ("points." + format));
+      std::size_t header = 0;
+      if (format == "ply") header = points.find("end_header\n") + 11;
+      if (format == "pcd") header = points.find("DATA binary\n") + 12;
+      if (format == "las") {
+        std::uint32_t points_at = 0;
+        std::memcpy(&points_at, &points[96], sizeof points_at);
+        header = points_at;
+      }
+      CHECK(told.at("points_bytes") == points.size() - header);
+    }
   }
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("messages never go into a file, whichever standard descriptors are clo
   const std::string scan = scratch.write("scan.xyz", sheet(150));
   const auto detect = [&](const std::string& out, const std::string& redirections) {
     return run_in_shell("",
-                        {"detect", scan, "--points", "--out", (scratch / out).string(), "--progress", "plain",
+                        {"detect", scan, "--points", "--points-format", "ply", "--out", (scratch / out).string(), "--progress", "plain",
                          "--tile-points", "500"},
                         redirections);
   };

@@ -1,6 +1,7 @@
 #include "io/results/results.hpp"
 
 #include "tests/io/io_support.hpp"
+#include "tests/io/results/fake_detection.hpp"
 #include "tests/support/file_size_limit.hpp"
 
 #include <cmath>
@@ -14,72 +15,6 @@ namespace {
 using Catch::Matchers::Contains;
 using Rows = std::vector<std::vector<double>>;
 using Names = std::vector<std::string>;
-
-// A run that has found what the test says.
-class FakeDetection final : public Detection {
- public:
-  Summary numbers;
-  std::vector<ReportedLoop> found;
-  std::vector<BoundaryPoint> boundary;
-  std::vector<PointResult> results;
-  std::size_t block = 2;
-
-  FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
-    ReportedLoop loop;
-    for (const std::uint64_t id : ids) {
-      loop.points.push_back(
-          {.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}, .probability = 0.25f});
-    }
-    loop.measures = {
-        .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
-    found.push_back(loop);
-    measures_.push_back(loop.measures);
-    return *this;
-  }
-
-  // As many results as the input has rows, each with its id as probability.
-  FakeDetection& with_results(std::size_t count) {
-    numbers.counts.points = count;
-    for (std::size_t id = 0; id < count; ++id) {
-      results.push_back({.probability = static_cast<float>(id),
-                         .criteria = {0.25f, 0.5f, 0.75f},
-                         .boundary = 1,
-                         .coherent = 0,
-                         .loop = -1,
-                         .normal = {0, 0, 1}});
-    }
-    return *this;
-  }
-
-  const Summary& summary() const override { return numbers; }
-  const std::vector<LoopMeasures>& loops() const override { return measures_; }
-  ReportedLoop read_loop(std::size_t index) const override { return found.at(index); }
-  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
-    for (const BoundaryPoint& point : boundary) visit(point);
-  }
-  void for_each_result_block(
-      const std::function<void(PointId, std::span<const PointResult>)>& visit) const override {
-    for (std::size_t first = 0; first < results.size(); first += block) {
-      visit(PointId{first}, std::span(results).subspan(first, std::min(block, results.size() - first)));
-    }
-  }
-
-  std::uint64_t sampled_points() const override { return sample.size(); }
-  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
-    for (const SampledPoint& point : sample) visit(point);
-  }
-  ProbabilityLattice probability_lattice() const override { return lattice; }
-  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
-    for (const ProbabilityVoxel& voxel : voxels) visit(voxel);
-  }
-
-  std::vector<SampledPoint> sample;
-  ProbabilityLattice lattice;
-  std::vector<ProbabilityVoxel> voxels;
-
- private:
-  std::vector<LoopMeasures> measures_;
-};
 
 std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
   return std::string("ply\nformat ascii 1.0\nelement vertex ") + std::to_string(count) + "\n" + properties +
@@ -210,12 +145,12 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
-                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "nx", "ny",
-                             "nz"});
+                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "quality",
+                             "nx", "ny", "nz"});
   REQUIRE(table.rows.size() == 3);
   CHECK(table.rows[0][1] == 0.1f);
   CHECK(std::isnan(table.rows[0][2]));
-  CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 0, 0, 1});
+  CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 2, 0, 0, 1});
   const auto reader = open_scan(folder / "points.ply", {});
   CHECK(reader->layout().find("red")->type == Scalar::kUint8);
   CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
@@ -241,8 +176,8 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
     REQUIRE(table.rows.size() == 5);
     CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
           Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
-    CHECK(table.names.size() == 6 + 7);
-    CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1});
+    CHECK(table.names.size() == 6 + 8);
+    CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1, 0});
     CHECK(table.rows[3][0] == 0.1);
     CHECK(table.rows[3][3] == 300);
     CHECK(std::isnan(table.rows[3][4]));
@@ -260,7 +195,7 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   config.output = {.points = true, .normals = true};
   write_results(FakeDetection().with_results(1), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
-  CHECK(table.names.size() == 6 + 7);
+  CHECK(table.names.size() == 6 + 8);
   CHECK(table.rows.at(0)[3] == 1);
 }
 
@@ -391,14 +326,14 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
     const auto bytes = [&, &detection = *detection] {
       write_results(detection, scan, config, folder.path());
       std::uintmax_t most = 0;
-      for (const auto& file : result_files(config, folder.path())) {
+      for (const auto& file : result_files(scan, config, folder.path())) {
         most = std::max(most, std::filesystem::file_size(file));
         if (file.filename() != name)
           CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / name));
       }
       return most;
     }();
-    for (const auto& file : result_files(config, folder.path())) std::filesystem::remove(file);
+    for (const auto& file : result_files(scan, config, folder.path())) std::filesystem::remove(file);
     CHECK(error_of([&, &detection = *detection] {
             const FileSizeLimit full(bytes - 1);
             write_results(detection, scan, config, folder.path());

@@ -1,0 +1,138 @@
+#include "io/las/las_extra.hpp"
+
+#include "io/little_endian.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <span>
+
+namespace lacuna {
+namespace {
+
+constexpr std::array<LasExtraType, 11> kTypes = {{{0, Scalar::kUint8},
+                                                  {1, Scalar::kUint8},
+                                                  {1, Scalar::kInt8},
+                                                  {2, Scalar::kUint16},
+                                                  {2, Scalar::kInt16},
+                                                  {4, Scalar::kUint32},
+                                                  {4, Scalar::kInt32},
+                                                  {8, Scalar::kFloat64},
+                                                  {8, Scalar::kFloat64},
+                                                  {4, Scalar::kFloat32},
+                                                  {8, Scalar::kFloat64}}};
+constexpr std::uint8_t kUint64 = 7, kInt64 = 8, kFloat = 9, kDouble = 10, kLastType = 30;
+constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kNoDataAt = 40,
+                      kDescriptionAt = 160;
+constexpr std::uint8_t kHasNoData = 1;
+
+std::uint8_t type_of(Scalar type) {
+  switch (type) {
+    case Scalar::kUint8:
+      return 1;
+    case Scalar::kInt8:
+      return 2;
+    case Scalar::kUint16:
+      return 3;
+    case Scalar::kInt16:
+      return 4;
+    case Scalar::kUint32:
+      return 5;
+    case Scalar::kInt32:
+      return 6;
+    case Scalar::kFloat32:
+      return kFloat;
+    case Scalar::kFloat64:
+      break;
+  }
+  return kDouble;
+}
+
+void put_text(LasExtraBytes& extra, std::size_t at, std::string_view text) {
+  std::fill_n(extra.descriptor.begin() + static_cast<std::ptrdiff_t>(at), kText, std::byte{0});
+  std::memcpy(&extra.descriptor[at], text.data(), std::min(text.size(), kText));
+}
+
+// Of one value, for types of several.
+std::uint8_t base_type(const LasExtraBytes& extra) {
+  return static_cast<std::uint8_t>((extra.type - 1) % 10 + 1);
+}
+
+}  // namespace
+
+const LasExtraType& las_extra_type(std::uint8_t type) {
+  return kTypes.at(type);
+}
+
+double load_las_value(std::uint8_t type, const std::byte* from) {
+  if (type == kUint64) return static_cast<double>(load<std::uint64_t>(from));
+  if (type == kInt64) return static_cast<double>(load<std::int64_t>(from));
+  return with_type(kTypes[type].kept,
+                   [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
+}
+
+std::size_t las_extra_size(const LasExtraBytes& extra) {
+  if (extra.type == 0) return extra.options;
+  if (extra.type > kLastType) return 0;
+  return kTypes[base_type(extra)].bytes * ((extra.type - 1u) / 10 + 1);
+}
+
+std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra) {
+  std::vector<std::byte> bytes(las_extra_size(extra));
+  if (extra.type == 0) return bytes;
+  const std::uint8_t type = base_type(extra);
+  const std::size_t size = kTypes[type].bytes;
+  for (std::size_t at = 0, value = 0; at < bytes.size(); at += size, ++value) {
+    if (type == kFloat) store(&bytes[at], std::numeric_limits<float>::quiet_NaN());
+    if (type == kDouble) store(&bytes[at], std::numeric_limits<double>::quiet_NaN());
+    if (type < kFloat && (extra.options & kHasNoData) != 0)
+      std::memcpy(&bytes[at], &extra.descriptor[kNoDataAt + 8 * value], size);  // stored in eight bytes
+  }
+  return bytes;
+}
+
+LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description) {
+  LasExtraBytes extra{.name = {}, .type = type_of(type), .options = 0, .scale = 1, .offset = 0};
+  extra.descriptor[kTypeAt] = static_cast<std::byte>(extra.type);
+  rename(extra, name);
+  put_text(extra, kDescriptionAt, description);
+  return extra;
+}
+
+LasExtraBytes las_extra_without_type(std::size_t bytes) {
+  LasExtraBytes extra{
+      .name = {}, .type = 0, .options = static_cast<std::uint8_t>(bytes), .scale = 1, .offset = 0};
+  extra.descriptor[kOptionsAt] = static_cast<std::byte>(bytes);
+  rename(extra, bytes == 1 ? "extra_0" : "extra");
+  return extra;
+}
+
+void rename(LasExtraBytes& extra, std::string_view name) {
+  extra.name = name.substr(0, kText);
+  put_text(extra, kNameAt, extra.name);
+}
+
+bool is_lacuna_extra(const LasExtraBytes& extra) {
+  const auto text = std::as_bytes(std::span(kLacunaDescription));
+  return std::equal(text.begin(), text.end(), extra.descriptor.begin() + kDescriptionAt);
+}
+
+std::vector<LasExtraBytes> las_extra_of_points(const LasHeader& header) {
+  constexpr std::size_t kMostWithoutType = 255;
+  std::vector<LasExtraBytes> all;
+  std::size_t left = header.record_bytes - las_point_bytes(header.point_format);
+  for (const LasExtraBytes& extra : header.extra_bytes) {
+    const std::size_t bytes = las_extra_size(extra);
+    if (bytes == 0) continue;
+    if (bytes > left) break;
+    all.push_back(extra);
+    left -= bytes;
+  }
+  for (; left > 0; left -= std::min(left, kMostWithoutType))
+    all.push_back(las_extra_without_type(std::min(left, kMostWithoutType)));
+  return all;
+}
+
+}  // namespace lacuna

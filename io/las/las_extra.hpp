@@ -1,0 +1,45 @@
+// Extra bytes: values of points that are no fields of the point format (LAS 1.4 R15, table 24).
+#pragma once
+
+#include "io/las/las_header.hpp"
+#include "io/scan_reader.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna {
+
+// Types 1 to 10: the bytes of a value and the scalar that it is kept as.
+struct LasExtraType {
+  std::size_t bytes;
+  Scalar kept;
+};
+const LasExtraType& las_extra_type(std::uint8_t type);
+
+// A stored value of type 1 to 10, without scale and offset.
+double load_las_value(std::uint8_t type, const std::byte* from);
+
+// Bytes in a point: of one, two or three values, or without a type. 0: a type that is not known.
+std::size_t las_extra_size(const LasExtraBytes& extra);
+
+// What stands in the points of a file that does not have them: NaN for floats, else the "no data" value of
+// the descriptor, else 0.
+std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra);
+
+// One value for each point. Names and descriptions are cut to 32 bytes.
+LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description);
+// 1 to 255 bytes that nothing describes.
+LasExtraBytes las_extra_without_type(std::size_t bytes);
+void rename(LasExtraBytes& extra, std::string_view name);
+
+// How the descriptions of a run's results begin, so that the next run replaces them.
+inline constexpr std::string_view kLacunaDescription = "Lacuna: ";
+bool is_lacuna_extra(const LasExtraBytes& extra);
+
+// The extra bytes of each point of a file, in order, with those that its header does not describe.
+std::vector<LasExtraBytes> las_extra_of_points(const LasHeader& header);
+
+}  // namespace lacuna

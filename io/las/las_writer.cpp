@@ -1,0 +1,248 @@
+#include "io/las/las_writer.hpp"
+
+#include "io/input_file.hpp"
+#include "io/little_endian.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 375, kRecordHead = 54, kExtendedHead = 60, kMostRecordData = 65535;
+constexpr std::string_view kProjection = "LASF_Projection", kSpecification = "LASF_Spec";
+constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112, kGeoKeys = 34735;
+constexpr std::uint16_t kTextBit = 16;  // of the global encoding: the system is well-known text
+
+template <class T>
+void put_at(std::string& bytes, std::size_t offset, T value) {
+  store(reinterpret_cast<std::byte*>(&bytes[offset]), value);
+}
+
+template <class T>
+T value_at(const std::string& bytes, std::size_t offset) {
+  return load<T>(reinterpret_cast<const std::byte*>(&bytes[offset]));
+}
+
+void put_text(std::string& bytes, std::size_t offset, std::size_t length, std::string_view text) {
+  text = text.substr(0, length);
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), length, '\0');
+  std::copy(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
+// The head of a record, of either kind.
+std::string record_head(bool is_extended, std::string_view user, std::uint16_t number, std::uint64_t bytes,
+                        std::string_view description) {
+  std::string head(is_extended ? kExtendedHead : kRecordHead, '\0');
+  put_text(head, 2, 16, user);
+  put_at(head, 18, number);
+  if (is_extended) {
+    put_at(head, 20, bytes);
+  } else {
+    put_at(head, 20, static_cast<std::uint16_t>(bytes));
+  }
+  put_text(head, is_extended ? 28 : 22, 32, description);
+  return head;
+}
+
+bool goes_over(const LasRecordPlace& record, const LasOrigin& origin) {
+  if (record.user == "laszip encoded" || record.user == "copc") return false;
+  if (record.user == kProjection && !origin.has_crs) return false;
+  return record.user != kSpecification || record.number != kExtraBytes;
+}
+
+std::uint64_t copy_bytes(const std::filesystem::path& file, const LasRecordPlace& record, OutputFile& out) {
+  constexpr std::size_t kBuffer = std::size_t{1} << 16;
+  InputFile in(file, kBuffer);
+  in.skip(std::min(record.at, in.remaining()));
+  std::vector<std::byte> bytes(kBuffer);
+  for (std::uint64_t left = record.bytes; left > 0;) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, kBuffer));
+    in.read(bytes.data(), count);
+    out.write(std::span(bytes).first(count));
+    left -= count;
+  }
+  return record.bytes;
+}
+
+// "EPSG:N" or "EPSG:N+M" as a directory of GeoTIFF keys (GeoTIFF 1.1, 7.1); empty: no such code.
+std::string geo_keys(std::string_view crs) {
+  crs.remove_prefix(std::min<std::size_t>(5, crs.size()));
+  std::uint16_t horizontal = 0, vertical = 0;
+  const char* const end = crs.data() + crs.size();
+  const auto [stop, status] = std::from_chars(crs.data(), end, horizontal);
+  if (status != std::errc{}) return {};
+  if (stop != end && *stop == '+') std::from_chars(stop + 1, end, vertical);
+  const bool is_geographic = horizontal >= 4000 && horizontal < 5000;
+  struct Key {
+    std::uint16_t key, place, count, value;
+  };
+  std::vector<Key> keys = {{1024, 0, 1, static_cast<std::uint16_t>(is_geographic ? 2 : 1)},
+                           {static_cast<std::uint16_t>(is_geographic ? 2048 : 3072), 0, 1, horizontal}};
+  if (vertical != 0) keys.push_back({4096, 0, 1, vertical});
+  std::string data;
+  const auto add = [&](std::uint16_t value) {
+    data.resize(data.size() + sizeof value);
+    put_at(data, data.size() - sizeof value, value);
+  };
+  for (const std::uint16_t value : {1, 1, 0, static_cast<int>(keys.size())}) add(value);
+  for (const Key& key : keys) {
+    for (const std::uint16_t value : {key.key, key.place, key.count, key.value}) add(value);
+  }
+  return data;
+}
+
+// The header of the origin as LAS 1.4 has it.
+std::string header_of(const std::optional<LasOrigin>& origin, const LasForm& form, std::string_view crs) {
+  std::string header(kHeaderBytes, '\0');
+  if (origin) {
+    constexpr std::array<std::size_t, 5> kBytes = {227, 227, 227, 235, 375};
+    const LasHeader& from = origin->header;
+    const std::size_t bytes = kBytes.at(static_cast<std::size_t>(from.minor));
+    std::memcpy(header.data(), from.bytes.data(), bytes);
+    // Reserved before these versions.
+    if (from.minor < 1) put_at<std::uint16_t>(header, 4, 0);
+    if (from.minor < 2) put_at<std::uint16_t>(header, 6, 0);
+    header.append(reinterpret_cast<const char*>(from.bytes.data()) + bytes, from.bytes.size() - bytes);
+  } else {
+    put_text(header, 0, 4, "LASF");
+    put_text(header, 26, 32, "OTHER");
+    const bool has_code = crs.starts_with("EPSG:");
+    if (!has_code) put_at(header, 6, kTextBit);  // asked for by formats 6 to 10, with a text or without
+  }
+  put_at<std::uint8_t>(header, 24, 1);
+  put_at<std::uint8_t>(header, 25, 4);
+  put_text(header, kLasSoftwareAt, 32, std::string(kLasSoftware) + LACUNA_VERSION);
+  put_at(header, 94, static_cast<std::uint16_t>(header.size()));
+  put_at(header, 104, static_cast<std::uint8_t>(form.point_format));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put_at(header, 131 + 8 * axis, form.scale[axis]);
+    put_at(header, 155 + 8 * axis, form.offset[axis]);
+  }
+  return header;
+}
+
+}  // namespace
+
+LasWriter::LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraBytes> results,
+                     std::optional<LasOrigin> origin, std::string_view crs)
+    : out_(out), form_(std::move(form)), origin_(std::move(origin)), record_bytes_(form_.record_bytes) {
+  min_.fill(std::numeric_limits<std::int32_t>::max());
+  max_.fill(std::numeric_limits<std::int32_t>::min());
+  std::vector<LasExtraBytes> extra;
+  for (const LasExtraField& field : form_.extra) extra.push_back(field.what);
+  for (const LasExtraBytes& result : results) {
+    extra.push_back(result);
+    record_bytes_ += las_extra_size(result);
+  }
+  header_ = header_of(origin_, form_, crs);
+  put_at(header_, 105, static_cast<std::uint16_t>(record_bytes_));
+  out_.write(header_);
+  written_ = header_.size();
+  write_records(extra, crs);
+  put_at(header_, 96, static_cast<std::uint32_t>(written_));
+  put_at(header_, 100, records_);
+}
+
+void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs) {
+  const auto write = [&](std::string_view user, std::uint16_t number, std::string_view data,
+                         std::string_view description) {
+    out_.write(record_head(false, user, number, data.size(), description));
+    out_.write(data);
+    written_ += kRecordHead + data.size();
+    ++records_;
+  };
+  if (origin_) {
+    for (const LasRecordPlace& record : origin_->header.records) {
+      if (!goes_over(record, *origin_)) continue;
+      written_ += copy_bytes(origin_->file, record, out_);
+      ++records_;
+    }
+  } else if (crs.starts_with("EPSG:")) {
+    if (const std::string keys = geo_keys(crs); !keys.empty())
+      write(kProjection, kGeoKeys, keys, "GeoTIFF GeoKeyDirectoryTag");
+  } else if (!crs.empty()) {
+    const std::string text = std::string(crs) + '\0';
+    if (text.size() <= kMostRecordData) {
+      write(kProjection, kWellKnownText, text, "OGC coordinate system WKT");
+    } else {
+      long_text_ = text;
+    }
+  }
+  std::string descriptors;
+  for (const LasExtraBytes& one : extra)
+    descriptors.append(reinterpret_cast<const char*>(one.descriptor.data()), one.descriptor.size());
+  if (!extra.empty()) write(kSpecification, kExtraBytes, descriptors, "Extra Bytes Record");
+}
+
+void LasWriter::put(std::span<const std::byte> records) {
+  out_.write(records);
+  points_ += records.size() / record_bytes_;
+  written_ += records.size();
+  if (origin_ && origin_->has_counts) return;
+  const unsigned mask = is_extended_format(form_.point_format) ? 15 : 7;
+  for (const std::byte* at = records.data(); at != records.data() + records.size(); at += record_bytes_) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto value = load<std::int32_t>(at + 4 * axis);
+      min_[axis] = std::min(min_[axis], value);
+      max_[axis] = std::max(max_[axis], value);
+    }
+    const unsigned number = std::to_integer<unsigned>(at[14]) & mask;
+    if (number > 0) ++returns_[number - 1];
+  }
+}
+
+void LasWriter::write_extended() {
+  extended_at_ = written_;
+  if (origin_) {
+    for (const LasRecordPlace& record : origin_->header.extended) {
+      if (!goes_over(record, *origin_)) continue;
+      if (record.at == origin_->header.waveforms_at) waveforms_at_ = written_;
+      written_ += copy_bytes(origin_->file, record, out_);
+      ++extended_;
+    }
+  }
+  if (!long_text_.empty()) {
+    out_.write(
+        record_head(true, kProjection, kWellKnownText, long_text_.size(), "OGC coordinate system WKT"));
+    out_.write(long_text_);
+    ++extended_;
+  }
+}
+
+void LasWriter::complete_header() {
+  put_at(header_, 227, waveforms_at_);
+  put_at(header_, 235, extended_ > 0 ? extended_at_ : std::uint64_t{0});
+  put_at(header_, 243, extended_);
+  put_at(header_, 247, points_);
+  const bool is_old = origin_ && origin_->has_counts && origin_->header.minor < 4;
+  if (is_old) {
+    for (std::size_t i = 0; i < 5; ++i)
+      put_at(header_, 255 + 8 * i, std::uint64_t{value_at<std::uint32_t>(header_, 111 + 4 * i)});
+  }
+  if (origin_ && origin_->has_counts) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto place = [&](std::int32_t stored) { return stored * form_.scale[axis] + form_.offset[axis]; };
+    const double first = points_ > 0 ? place(min_[axis]) : 0, last = points_ > 0 ? place(max_[axis]) : 0;
+    put_at(header_, 179 + 16 * axis, std::max(first, last));  // a scale may be negative
+    put_at(header_, 187 + 16 * axis, std::min(first, last));
+  }
+  const bool has_legacy =
+      !is_extended_format(form_.point_format) && points_ <= std::numeric_limits<std::uint32_t>::max();
+  put_at(header_, 107, static_cast<std::uint32_t>(has_legacy ? points_ : 0));
+  for (std::size_t i = 0; i < returns_.size(); ++i) {
+    put_at(header_, 255 + 8 * i, returns_[i]);
+    if (i < 5) put_at(header_, 111 + 4 * i, static_cast<std::uint32_t>(has_legacy ? returns_[i] : 0));
+  }
+}
+
+void LasWriter::finish() {
+  write_extended();
+  complete_header();
+  out_.overwrite_start(header_);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,168 @@
+#include "io/results/annotated_rows.hpp"
+
+#include "engine/criteria/criteria.hpp"
+#include "engine/run/error.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <unordered_map>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBlockRows = std::size_t{1} << 14;
+
+// For each of the columns: the property of that name; null where a file has none.
+std::vector<const Property*> find_sources(const RowLayout& from, std::span<const Property> columns) {
+  std::unordered_map<std::string_view, const Property*> by_name;
+  for (const Property& property : from.properties) by_name.emplace(property.name, &property);
+  std::vector<const Property*> sources;
+  for (const Property& column : columns) {
+    const auto found = by_name.find(column.name);
+    sources.push_back(found == by_name.end() ? nullptr : found->second);
+  }
+  return sources;
+}
+
+class JoinedRows final : public InputRows {
+ public:
+  JoinedRows(const FileScan& scan, RowLayout joined, std::size_t first, std::size_t end)
+      : scan_(scan), joined_(std::move(joined)), file_(first), end_(end) {}
+
+  std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
+    for (; file_ < end_; ++file_, reader_.reset()) {
+      if (!reader_) {
+        reader_ = scan_.open(file_);
+        sources_ = find_sources(reader_->layout(), joined_.properties);
+      }
+      if (!reader_->next(rows_, max_rows)) continue;
+      block.resize(rows_.count * stride);
+      copy_columns(stride, block.data());
+      return rows_.count;
+    }
+    return 0;
+  }
+
+ private:
+  void copy_columns(std::size_t stride, std::byte* out) const {
+    for (std::size_t i = 0; i < joined_.properties.size(); ++i) {
+      const Property& to = joined_.properties[i];
+      const Column column{.data = out + to.offset, .stride = stride, .type = to.type};
+      if (const Property* source = sources_[i]) {
+        copy_column({.data = rows_.bytes.data() + source->offset,
+                     .stride = reader_->layout().stride,
+                     .type = source->type},
+                    column, rows_.count);
+      } else {
+        fill_missing(column, rows_.count);
+      }
+    }
+  }
+
+  const FileScan& scan_;
+  RowLayout joined_;
+  std::vector<const Property*> sources_;  // in the reader's layout, one for each column
+  std::size_t file_, end_;
+  std::unique_ptr<ScanReader> reader_;
+  RowBatch rows_;
+};
+
+void copy_results(std::span<const PointResult> results, std::span<const ResultColumn> columns,
+                  std::size_t stride, std::byte* out) {
+  if (results.empty()) return;
+  for (const ResultColumn& column : columns) {
+    const std::size_t bytes = size_of(column.type);
+    const auto* from = reinterpret_cast<const std::byte*>(results.data()) + column.offset;
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      std::memcpy(out + row * stride, from + row * sizeof(PointResult), bytes);
+    }
+    out += bytes;
+  }
+}
+
+}  // namespace
+
+std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config) {
+  const PointResult sample{};
+  std::vector<ResultColumn> columns;
+  const auto add = [&](std::string name, Scalar type, const void* place) {
+    const auto offset = static_cast<const std::byte*>(place) - reinterpret_cast<const std::byte*>(&sample);
+    columns.push_back({std::move(name), type, static_cast<std::size_t>(offset)});
+  };
+  add("scalar_probability", Scalar::kFloat32, &sample.probability);
+  for (std::size_t i = 0; i < criteria().size(); ++i)
+    add(criteria()[i].column, Scalar::kFloat32, &sample.criteria[i]);
+  add("scalar_boundary", Scalar::kUint8, &sample.boundary);
+  add("scalar_coherent", Scalar::kUint8, &sample.coherent);
+  add("scalar_loop", Scalar::kInt32, &sample.loop);
+  if (config.normals && !scan.has_normals()) {
+    add("nx", Scalar::kFloat32, &sample.normal.x());
+    add("ny", Scalar::kFloat32, &sample.normal.y());
+    add("nz", Scalar::kFloat32, &sample.normal.z());
+  }
+  return columns;
+}
+
+bool is_earlier_result(const RowLayout& layout, std::size_t index, std::span<const ResultColumn> results) {
+  const std::string& name = layout.properties[index].name;
+  if (name == kQuality) return index > 0 && layout.properties[index - 1].name == kBeforeQuality;
+  return std::any_of(results.begin(), results.end(), [&](const auto& result) { return result.name == name; });
+}
+
+std::size_t bytes_of(std::span<const ResultColumn> results) {
+  std::size_t bytes = 0;
+  for (const ResultColumn& result : results) bytes += size_of(result.type);
+  return bytes;
+}
+
+RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_left_out) {
+  std::vector<std::pair<std::string, Scalar>> joined;
+  std::unordered_map<std::string_view, std::size_t> place_of;  // in `joined`
+  for (const RowLayout& layout : layouts) {
+    for (std::size_t i = 0; i < layout.properties.size(); ++i) {
+      const Property& property = layout.properties[i];
+      if (is_left_out(layout, i)) continue;
+      const auto [known, is_new] = place_of.try_emplace(property.name, joined.size());
+      if (is_new) {
+        joined.emplace_back(property.name, property.type);
+      } else if (Scalar& type = joined[known->second].second; type != property.type) {
+        type = Scalar::kFloat64;
+      }
+    }
+  }
+  return packed_layout(joined);
+}
+
+std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined) {
+  return joined_rows(scan, std::move(joined), 0, scan.files().size());
+}
+
+std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
+                                       std::size_t end) {
+  return std::make_unique<JoinedRows>(scan, std::move(joined), first, end);
+}
+
+void for_each_annotated_block(
+    const Detection& detection, InputRows& input, std::size_t input_bytes,
+    std::span<const ResultColumn> results, const std::string& name,
+    const std::function<void(std::vector<std::byte>& block, std::size_t rows)>& visit) {
+  const std::size_t stride = input_bytes + bytes_of(results);
+  std::vector<std::byte> block;
+  const auto fail_changed = [&] {
+    throw Error(name + ": the input has changed during the run; it must stay as it is");
+  };
+  detection.for_each_result_block([&](PointId, std::span<const PointResult> left) {
+    while (!left.empty()) {
+      const std::size_t rows = input.next(std::min(left.size(), kBlockRows), stride, block);
+      if (rows == 0) fail_changed();
+      copy_results(left.first(rows), results, stride, block.data() + input_bytes);
+      visit(block, rows);
+      left = left.subspan(rows);
+    }
+  });
+  if (input.next(1, stride, block) != 0) fail_changed();
+}
+
+}  // namespace lacuna

@@ -1,0 +1,62 @@
+#include "io/results/points.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+namespace {
+
+PointsFormat format_like(const std::string& name) {
+  const auto is = [&](std::string_view family) { return name.starts_with(family); };
+  if (is("LAS") || is("LAZ")) return PointsFormat::kLas;
+  if (is("PCD")) return PointsFormat::kPcd;
+  if (is("text")) return PointsFormat::kCsv;
+  return PointsFormat::kPly;
+}
+
+}  // namespace
+
+PointsFormat points_format(const FileScan& scan, const OutputConfig& config) {
+  if (config.points_format != PointsFormat::kInput) return config.points_format;
+  const auto& formats = scan.formats();
+  if (formats.empty()) return PointsFormat::kPly;
+  const PointsFormat first = format_like(formats.front());
+  const bool is_common = std::all_of(formats.begin(), formats.end(),
+                                     [&](const auto& name) { return format_like(name) == first; });
+  return is_common ? first : PointsFormat::kPly;
+}
+
+std::string points_file(const FileScan& scan, const OutputConfig& config) {
+  switch (points_format(scan, config)) {
+    case PointsFormat::kLas:
+      return "points.las";
+    case PointsFormat::kPcd:
+      return "points.pcd";
+    case PointsFormat::kCsv:
+      return "points.csv";
+    default:
+      return "points.ply";
+  }
+}
+
+void check_points(const FileScan& scan, const OutputConfig& config) {
+  const PointsFormat format = points_format(scan, config);
+  if (format == PointsFormat::kLas) check_points_las(scan, config);
+  if (format == PointsFormat::kPcd) check_points_pcd(scan, config);
+}
+
+std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config) {
+  switch (points_format(scan, config)) {
+    case PointsFormat::kLas:
+      return las_row_bytes(scan, config);
+    case PointsFormat::kPcd:
+      return pcd_row_bytes(scan, config);
+    case PointsFormat::kCsv:
+      return csv_row_bytes(scan, config);
+    default:
+      return ply_row_bytes(scan, config);
+  }
+}
+
+}  // namespace lacuna

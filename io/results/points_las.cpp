@@ -1,0 +1,238 @@
+#include "engine/run/error.hpp"
+#include "io/las/las_import.hpp"
+#include "io/las/las_points.hpp"
+#include "io/las/las_transfer.hpp"
+#include "io/las/las_writer.hpp"
+#include "io/results/annotated_rows.hpp"
+#include "io/results/points.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+
+bool is_las(const FileScan& scan, std::size_t file) {
+  return scan.formats()[file].starts_with("LA");
+}
+
+// What of the scan becomes points of LAS.
+struct LasInput {
+  LasParts parts;
+  std::optional<LasOrigin> origin;  // the first LAS file
+  RowLayout others;                 // of the files of other formats, joined
+};
+
+LasInput examine(const FileScan& scan, std::span<const ResultColumn> results) {
+  LasInput input;
+  std::vector<RowLayout> others;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    const auto& file = scan.files()[i];
+    if (!is_las(scan, i)) {
+      others.push_back(scan.layouts()[i]);
+      continue;
+    }
+    InputFile in(file);
+    LasPart part{
+        .name = file.string(), .header = read_las_header(in), .has_pose = scan.poses()[i].has_value()};
+    if (!input.origin)
+      input.origin = {.file = file, .header = part.header, .has_crs = !part.has_pose, .has_counts = false};
+    input.parts.las.push_back(std::move(part));
+  }
+  input.others = join_layouts(
+      others, [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results); });
+  for (const Property& property : input.others.properties)
+    input.parts.imported.push_back({.property = property});
+  input.parts.crs = scan.common_crs();
+  return input;
+}
+
+// Whether no coordinate changes.
+bool has_one_scale(const LasParts& parts) {
+  return parts.imported.empty() && std::all_of(parts.las.begin(), parts.las.end(), [&](const LasPart& part) {
+           return !part.has_pose && part.header.scale == parts.las.front().header.scale &&
+                  part.header.offset == parts.las.front().header.offset;
+         });
+}
+
+// Reads what the files of other formats hold, and, where coordinates change, where the points of LAS files
+// are: their headers may be wrong.
+void survey(const FileScan& scan, LasInput& input) {
+  if (has_one_scale(input.parts)) return;
+  std::optional<ImportSurvey> others;
+  if (!input.parts.imported.empty()) others.emplace(input.others);
+  const RowLayout place = packed_layout(std::vector<std::pair<std::string, Scalar>>{
+      {"x", Scalar::kFloat64}, {"y", Scalar::kFloat64}, {"z", Scalar::kFloat64}});
+  ImportSurvey moved(place);
+  std::vector<std::byte> block;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    const RowLayout& layout = is_las(scan, i) ? place : input.others;
+    const auto rows = joined_rows(scan, layout, i, i + 1);
+    constexpr std::size_t kRows = std::size_t{1} << 14;
+    while (rows->next(kRows, layout.stride, block) > 0) (is_las(scan, i) ? moved : *others).take(block);
+  }
+  input.parts.bounds = moved.bounds();
+  if (!others) return;
+  input.parts.bounds.extend(others->bounds());
+  input.parts.imported = others->columns();
+}
+
+// The points of all files as records of the form.
+class LasRows final : public InputRows {
+ public:
+  LasRows(const FileScan& scan, const LasInput& input, const LasForm& form)
+      : scan_(scan), input_(input), form_(form) {}
+
+  std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
+    left_out_.clear();
+    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / stride);
+    for (; file_ < scan_.files().size(); ++file_, close()) {
+      if (!transfer_ && !rows_) open();
+      const std::size_t count = transfer_ ? next_records(std::min(max_rows, fitting), stride, block)
+                                          : next_rows(std::min(max_rows, fitting), stride, block);
+      if (count > 0) return count;
+    }
+    return 0;
+  }
+
+  // Of the block last returned, the rows that LAS cannot hold.
+  const std::vector<std::size_t>& left_out() const { return left_out_; }
+
+ private:
+  void open() {
+    if (!is_las(scan_, file_)) {
+      rows_ = joined_rows(scan_, input_.others, file_, file_ + 1);
+      return;
+    }
+    const auto& file = scan_.files()[file_];
+    in_ = std::make_unique<InputFile>(file);
+    header_ = read_las_header(*in_);
+    points_ = las_points(file, *in_, header_);
+    left_ = header_.points;
+    transfer_.emplace(file.string(), header_, form_, scan_.poses()[file_]);
+  }
+
+  void close() {
+    rows_.reset();
+    points_.reset();
+    transfer_.reset();
+  }
+
+  std::size_t next_records(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) {
+    const std::uint64_t most =
+        std::min<std::uint64_t>(max_rows, std::max<std::size_t>(1, kBatchBytes / header_.record_bytes));
+    const auto count = static_cast<std::size_t>(std::min(left_, most));
+    if (count == 0) return 0;
+    records_.resize(count * header_.record_bytes);
+    points_->read(records_);
+    left_ -= count;
+    block.resize(count * stride);
+    transfer_->convert(records_, stride, block.data());
+    return count;
+  }
+
+  std::size_t next_rows(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) {
+    const std::size_t count = rows_->next(max_rows, input_.others.stride, records_);
+    if (count == 0) return 0;
+    block.resize(count * stride);
+    import_las_rows(input_.others, form_, std::span(records_).first(count * input_.others.stride), stride,
+                    block.data(), left_out_);
+    return count;
+  }
+
+  const FileScan& scan_;
+  const LasInput& input_;
+  const LasForm& form_;
+  std::size_t file_ = 0;
+  std::unique_ptr<InputRows> rows_;  // of a file of another format
+  std::unique_ptr<InputFile> in_;    // a LAS file, and what is read of it
+  LasHeader header_;
+  std::unique_ptr<LasPoints> points_;
+  std::optional<LasTransfer> transfer_;
+  std::uint64_t left_ = 0;
+  std::vector<std::byte> records_;
+  std::vector<std::size_t> left_out_;
+};
+
+// "probability" and so on; where the input has extra bytes of that name from elsewhere, "lacuna_probability".
+std::vector<LasExtraBytes> result_extra(std::span<const ResultColumn> results, const LasForm& form) {
+  constexpr std::string_view kPrefix = "scalar_";
+  std::vector<LasExtraBytes> extra;
+  for (const ResultColumn& result : results) {
+    std::string name = result.name;
+    if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
+    // Normals are the next run's input, not a result that it replaces.
+    const bool is_normal = name == result.name;
+    const std::string description = is_normal ? "estimated normal" : std::string(kLacunaDescription) + name;
+    const auto is_taken = [&](const LasExtraField& field) { return field.what.name == name; };
+    while (std::any_of(form.extra.begin(), form.extra.end(), is_taken)) name.insert(0, "lacuna_");
+    extra.push_back(las_extra_of(name, result.type, description));
+  }
+  return extra;
+}
+
+LasForm form_of(const LasInput& input, std::span<const ResultColumn> results, const std::string& name) {
+  constexpr std::size_t kMostRecordBytes = 65535, kMostDescriptors = 341;  // 192 bytes each in 65535
+  LasForm form = join_las(input.parts);
+  if (form.record_bytes + bytes_of(results) > kMostRecordBytes ||
+      form.extra.size() + results.size() > kMostDescriptors)
+    throw Error(name + ": " + std::to_string(form.extra.size()) + " extra values and " +
+                std::to_string(form.record_bytes) +
+                " bytes a point leave no room for the results in LAS; --points-format ply holds them all");
+  return form;
+}
+
+}  // namespace
+
+FileMark points_las_mark() {
+  return {kLasSoftware, kLasSoftwareAt};
+}
+
+void check_points_las(const FileScan& scan, const OutputConfig& config) {
+  const std::vector<ResultColumn> results = result_columns(scan, config);
+  form_of(examine(scan, results), results, "points.las");
+}
+
+std::uint64_t las_row_bytes(const FileScan& scan, const OutputConfig& config) {
+  const std::vector<ResultColumn> results = result_columns(scan, config);
+  return form_of(examine(scan, results), results, "points.las").record_bytes + bytes_of(results);
+}
+
+void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                      OutputFile& out) {
+  const std::vector<ResultColumn> results = result_columns(scan, config);
+  LasInput input = examine(scan, results);
+  survey(scan, input);
+  const LasForm form = form_of(input, results, out.path().string());
+  const std::vector<LasExtraBytes> extra = result_extra(results, form);
+  if (input.origin) input.origin->has_counts = form.is_as_it_was;
+
+  LasWriter writer(out, form, extra, input.origin, input.parts.crs);
+  LasRows rows(scan, input, form);
+  const std::size_t stride = writer.record_bytes();
+  for_each_annotated_block(detection, rows, form.record_bytes, results, out.path().string(),
+                           [&](std::vector<std::byte>& block, std::size_t count) {
+                             std::size_t kept = count;
+                             if (!rows.left_out().empty()) {
+                               kept = 0;
+                               auto next = rows.left_out().begin();
+                               for (std::size_t row = 0; row < count; ++row) {
+                                 if (next != rows.left_out().end() && *next == row) {
+                                   ++next;
+                                   continue;
+                                 }
+                                 std::memmove(&block[kept++ * stride], &block[row * stride], stride);
+                               }
+                             }
+                             writer.put(std::span(block).first(kept * stride));
+                           });
+  writer.finish();
+}
+
+}  // namespace lacuna

@@ -1,0 +1,92 @@
+#include "io/text/csv_writer.hpp"
+
+#include "engine/run/parallel.hpp"
+#include "io/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+bool is_plain(const std::string& name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  std::string lower;
+  for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const bool is_number = lower.starts_with("nan") || lower.starts_with("inf");
+  return !name.empty() && is_letter(name.front()) && !is_number;
+}
+
+std::vector<std::string> header_names(const RowLayout& layout) {
+  std::vector<std::string> names;
+  std::set<std::string> given;
+  for (const Property& property : layout.properties) {
+    std::string name = property.name;
+    for (char& c : name) c = c == ',' || c == ';' || c == '"' ? '_' : c;
+    std::string unique = name;
+    for (int i = 2; !given.insert(unique).second; ++i) unique = name + '_' + std::to_string(i);
+    names.push_back(is_plain(unique) ? unique : '"' + unique + '"');
+  }
+  return names;
+}
+
+template <class T>
+void append(std::string& text, T value) {
+  std::array<char, 32> digits;
+  char* end = digits.data();
+  if constexpr (std::is_floating_point_v<T>) {
+    if (std::isnan(value)) {
+      text += "nan";  // whatever its sign
+      return;
+    }
+    end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  } else {
+    end = std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<std::int64_t>(value)).ptr;
+  }
+  text.append(digits.data(), end);
+}
+
+std::string lines_of(std::span<const std::byte> rows, const RowLayout& layout) {
+  std::string text;
+  for (; !rows.empty(); rows = rows.subspan(layout.stride)) {
+    char separator = '\0';
+    for (const Property& property : layout.properties) {
+      if (std::exchange(separator, ',') != '\0') text += ',';
+      with_type(property.type, [&](auto value) {
+        std::memcpy(&value, &rows[property.offset], sizeof value);
+        append(text, value);
+      });
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+CsvWriter::CsvWriter(OutputFile& out, RowLayout layout) : out_(out), layout_(std::move(layout)) {
+  std::string line;
+  for (const std::string& name : header_names(layout_)) line += (line.empty() ? "" : ",") + name;
+  out_.write(line + '\n');
+}
+
+void CsvWriter::put_rows(std::span<const std::byte> rows) {
+  constexpr std::size_t kTogether = 2048;
+  const std::size_t count = rows.size() / layout_.stride;
+  std::vector<std::string> texts((count + kTogether - 1) / kTogether);
+  for_each_here(texts.size(), [&](std::size_t i) {
+    const std::size_t first = i * kTogether, together = std::min(kTogether, count - first);
+    texts[i] = lines_of(rows.subspan(first * layout_.stride, together * layout_.stride), layout_);
+  });
+  for (const std::string& text : texts) out_.write(text);
+}
+
+}  // namespace lacuna

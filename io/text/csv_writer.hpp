@@ -1,0 +1,28 @@
+// Rows of scalars as lines of text, divided by commas, with a header line.
+#pragma once
+
+#include "io/results/output_file.hpp"
+#include "io/scan_reader.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace lacuna {
+
+class CsvWriter {
+ public:
+  // Writes the header line. Names that this project's reader, or another, would take for something else are
+  // changed or quoted: ',' ';' and '"' become '_'; what could be a number or a comment is put in quotes. A
+  // second equal name gets a number.
+  CsvWriter(OutputFile& out, RowLayout layout);
+
+  // Rows of the layout, one after the other. Each number is the shortest text that reads back as the same
+  // value of its type; `nan` without a sign. Several threads format; the bytes do not depend on them.
+  void put_rows(std::span<const std::byte> rows);
+
+ private:
+  OutputFile& out_;
+  RowLayout layout_;
+};
+
+}  // namespace lacuna

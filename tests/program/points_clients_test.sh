@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Whether other programs open the annotated scan: CloudCompare the PLY and the text, PCL the PCD, and CloudCompare, pdal or
+# lasinfo the LAS. 77: none of them is there.
+set -euo pipefail
+program=${LACUNA_PROGRAM:?}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+tried=0
+has() { command -v "$1" >/dev/null; }
+
+"$program" synth surface torus.ply --kind torus --points 20000 --holes 3 >/dev/null
+for format in ply las pcd csv; do
+  "$program" detect torus.ply --out "$format" --points --points-format "$format" --quiet
+done
+points=$(grep -a -m1 '^element vertex' ply/points.ply | cut -d' ' -f3)
+
+# The names of its columns, as CloudCompare shows them.
+cloudcompare() {
+  local file=$1 asc=$2
+  QT_QPA_PLATFORM=offscreen timeout 300 xvfb-run -a CloudCompare -SILENT -O "$file" -C_EXPORT_FMT ASC -PREC 9 \
+    -ADD_HEADER -NO_TIMESTAMP -SAVE_CLOUDS FILE "$asc" >"$asc.log" 2>&1
+  grep -q "Found one cloud with $points points" "$asc.log"
+}
+if has CloudCompare && has xvfb-run; then
+  tried=1
+  cloudcompare ply/points.ply "$work/ply.asc"
+  [[ $(head -1 ply.asc) == "//X Y Z probability angle halfdisc shape boundary coherent loop"* ]]
+  cloudcompare csv/points.csv "$work/csv.asc"
+  for format in las pcd; do  # only builds with these plugins open them; Debian's has neither
+    QT_QPA_PLATFORM=offscreen timeout 300 xvfb-run -a CloudCompare -SILENT -O "$format/points.$format" >"$format.log" 2>&1 || true
+    grep -q "unhandled file extension" "$format.log" || grep -q "Found one cloud with $points points" "$format.log"
+  done
+fi
+
+if has pcl_convert_pcd_ascii_binary; then
+  tried=1
+  pcl_convert_pcd_ascii_binary pcd/points.pcd ascii.pcd 0 >pcl.log 2>&1
+  grep -q "^POINTS $points$" ascii.pcd
+  grep -q "scalar_probability" ascii.pcd
+fi
+
+if has pdal; then
+  tried=1
+  pdal info --metadata las/points.las | grep -q "\"count\": $points"
+  pdal info --schema las/points.las | grep -q probability
+elif has lasinfo; then
+  tried=1
+  lasinfo las/points.las | grep -q "$points"
+fi
+((tried)) || exit 77
