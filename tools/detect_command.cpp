@@ -9,6 +9,7 @@
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
+#include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/value_options.hpp"
@@ -64,6 +65,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const fs::path& out = out_folder.path();
   const FolderLock alone(out);
   check_output_folder(scan, config, out, overwrite);
+  watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));

@@ -25,6 +25,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kRedrawAfter = 100ms;
 constexpr auto kPlainLineAfter = 10s;
+constexpr auto kLastLineAfter =
+    200ms;  // who has the console for longer writes to a stderr that takes nothing
 
 // stderr, with at most one line of progress that stands below everything else.
 class Console {
@@ -43,6 +45,12 @@ class Console {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock && can_write_now()) write(std::exchange(bar_, "").empty() ? "" : kErase);
   }
+  // Keeps the console. Without stdio, whose lock another thread may have.
+  void print_last_line(std::string_view line) {
+    if (!mutex_.try_lock_for(kLastLineAfter) || !can_write_now()) return;
+    const std::string text = erased() + visible(line) + '\n';
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  }
 
  private:
   static constexpr const char* kErase = "\r\033[K";
@@ -58,7 +66,7 @@ class Console {
     std::fflush(stderr);
   }
 
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::string bar_;
 };
 
@@ -211,6 +219,10 @@ void print_error(std::string_view reason) {
 
 void clear_progress() {
   console().show_bar("");
+}
+
+void print_last_line(std::string_view line) {
+  console().print_last_line(line);
 }
 
 void clear_progress_now() {

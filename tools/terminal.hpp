@@ -29,6 +29,8 @@ void quiet_log();  // warnings and errors only
 
 void print_error(std::string_view reason);  // "lacuna: error: ..."
 void clear_progress();
+// The last that the program prints, if stderr takes it at once: nothing gets to the console afterwards.
+void print_last_line(std::string_view line);
 void clear_progress_now();  // does not wait: leaves it where stderr takes nothing at the moment
 
 // The phase so far, for a terminal of `width` columns; shorter than that, whatever the width.
