@@ -7,8 +7,11 @@
 #include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
+#include "tools/log_file.hpp"
+#include "tools/overall_progress.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
+#include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
@@ -33,8 +36,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<Choice<ProgressStyle>, 3> kProgressStyles{
-    {{"bar", ProgressStyle::kBar}, {"plain", ProgressStyle::kPlain}, {"none", ProgressStyle::kNone}}};
+constexpr std::array<Choice<ProgressStyle>, 4> kProgressStyles{{{"bar", ProgressStyle::kBar},
+                                                                {"plain", ProgressStyle::kPlain},
+                                                                {"json", ProgressStyle::kJson},
+                                                                {"none", ProgressStyle::kNone}}};
 
 struct DetectArguments {
   explicit DetectArguments(CLI::App& command) : parameters(command) {}
@@ -44,6 +49,7 @@ struct DetectArguments {
   bool print_config = false;
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
+  fs::path log_file;
   bool keep_workspace = false;
   bool overwrite = false;
   ParameterOptions parameters;
@@ -72,7 +78,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   TemporaryFolder workspace(parent.path(), config.run.workspace.empty() ? kTemporaryPrefix : "lacuna-");
   if (arguments.keep_workspace) workspace.keep();
   const std::unique_ptr<Progress> progress =
-      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
+      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress, expected_stages(config));
 
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
   const Clock::time_point writing = Clock::now();
@@ -103,6 +109,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   require(command, "--out");
   if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   if (arguments.quiet) quiet_log();
+  if (!arguments.log_file.empty()) start_log_file(arguments.log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 
   const std::string summary = detect_to(arguments, config);
@@ -123,9 +130,13 @@ void add_detect_command(CLI::App& app) {
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,
-             "bar where stderr is a terminal, else plain, unless one is named")
+             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs")
       ->type_name("STYLE");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
+  command
+      ->add_option("--log-file", arguments->log_file,
+                   "Append warnings, errors and the times of stages to this file, with the time of each")
+      ->type_name("FILE");
   command->add_flag("--keep-workspace", arguments->keep_workspace,
                     "Leave the workspace with index.vdb, the cells and tiles as OpenVDB has them");
   command->add_flag("--overwrite", arguments->overwrite,

@@ -4,6 +4,7 @@
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
+#include "tools/log_file.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
@@ -115,6 +116,7 @@ int run(int argc, char** argv) {
 
   try {
     prepare_process();
+    remember_command_line("lacuna " LACUNA_VERSION, argc, argv);
     return run_command(app, join_columns({argv + 1, argv + argc}));
   } catch (const CLI::Success& shown) {  // --help, --version
     app.exit(shown, std::cout, std::cerr);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -75,7 +76,8 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
                 "eps");
-  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2,
+                "bar, plain, json, none");
   check_failure(run_program({"info"}), 2, "SCAN");
   check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
   check_failure(run_program({"synth", "surface", "d", "--kind", "bottle"}), 2, "torus");
@@ -170,6 +172,52 @@ TEST_CASE("a quiet run says nothing") {
   CHECK(result.exit_code == 0);
   CHECK(result.out.empty());
   CHECK(result.err.empty());
+}
+
+TEST_CASE("progress for programs is a JSON object per line, whose share never falls") {
+  const ScratchFolder scratch;
+  const ProgramResult result = run_program({"detect", scratch.write("scan.txt", sheet(100)), "--out",
+                                            (scratch / "out").string(), "--points", "--progress", "json"});
+  CHECK(result.exit_code == 0);
+  std::istringstream lines(result.err);
+  double share = 0, seconds = 0;
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    const auto now = nlohmann::json::parse(line);
+    CHECK(now.at("share") >= share);
+    CHECK(now.at("seconds") >= seconds);
+    share = now.at("share");
+    seconds = now.at("seconds");
+    last = now.at("stage");
+  }
+  CHECK(share == 1);
+  CHECK(last == "write");
+}
+
+TEST_CASE(
+    "a log file has the version, the command line, the times of stages and errors, each with its time") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  const std::string log = (scratch / "log.txt").string();
+  const auto detect = [&](const std::string& file, const std::string& log_file) {
+    return run_program(
+        {"detect", file, "--out", (scratch / "out").string(), "--quiet", "--log-file", log_file});
+  };
+  CHECK(detect(scan, log).exit_code == 0);
+  const std::string first = test::read_file(log);
+  CHECK_THAT(first, Contains(" info: lacuna ") && Contains(" detect " + scan + " --out ") &&
+                        Contains(" info: evaluate: done in ") && Contains(" info: write: done in "));
+  CHECK(first.substr(4, 1) == "-");
+  check_failure(detect("none\n.ply", log), 1, "none");
+  const std::string both = test::read_file(log);
+  CHECK(both.starts_with(first));
+  CHECK_THAT(both.substr(first.size()), Contains(" error: none") && Contains("cannot be opened"));
+  CHECK(test::count_lines(both.substr(first.size())) == 2);
+
+  check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
+  check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
+  check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
+  CHECK(test::read_file(scan) == sheet(20));
 }
 
 TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
