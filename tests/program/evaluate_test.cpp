@@ -105,17 +105,25 @@ TEST_CASE("each true loop is printed with what it is, its size, its place and wh
     return line + "\n";
   };
   const std::string scan = folder.write("scan.xyz", rows);
-  const std::string truth =
-      folder.write("true.txt", "# window\n" + around(4, 4, 10) + "# shadow of sofa\n" + around(29, 4, 6) +
-                                   "# edge of table top\n" + around(48, 3, 10));
+  std::string edge;
+  for (int x = 0; x < 59; ++x) edge += std::to_string(ids.at({x, 0})) + " ";
+  for (int y = 0; y < 19; ++y) edge += std::to_string(ids.at({59, y})) + " ";
+  for (int x = 59; x > 0; --x) edge += std::to_string(ids.at({x, 19})) + " ";
+  for (int y = 19; y > 0; --y) edge += std::to_string(ids.at({0, y})) + " ";
+  const std::string truth = folder.write("true.txt", "# window\n" + around(4, 4, 10) + "# shadow of sofa\n" +
+                                                         around(29, 4, 6) + "# edge of wall\n" + edge + "\n");
   const std::string found = folder.write("found.txt", around(4, 4, 10) + around(38, 8, 8));
-  // The last true loop has points inside and outside: to the rule for kinds it is a hole.
   const ProgramResult text = run_program({"evaluate", found, truth, "--scan", scan});
   CHECK(text.exit_code == 0);
   CHECK(text.out ==
-        "found 1 of 3 holes, 1 false\n\n"
-        "  hole               perimeter  diameter            centre  points  found by\n"
-        "  window                  40.0      14.1     9.0 9.0 0.0      40    loop 0\n");
+        "found 1 of 2 holes and 0 of 1 outer curve, 1 false\n\n"
+        "  hole            perimeter  diameter        centre  points  found by\n"
+        "  window               40.0      14.1   9.0 9.0 0.0      40    loop 0\n"
+        "  shadow of sofa       24.0      8.49  32.0 7.0 0.0      24    missed\n\n"
+        "  outer curve   perimeter  diameter        centre  points  found by\n"
+        "  edge of wall        156      62.0  29.5 9.5 0.0     156    missed\n\n"
+        "  loops that match none  perimeter  diameter         centre  points  what it is\n"
+        "  loop 1                      32.0      11.3  42.0 12.0 0.0      32       false\n");
   const auto report = evaluate({found, truth, "--scan", scan});
   CHECK(report.at("true_loops")[0].at("name") == "window");
   CHECK(report.at("true_loops")[0].at("perimeter") == Approx(40));
