@@ -8,8 +8,12 @@
 #include "io/results/results.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/input_files.hpp"
+#include "tools/log_file.hpp"
+#include "tools/overall_progress.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
+#include "tools/shown_progress.hpp"
+#include "tools/signals.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/value_options.hpp"
@@ -33,8 +37,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<Choice<ProgressStyle>, 3> kProgressStyles{
-    {{"bar", ProgressStyle::kBar}, {"plain", ProgressStyle::kPlain}, {"none", ProgressStyle::kNone}}};
+constexpr std::array<Choice<ProgressStyle>, 4> kProgressStyles{{{"bar", ProgressStyle::kBar},
+                                                                {"plain", ProgressStyle::kPlain},
+                                                                {"json", ProgressStyle::kJson},
+                                                                {"none", ProgressStyle::kNone}}};
 
 struct DetectArguments {
   explicit DetectArguments(CLI::App& command) : parameters(command) {}
@@ -44,6 +50,7 @@ struct DetectArguments {
   bool print_config = false;
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
+  fs::path log_file;
   bool keep_workspace = false;
   bool overwrite = false;
   ParameterOptions parameters;
@@ -65,6 +72,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const fs::path& out = out_folder.path();
   const FolderLock alone(out);
   check_output_folder(scan, config, out, overwrite);
+  watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
@@ -73,7 +81,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   for (const std::string& warning : machine_warnings(scan, config, parent.path()))
     spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress =
-      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress);
+      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress, expected_stages(config));
 
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
   const Clock::time_point writing = Clock::now();
@@ -108,6 +116,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   require(command, "--out");
   if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   if (arguments.quiet) quiet_log();
+  if (!arguments.log_file.empty()) start_log_file(arguments.log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 
   const std::string summary = detect_to(arguments, config);
@@ -128,9 +137,13 @@ void add_detect_command(CLI::App& app) {
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,
-             "bar where stderr is a terminal, else plain, unless one is named")
+             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs")
       ->type_name("STYLE");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
+  command
+      ->add_option("--log-file", arguments->log_file,
+                   "Append warnings, errors and the times of stages to this file, with the time of each")
+      ->type_name("FILE");
   command->add_flag("--keep-workspace", arguments->keep_workspace,
                     "Leave the workspace with index.vdb, the cells and tiles as OpenVDB has them");
   command->add_flag("--overwrite", arguments->overwrite,

@@ -4,6 +4,7 @@
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
+#include "tools/log_file.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/render_command.hpp"
 #include "tools/report_command.hpp"
@@ -119,6 +120,7 @@ int run(int argc, char** argv) {
 
   try {
     prepare_process();
+    remember_command_line("lacuna " LACUNA_VERSION, argc, argv);
     return run_command(app, join_columns({argv + 1, argv + argc}));
   } catch (const CLI::Success& shown) {  // --help, --version
     app.exit(shown, std::cout, std::cerr);

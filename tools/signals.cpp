@@ -3,14 +3,19 @@
 #include "engine/run/error.hpp"
 #include "io/temporary_folder.hpp"
 #include "tools/terminal.hpp"
+#include "tools/workspace.hpp"
 
 #include <atomic>
 #include <csignal>
+#include <ctime>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
 
 #include <pthread.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -18,12 +23,52 @@ namespace {
 
 std::atomic<bool> interrupted = false;
 
+// Which file has a name at the moment; a file that replaces it is another.
+struct Identity {
+  bool exists = false;
+  dev_t device = 0;
+  ino_t number = 0;
+  timespec changed{};
+
+  explicit Identity(const std::filesystem::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return;
+    exists = true;
+    device = status.st_dev;
+    number = status.st_ino;
+    changed = status.st_mtim;
+  }
+  bool operator==(const Identity& other) const {
+    return exists == other.exists && device == other.device && number == other.number &&
+           changed.tv_sec == other.changed.tv_sec && changed.tv_nsec == other.changed.tv_nsec;
+  }
+};
+
+struct WatchedResults {
+  std::filesystem::path folder, report;
+  Identity before;
+};
+
+std::mutex watched_mutex;
+std::optional<WatchedResults> watched;
+
+std::string last_line() {
+  const std::lock_guard lock(watched_mutex);
+  std::string line = "lacuna: interrupted";
+  if (!watched) return line;
+  const std::string folder = watched->folder.string();
+  if (Identity(watched->report) == watched->before) return line + "; " + folder + " is as it was";
+  return line + "; the results in " + folder + " are complete";
+}
+
 void wait_for_signal(sigset_t signals) {
   int signal = 0;
   sigwait(&signals, &signal);
   interrupted = true;
   clear_progress_now();
-  remove_temporary_folders();
+  remove_temporary_folders();  // waits while results take their names
+  remove_made_folders();
+  print_last_line(last_line());
   _exit(128 + signal);
 }
 
@@ -44,6 +89,11 @@ void handle_signals() {
   } catch (const std::system_error& error) {
     throw Error(std::string("cannot start a thread: ") + error.what());
   }
+}
+
+void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report) {
+  const std::lock_guard lock(watched_mutex);
+  watched = {.folder = folder, .report = report, .before = Identity(report)};
 }
 
 void wait_if_interrupted() {

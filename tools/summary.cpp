@@ -1,23 +1,23 @@
 #include "tools/summary.hpp"
 
+#include "tools/measures_text.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include <sys/resource.h>
 
 namespace lacuna {
 namespace {
 
-constexpr std::size_t kMostRows = 20;
-
-std::string print_measure(double value) {
+std::string print_number(double value) {
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
   return buffer;
 }
 
@@ -27,10 +27,10 @@ std::string print_share(double value) {
   return buffer;
 }
 
-std::string print_position(const Eigen::Vector3d& position) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof buffer, "%.9g %.9g %.9g", position.x(), position.y(), position.z());
-  return buffer;
+constexpr std::size_t kMostRows = 10;
+
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return print_count(count) + " " + (count == 1 ? one : several);
 }
 
 std::string print_input(const Counts& counts, const FileScan& scan) {
@@ -40,72 +40,124 @@ std::string print_input(const Counts& counts, const FileScan& scan) {
   text += print_left_out(counts, scan.filtered_out());
   if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " represented by another";
   if (counts.duplicates > 0) text += "; " + print_count(counts.duplicates) + " at the place of another";
-  return text + "\n";
-}
-
-std::string print_findings(const Summary& summary) {
-  const Counts& counts = summary.counts;
-  std::vector<std::vector<std::string>> rows = {
-      {"boundary points", print_count(counts.boundary_points)},
-      {"candidates, of them coherent", print_count(counts.candidates) + ", " + print_count(counts.coherent)},
-      {"loops before selection", print_count(counts.raw_loops)},
-      {"mean neighbours, mean edge length",
-       print_measure(summary.mean_neighbours) + ", " + print_measure(summary.mean_edge_length)},
-      {"tiles, points per tile at most",
-       print_count(summary.tiles) + ", " + print_count(summary.tile_points)},
-  };
-  if (summary.resolution > 0) {
-    const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
-    rows.insert(rows.begin(), {"representatives, one per cell of",
-                               print_count(representatives) + ", " + print_measure(summary.resolution)});
-  }
-  if (summary.e > 0) {  // the method of the paper
-    rows.push_back({"eligible edges, components",
-                    print_count(counts.boundary_edges) + ", " + print_count(counts.components)});
-    rows.push_back({"shortest loop (e)", "more than " + std::to_string(summary.e) + " edges"});
-  }
-  if (counts.undefined_normals > 0) {
-    rows.push_back({"points without a normal", print_count(counts.undefined_normals)});
-  }
-  return print_table(rows);
-}
-
-std::string print_times(const Summary& summary, const RunTimes& times) {
-  std::vector<PhaseTime> phases = summary.phases;
-  phases.push_back({"write", times.write_seconds});
-  phases.push_back({"all", times.total_seconds});
-  std::vector<std::vector<std::string>> rows = {{"phase", "time", "rate"}};
-  for (const PhaseTime& phase : phases) {
-    rows.push_back(
-        {phase.name, print_duration(phase.seconds), print_rate(summary.counts.points, phase.seconds)});
-  }
-  return print_table(rows);
-}
-
-std::string print_loops(const Detection& detection) {
-  const std::vector<LoopMeasures>& loops = detection.loops();
-  std::vector<std::size_t> order(loops.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&loops](std::size_t a, std::size_t b) {
-    return loops[a].perimeter > loops[b].perimeter;
-  });
-
-  std::vector<std::vector<std::string>> rows = {
-      {"kind", "points", "perimeter", "area", "diameter", "planarity", "confidence", "centroid", "first id"}};
-  for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
-    const LoopMeasures& loop = loops[order[i]];
-    rows.push_back({name_of(loop.kind), print_count(loop.points), print_measure(loop.perimeter),
-                    print_measure(loop.area), print_measure(loop.diameter), print_share(loop.planarity),
-                    print_share(loop.confidence), print_position(loop.centroid),
-                    std::to_string(value(detection.read_loop(order[i]).points.front().id))});
-  }
-  std::string text = print_table(rows);
-  if (order.size() > kMostRows) text += "  and " + print_count(order.size() - kMostRows) + " more\n";
   return text;
 }
 
-std::string counted(std::size_t count, const char* one, const char* several) {
-  return print_count(count) + " " + (count == 1 ? one : several);
+double extent_of(const Summary& summary) {
+  return summary.bounds.isEmpty() ? 0 : summary.bounds.sizes().maxCoeff();
+}
+
+// The loops of one kind, as one sentence has them.
+struct Kind {
+  std::vector<std::size_t> loops;  // by area, the largest first
+  std::size_t long_ones = 0;       // with a larger perimeter than the bound
+  double perimeter = 0;            // of all together
+};
+
+Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind, double bound) {
+  Kind all;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].kind != kind) continue;
+    all.loops.push_back(i);
+    all.long_ones += loops[i].perimeter > bound;
+    all.perimeter += loops[i].perimeter;
+  }
+  std::stable_sort(all.loops.begin(), all.loops.end(),
+                   [&](std::size_t a, std::size_t b) { return loops[a].area > loops[b].area; });
+  return all;
+}
+
+std::string print_largest(const std::vector<LoopMeasures>& loops, const Kind& holes, double extent,
+                          std::string_view unit) {
+  if (holes.loops.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"largest holes", "area", "perimeter", "diameter", "centre", "points", "confidence"}};
+  for (std::size_t at = 0; at < std::min(holes.loops.size(), kMostRows); ++at) {
+    const LoopMeasures& loop = loops[holes.loops[at]];
+    rows.push_back({"loop " + std::to_string(holes.loops[at]), print_area(loop.area, unit),
+                    print_length(loop.perimeter, unit), print_length(loop.diameter, unit),
+                    print_place(loop.centroid, extent), print_count(loop.points),
+                    print_share(loop.confidence)});
+  }
+  std::string text = "\n" + print_table(rows);
+  if (holes.loops.size() > kMostRows) {
+    text += "  and " + counted(holes.loops.size() - kMostRows, "more hole", "more holes") +
+            ": holes.csv has them all\n";
+  }
+  return text;
+}
+
+// One line for each label, values below one another.
+std::string print_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
+  std::size_t width = 0;
+  for (const auto& [label, value] : facts) width = std::max(width, label.size());
+  std::string text;
+  for (const auto& [label, value] : facts) {
+    text += "  " + label + std::string(width - label.size() + 2, ' ') + value + "\n";
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> findings(const Summary& summary, const FileScan& scan,
+                                                          std::string_view unit) {
+  const Counts& counts = summary.counts;
+  std::vector<std::pair<std::string, std::string>> facts = {{"input", print_input(counts, scan)}};
+  if (summary.resolution > 0) {
+    const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
+    facts.emplace_back("resolution", print_length(summary.resolution, unit) + ": " +
+                                         print_count(representatives) + " points represent the others");
+  }
+  facts.emplace_back("neighbours", print_number(summary.mean_neighbours) + " of a point on average, " +
+                                       print_length(summary.mean_edge_length, unit) + " away");
+  if (counts.undefined_normals > 0)
+    facts.emplace_back("normals", "none at " + counted(counts.undefined_normals, "point", "points"));
+  facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points") + "; " +
+                                     counted(counts.candidates, "candidate", "candidates") + ", " +
+                                     print_count(counts.coherent) + " coherent");
+  if (summary.e > 0) {  // the method of the paper
+    facts.emplace_back("graph", counted(counts.boundary_edges, "eligible edge", "eligible edges") + ", " +
+                                    counted(counts.components, "component", "components") +
+                                    "; loops of more than " + std::to_string(summary.e) + " edges");
+  }
+  facts.emplace_back("loops", print_count(counts.raw_loops) + " before selection");
+  facts.emplace_back("tiles", print_count(summary.tiles) + ", of at most " +
+                                  counted(summary.tile_points, "point", "points"));
+  return facts;
+}
+
+// Phases in two columns, one below the other; where several have a name, their times together.
+std::string print_times(const Summary& summary, const RunTimes& times) {
+  std::vector<PhaseTime> phases;
+  const auto add = [&phases](const PhaseTime& phase) {
+    const auto same = std::find_if(phases.begin(), phases.end(),
+                                   [&](const PhaseTime& other) { return other.name == phase.name; });
+    if (same == phases.end()) {
+      phases.push_back(phase);
+    } else {
+      same->seconds += phase.seconds;
+    }
+  };
+  for (const PhaseTime& phase : summary.phases) add(phase);
+  add({"write", times.write_seconds});
+  std::vector<std::string> columns[2];
+  const std::size_t half = (phases.size() + 1) / 2;
+  std::vector<std::vector<std::string>> rows[2];
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    rows[i / half].push_back({phases[i].name, print_duration(phases[i].seconds),
+                              print_rate(summary.counts.points, phases[i].seconds)});
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (rows[side].empty()) continue;
+    std::istringstream lines(print_table(rows[side]));
+    for (std::string line; std::getline(lines, line);) columns[side].push_back(line);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < columns[0].size(); ++i) {
+    text += columns[0][i];
+    if (i < columns[1].size()) text += "   " + columns[1][i];
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -123,20 +175,35 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   return text;
 }
 
-std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times) {
+double length_bound(double extent) {
+  return extent > 0 && std::isfinite(extent) ? std::pow(10, std::round(std::log10(extent / 20))) : 0;
+}
+
+std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times,
+                          std::string_view unit) {
   const Summary& summary = detection.summary();
   const std::vector<LoopMeasures>& loops = detection.loops();
-  const auto holes = static_cast<std::size_t>(std::count_if(
-      loops.begin(), loops.end(), [](const LoopMeasures& loop) { return loop.kind == LoopKind::kHole; }));
+  const double extent = extent_of(summary);
+  const double bound = length_bound(extent);
+  const Kind holes = loops_of(loops, LoopKind::kHole, bound);
+  const Kind outer = loops_of(loops, LoopKind::kOuter, bound);
+  const std::string longer = " longer than " + print_power(bound, unit);
 
-  std::string text = print_input(summary.counts, scan) + print_findings(summary) + "\n";
-  text += print_times(summary, times);
-  text += "  peak memory " + print_size(peak_memory()) + " of " + print_size(summary.memory_limit) + ", " +
-          counted(summary.threads, "thread", "threads") + "\n\n";
-  text += counted(holes, "hole", "holes") + ", " +
-          counted(loops.size() - holes, "outer boundary", "outer boundaries") + "\n";
-  if (!loops.empty()) text += print_loops(detection);
-  return text + "\n";
+  std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
+                     counted(outer.loops.size(), "outer curve", "outer curves");
+  if (!loops.empty()) text += ", " + print_count(holes.long_ones + outer.long_ones) + " of them" + longer;
+  text += "\n" + print_largest(loops, holes, extent, unit) + "\n";
+  if (!outer.loops.empty()) {
+    text += "  " + counted(outer.loops.size(), "outer curve", "outer curves") + ", " +
+            print_count(outer.long_ones) + longer + "; " + print_length(outer.perimeter, unit) +
+            " in all\n\n";
+  }
+  auto facts = findings(summary, scan, unit);
+  facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
+  facts.emplace_back("time", print_duration(times.total_seconds) + " with " +
+                                 counted(summary.threads, "thread", "threads") + ", " +
+                                 print_rate(summary.counts.points, times.total_seconds));
+  return text + print_facts(facts) + "\n" + print_times(summary, times) + "\n";
 }
 
 std::string print_table(const std::vector<std::vector<std::string>>& rows) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna {
@@ -15,8 +16,14 @@ struct RunTimes {
   double total_seconds = 0;
 };
 
-// What was read and found, time per phase, and the loops, the one with the largest perimeter first.
-std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times);
+// What was found, the largest holes by area, outer curves as sums; then counts, and time per phase. `unit` is
+// that of the scan's coordinates, such as "m"; empty: not known.
+std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times,
+                          std::string_view unit = "");
+
+// What "long" means in a scan of this extent: the power of ten nearest to a twentieth of it; 0 without an
+// extent.
+double length_bound(double extent);
 
 // Points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
 std::string print_left_out(const Counts& counts, const FilteredOut& filtered);

@@ -4,9 +4,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
@@ -30,9 +32,13 @@ fs::path without_detours(const fs::path& folder) {
   return folder;
 }
 
+std::mutex mutex;                       // of the list, and while folders are made
+std::vector<const MadeFolder*> living;  // in the order made
+
 }  // namespace
 
 MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)) {
+  const std::lock_guard lock(mutex);
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
@@ -50,12 +56,24 @@ MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)
   if (access(folder_.c_str(), W_OK | X_OK) != 0) {
     throw Error(folder_.string() + ": cannot write to the folder: " + std::strerror(errno));
   }
+  living.push_back(this);
 }
 
 MadeFolder::~MadeFolder() {
+  const std::lock_guard lock(mutex);
+  std::erase(living, this);
+  remove_empty();
+}
+
+void MadeFolder::remove_empty() const {
   for (const fs::path& folder : made_) {
     if (rmdir(folder.c_str()) != 0) return;  // it holds something: that is what it was made for
   }
+}
+
+void remove_made_folders() {
+  mutex.lock();  // and never unlocked
+  for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();
 }
 
 FolderLock::FolderLock(const fs::path& folder)

@@ -19,10 +19,16 @@ class MadeFolder {
   // As named, but of a/../b only b: no `a` is made on the way.
   const std::filesystem::path& path() const { return folder_; }
 
+  void remove_empty() const;  // those that it made, innermost first, up to one that holds something
+
  private:
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  // innermost first
 };
+
+// For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
+// folder can be made afterwards: a thread that tries stops there, as the process is about to end.
+void remove_made_folders();
 
 // Keeps other runs from writing to an existing folder, as long as it lives. The lock goes with the process,
 // however that ends. Throws `Error` if another run has it, or if it cannot be had. A file system that knows

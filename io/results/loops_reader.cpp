@@ -7,11 +7,13 @@
 #include "io/scalar.hpp"
 
 #include <string>
+#include <utility>
 
 namespace lacuna {
 namespace {
 
 constexpr double kIdsEnd = 0x1p53;  // from here on a double is no longer any whole number
+constexpr std::size_t kLongestComment = 200;
 
 // A column of whole numbers from 0 on, whatever its type.
 std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::string_view name) {
@@ -47,10 +49,10 @@ std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::s
   return column;
 }
 
-std::vector<LoopIds> read_ply_loops(const std::filesystem::path& file) {
+std::vector<NamedLoopIds> read_ply_loops(const std::filesystem::path& file) {
   const std::vector<std::uint64_t> ids = read_column(file, "scalar_id");
   const std::vector<std::uint64_t> loop_of = read_column(file, "scalar_loop");
-  std::vector<LoopIds> loops;
+  std::vector<NamedLoopIds> loops;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const bool known = loop_of[i] + 1 == loops.size();
     if (!known && loop_of[i] != loops.size()) {
@@ -59,17 +61,38 @@ std::vector<LoopIds> read_ply_loops(const std::filesystem::path& file) {
                   " would be the next; loops must follow one after the other from 0 on");
     }
     if (!known) loops.emplace_back();
-    loops.back().push_back(ids[i]);
+    loops.back().ids.push_back(ids[i]);
   }
   return loops;
 }
 
-std::vector<LoopIds> read_text_loops(InputFile& in) {
-  std::vector<LoopIds> loops;
+// The rest of a comment's line, its words divided by one blank.
+std::string read_comment(InputFile& in, std::string_view first) {
+  std::string text(first);
+  while (const auto word = in.next_word()) {
+    if (text.size() + 1 + word->size() > kLongestComment) break;
+    text.append(" ").append(*word);
+  }
+  return text;
+}
+
+// "# window" is "window"; the mark of the file is no name.
+std::string name_in(std::string comment) {
+  if (comment.starts_with(kLoopsTextMark)) return {};
+  comment.erase(0, comment.find_first_not_of("# "));
+  return comment;
+}
+
+std::vector<NamedLoopIds> read_text_loops(InputFile& in) {
+  std::vector<NamedLoopIds> loops;
+  std::string name;
   while (in.next_row()) {
     LoopIds loop;
     while (const auto word = in.next_word()) {
-      if (word->starts_with('#') && loop.empty()) break;
+      if (word->starts_with('#') && loop.empty()) {
+        name = word->size() <= kLongestComment ? name_in(read_comment(in, std::string(*word))) : "";
+        break;
+      }
       std::uint64_t id = 0;
       if (!parse_number(*word, id)) {
         in.fail_at_line(in.line() + 1, in_quotes(*word) + " is not a point id, " +
@@ -79,17 +102,23 @@ std::vector<LoopIds> read_text_loops(InputFile& in) {
       loop.push_back(id);
     }
     while (!in.end_row()) in.next_word();  // the rest of a comment
-    if (!loop.empty()) loops.push_back(std::move(loop));
+    if (!loop.empty()) loops.push_back({std::move(loop), std::exchange(name, "")});
   }
   return loops;
 }
 
 }  // namespace
 
-std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
+std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file) {
   InputFile in(file);
   if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return read_ply_loops(file);
   return read_text_loops(in);
+}
+
+std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
+  std::vector<LoopIds> loops;
+  for (NamedLoopIds& loop : read_named_loops(file)) loops.push_back(std::move(loop.ids));
+  return loops;
 }
 
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna {
@@ -13,6 +15,18 @@ using LoopIds = std::vector<std::uint64_t>;  // closed, in the order of its edge
 // line, ids divided by blanks; lines that are blank or begin with # are passed over. A file without loops
 // gives none. Throws `Error`.
 std::vector<LoopIds> read_loops(const std::filesystem::path& file);
+
+struct NamedLoopIds {
+  LoopIds ids;
+  std::string name;  // empty: none
+};
+
+// How the first line of a file of true loops begins. It is about the file and names no loop.
+inline constexpr std::string_view kLoopsTextMark = "# one boundary loop per line, 0-based point ids of ";
+
+// The same with names. In text, the comment in the line before a loop is its name, words divided by one
+// blank; what exceeds 200 bytes is left out. Loops of a PLY file have no names.
+std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 
 // The ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
@@ -71,11 +72,64 @@ TEST_CASE("a made surface is evaluated against the truth beside it") {
   CHECK(report.at("spacing") == Approx(0.01).epsilon(0.1));
   CHECK(report.at("true_loops").size() == 4);
 
-  const ProgramResult text = run_program({"evaluate", made.out, made.truth});
+  const ProgramResult text = run_program({"evaluate", made.out, made.truth, "--verbose"});
   CHECK(text.exit_code == 0);
-  CHECK_THAT(text.out, Contains("\n  found       4\n") && Contains("recall      1.000") &&
+  CHECK_THAT(text.out, StartsWith("found 3 of 3 holes and 1 of 1 outer curve, 0 false\n") &&
+                           Contains("\n  found       4\n") && Contains("recall      1.000") &&
                            Contains("tolerance precision") &&
                            Contains("\nFound 4 of 4 true loops. Of 4 loops, 0 are false.\n"));
+}
+
+TEST_CASE("each true loop is printed with what it is, its size, its place and who found it") {
+  const ScratchFolder folder;
+  // A sheet of 60 x 20 points, a unit apart, with a gap of 9 x 9 and one of 5 x 5.
+  std::map<std::array<int, 2>, int> ids;
+  std::string rows;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      if ((x >= 5 && x < 14 && y >= 5 && y < 14) || (x >= 30 && x < 35 && y >= 5 && y < 10)) continue;
+      ids[{x, y}] = static_cast<int>(ids.size());
+      rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    }
+  }
+  const auto around = [&](int x, int y, int size) {
+    std::string line;
+    for (int i = 0; i < 4 * size; ++i) {
+      const int side = i / size, step = i % size;
+      line += std::to_string(side == 0   ? ids.at({x + step, y})
+                             : side == 1 ? ids.at({x + size, y + step})
+                             : side == 2 ? ids.at({x + size - step, y + size})
+                                         : ids.at({x, y + size - step})) +
+              " ";
+    }
+    return line + "\n";
+  };
+  const std::string scan = folder.write("scan.xyz", rows);
+  std::string edge;
+  for (int x = 0; x < 59; ++x) edge += std::to_string(ids.at({x, 0})) + " ";
+  for (int y = 0; y < 19; ++y) edge += std::to_string(ids.at({59, y})) + " ";
+  for (int x = 59; x > 0; --x) edge += std::to_string(ids.at({x, 19})) + " ";
+  for (int y = 19; y > 0; --y) edge += std::to_string(ids.at({0, y})) + " ";
+  const std::string truth = folder.write("true.txt", "# window\n" + around(4, 4, 10) + "# shadow of sofa\n" +
+                                                         around(29, 4, 6) + "# edge of wall\n" + edge + "\n");
+  const std::string found = folder.write("found.txt", around(4, 4, 10) + around(38, 8, 8));
+  const ProgramResult text = run_program({"evaluate", found, truth, "--scan", scan});
+  CHECK(text.exit_code == 0);
+  CHECK(text.out ==
+        "found 1 of 2 holes and 0 of 1 outer curve, 1 false\n\n"
+        "  hole            perimeter  diameter        centre  points  found by\n"
+        "  window               40.0      14.1   9.0 9.0 0.0      40    loop 0\n"
+        "  shadow of sofa       24.0      8.49  32.0 7.0 0.0      24    missed\n\n"
+        "  outer curve   perimeter  diameter        centre  points  found by\n"
+        "  edge of wall        156      62.0  29.5 9.5 0.0     156    missed\n\n"
+        "  loops that match none  perimeter  diameter         centre  points  what it is\n"
+        "  loop 1                      32.0      11.3  42.0 12.0 0.0      32       false\n");
+  const auto report = evaluate({found, truth, "--scan", scan});
+  CHECK(report.at("true_loops")[0].at("name") == "window");
+  CHECK(report.at("true_loops")[0].at("perimeter") == Approx(40));
+  CHECK(report.at("true_loops")[0].at("diameter") == Approx(10 * std::sqrt(2)));
+  CHECK(report.at("true_loops")[0].at("kind") == "hole");
+  CHECK(report.at("true_loops")[1].at("centre")[0] == Approx(32));
 }
 
 TEST_CASE("the truth is itself found, from either kind of file, without boundary points") {
@@ -221,8 +275,8 @@ TEST_CASE("loops on true loops without a match, and loops around gaps in the poi
   CHECK(with.at("loop_matches")[2].at("at_unsampled") == 1);
   CHECK(with.at("loop_matches")[3].at("at_unsampled") == 0.5);
 
-  const ProgramResult text =
-      run_program({"evaluate", found, truth, "--scan", scan, "--tolerance", "1", "--surface", surface});
+  const ProgramResult text = run_program(
+      {"evaluate", found, truth, "--scan", scan, "--tolerance", "1", "--surface", surface, "--verbose"});
   CHECK_THAT(
       text.out,
       Contains("\nFound 0 of 2 true loops. Of 5 loops, 1 is false, 2 joined, 1 parted, 1 unsampled.\n") &&

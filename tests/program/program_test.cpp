@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
 using test::count_entries;
 using test::ProgramResult;
@@ -41,8 +43,8 @@ TEST_CASE("a run counts its loops in words") {
     run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
     return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
   };
-  CHECK_THAT(summary_of("plane"), Contains("\n1 hole, 1 outer boundary\n"));
-  CHECK_THAT(summary_of("torus"), Contains("\n1 hole, 0 outer boundaries\n"));
+  CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve, 2 of them longer than 0.1\n"));
+  CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves, 1 of them longer than 0.1\n"));
 }
 
 TEST_CASE("help is for everything and version is one line") {
@@ -75,7 +77,8 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
                 "eps");
-  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2,
+                "bar, plain, json, none");
   check_failure(run_program({"info"}), 2, "SCAN");
   check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
   check_failure(run_program({"synth", "surface", "d", "--kind", "bottle"}), 2, "torus");
@@ -157,7 +160,7 @@ TEST_CASE("a run makes its folder, tells what it found and leaves nothing else")
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   CHECK_THAT(result.out, Contains("1,500 points") && Contains("peak memory") && Contains("points/s") &&
-                             Contains("first id") && Contains((out / "holes.json").string()));
+                             Contains("largest holes") && Contains((out / "holes.json").string()));
   CHECK_THAT(result.err, Contains("done in") && !Contains("\r"));
   CHECK(fs::exists(out / "holes.json"));
   CHECK(count_entries(out) == 5);  // and no workspace
@@ -170,6 +173,52 @@ TEST_CASE("a quiet run says nothing") {
   CHECK(result.exit_code == 0);
   CHECK(result.out.empty());
   CHECK(result.err.empty());
+}
+
+TEST_CASE("progress for programs is a JSON object per line, whose share never falls") {
+  const ScratchFolder scratch;
+  const ProgramResult result = run_program({"detect", scratch.write("scan.txt", sheet(100)), "--out",
+                                            (scratch / "out").string(), "--points", "--progress", "json"});
+  CHECK(result.exit_code == 0);
+  std::istringstream lines(result.err);
+  double share = 0, seconds = 0;
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    const auto now = nlohmann::json::parse(line);
+    CHECK(now.at("share") >= share);
+    CHECK(now.at("seconds") >= seconds);
+    share = now.at("share");
+    seconds = now.at("seconds");
+    last = now.at("stage");
+  }
+  CHECK(share == 1);
+  CHECK(last == "write");
+}
+
+TEST_CASE(
+    "a log file has the version, the command line, the times of stages and errors, each with its time") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  const std::string log = (scratch / "log.txt").string();
+  const auto detect = [&](const std::string& file, const std::string& log_file) {
+    return run_program(
+        {"detect", file, "--out", (scratch / "out").string(), "--quiet", "--log-file", log_file});
+  };
+  CHECK(detect(scan, log).exit_code == 0);
+  const std::string first = test::read_file(log);
+  CHECK_THAT(first, Contains(" info: lacuna ") && Contains(" detect " + scan + " --out ") &&
+                        Contains(" info: evaluate: done in ") && Contains(" info: write: done in "));
+  CHECK(first.substr(4, 1) == "-");
+  check_failure(detect("none\n.ply", log), 1, "none");
+  const std::string both = test::read_file(log);
+  CHECK(both.starts_with(first));
+  CHECK_THAT(both.substr(first.size()), Contains(" error: none") && Contains("cannot be opened"));
+  CHECK(test::count_lines(both.substr(first.size())) == 2);
+
+  check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
+  check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
+  check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
+  CHECK(test::read_file(scan) == sheet(20));
 }
 
 TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
@@ -224,7 +273,8 @@ TEST_CASE("a file that the program did not write is refused before the work, and
     arguments.pop_back();
     CHECK(run_program(arguments).exit_code == 0);  // its own file
     if (arguments == synth) {
-      for (const char* name : {"loops.ply", "boundary.ply", "holes.csv", "holes.json", "run.json", "points.loops.txt"})
+      for (const char* name :
+           {"loops.ply", "boundary.ply", "holes.csv", "holes.json", "run.json", "points.loops.txt"})
         fs::remove(scratch / "out" / name);
     }
   }
@@ -271,22 +321,25 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
   const fs::path out = scratch / "out";
   const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--quiet"};
   REQUIRE(run_program(arguments).exit_code == 0);
-  std::string before = test::read_file(out / "holes.json");
+  const std::string before = test::read_file(out / "holes.json");
   const auto is_writing = [&] {
     const auto entries = fs::recursive_directory_iterator(out, fs::directory_options::skip_permission_denied);
     return std::any_of(begin(entries), end(entries),
                        [](const auto& entry) { return entry.path().filename() == "new-holes.json"; });
   };
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const auto written = fs::last_write_time(out / "holes.json");
     const ProgramResult result = test::run_program_until(arguments, signal, is_writing);
     for (const char* name : {"loops.ply", "boundary.ply", "points.ply"}) CHECK(fs::exists(out / name));
     const std::string after = test::read_file(out / "holes.json");
-    if (after != before) {  // a busy machine: the signal came when all new ones were in place
-      CHECK_FALSE(nlohmann::json::parse(after, nullptr, false).is_discarded());
-      before = after;
+    CHECK(after == before);
+    if (fs::last_write_time(out / "holes.json") != written) {  // a busy machine: all new ones were in place
+      if (result.exit_code == 128 + signal && signal != SIGKILL)
+        CHECK(result.err == "lacuna: interrupted; the results in " + out.string() + " are complete\n");
       continue;
     }
     CHECK(result.exit_code == 128 + signal);
+    if (signal != SIGKILL) CHECK(result.err == "lacuna: interrupted; " + out.string() + " is as it was\n");
     CHECK(count_entries(out) == (signal == SIGKILL ? 8 : 6));  // the workspace, and the results half-written
   }
 }
@@ -307,6 +360,7 @@ TEST_CASE("a signal while a scan is made leaves nothing") {
   const ProgramResult result = test::run_program_until(
       {"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"}, SIGINT, is_writing);
   CHECK(result.exit_code == 128 + SIGINT);
+  CHECK(result.err == "lacuna: interrupted\n");
   CHECK(count_entries(scratch.path()) == 0);
 }
 
@@ -327,8 +381,9 @@ TEST_CASE("a signal ends the run and removes the workspace") {
     const ProgramResult result =
         test::run_program_until({"detect", scan, "--out", out.string()}, signal, has_workspace);
     CHECK(result.exit_code == 128 + signal);
-    CHECK_THAT(result.err, !Contains("error"));
-    CHECK((!fs::exists(out) || count_entries(out) == 0));
+    CHECK_THAT(result.err,
+               !Contains("error") && EndsWith("lacuna: interrupted; " + out.string() + " is as it was\n"));
+    CHECK_FALSE(fs::exists(out));
   }
 }
 

@@ -10,26 +10,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-TEST_CASE("the progress bar shows phase, share, rate and time left") {
-  CHECK(progress_bar("evaluate", 500'000, 1'000'000, 2.0, 72) ==
-        "evaluate   [===========           ]  50 %  0.25 M points/s  2.00 s left");
-  CHECK(progress_bar("evaluate", 5, 0, 2.0, 80) == "evaluate    0.00 M points/s");
-}
-
-TEST_CASE("the progress bar is shorter than the terminal is wide, whatever it shows") {
-  for (std::size_t width = 0; width < 200; ++width) {
-    for (const std::uint64_t done : {0ull, 1ull, 999ull, 1000ull, 5000ull, ~0ull}) {
-      for (const std::uint64_t total : {0ull, 1000ull, ~0ull}) {
-        for (const double seconds : {0.0, 1e-9, 100.0, 1e12}) {
-          const std::size_t length =
-              progress_bar("a phase with a long name", done, total, seconds, width).size();
-          REQUIRE(length <= (width > 0 ? width - 1 : 0));
-        }
-      }
-    }
-  }
-}
-
 TEST_CASE("durations read as a person would say them") {
   CHECK(print_duration(0.004) == "0.00 s");
   CHECK(print_duration(9.994) == "9.99 s");

@@ -6,6 +6,7 @@
 #include "io/ply/mesh_reader.hpp"
 #include "io/ply/ply_reader.hpp"
 #include "io/results/loops_reader.hpp"
+#include "tools/accuracy/loop_kind.hpp"
 #include "tools/accuracy/mesh_boundary.hpp"
 #include "tools/accuracy/spacing.hpp"
 
@@ -102,13 +103,13 @@ void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const T
   }
 }
 
-// Over distinct finite points; of a mesh, over those in its faces.
-double spacing_of(const Truth& truth, const std::vector<bool>& takes_part) {
+// Distinct finite ones; of a mesh, those in its faces.
+std::vector<Eigen::Vector3d> points_of(const Truth& truth, const std::vector<bool>& takes_part) {
   std::vector<Eigen::Vector3d> points;
   for (std::size_t id = 0; id < truth.positions.size(); ++id) {
     if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
   }
-  return median_spacing(points);
+  return points;
 }
 
 void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
@@ -117,15 +118,25 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
     for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
   }
   truth.loops = mesh_boundary(triangles, truth.stand_ins, truth.positions);
-  truth.spacing = spacing_of(truth, takes_part);
+  truth.spacing = median_spacing(points_of(truth, takes_part));
 }
 
-void take_loops(const std::vector<LoopIds>& loops, Truth& truth) {
-  for (const LoopIds& loop : loops) check_ids(truth.file, loop, truth);
+void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
+  std::vector<LoopIds> loops;
+  for (const NamedLoopIds& loop : named) {
+    check_ids(truth.file, loop.ids, truth);
+    loops.push_back(loop.ids);
+  }
   std::vector<bool> takes_part(truth.positions.size());
   for (const std::uint64_t id : truth.stand_ins) takes_part[id] = true;
   truth.loops = loops_through(loops, truth.stand_ins);
-  truth.spacing = spacing_of(truth, takes_part);
+  const std::vector<Eigen::Vector3d> points = points_of(truth, takes_part);
+  const PointTree tree(points);
+  truth.spacing = median_spacing(points, tree);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    truth.loops[i].name = std::move(named[i].name);
+    truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
+  }
 }
 
 // Of the false loops those around unsampled places of the surface are unsampled, those along true loops as
@@ -182,7 +193,7 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, const Resul
   if (mesh && !scans.empty())
     throw Error(file.string() + ": is a mesh, its vertices are the scan; no --scan is allowed");
   const std::vector<Triangle> triangles = mesh ? read_triangles(file) : std::vector<Triangle>{};
-  const std::vector<LoopIds> loops = mesh ? std::vector<LoopIds>{} : read_loops(file);
+  std::vector<NamedLoopIds> loops = mesh ? std::vector<NamedLoopIds>{} : read_named_loops(file);
   if (mesh) scans = {file};
   if (scans.empty()) scans = scans_of(file, result);
   truth.positions = read_positions(scans, result.columns);
@@ -190,7 +201,7 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, const Resul
   if (mesh) {
     take_mesh(triangles, truth);
   } else {
-    take_loops(loops, truth);
+    take_loops(std::move(loops), truth);
   }
   return truth;
 }

@@ -40,6 +40,13 @@ std::vector<double> PointTree::nearest_distances(const Eigen::Vector3d& place, s
   return distances;
 }
 
+std::vector<std::size_t> PointTree::nearest_points(const Eigen::Vector3d& place, std::size_t count) const {
+  std::vector<std::size_t> points(count);
+  std::vector<double> squares(count);
+  points.resize(tree_->index.knnSearch(place.data(), count, points.data(), squares.data()));
+  return points;
+}
+
 double PointTree::nearest_distance(const Eigen::Vector3d& place) const {
   std::size_t point = 0;
   double square = 0;

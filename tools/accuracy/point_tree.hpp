@@ -20,6 +20,9 @@ class PointTree {
   // too large for a double leave a point out.
   std::vector<double> nearest_distances(const Eigen::Vector3d& place, std::size_t count) const;
 
+  // Those points themselves, as places in the span.
+  std::vector<std::size_t> nearest_points(const Eigen::Vector3d& place, std::size_t count) const;
+
   // Infinite where there is none.
   double nearest_distance(const Eigen::Vector3d& place) const;
 

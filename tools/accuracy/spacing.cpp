@@ -21,8 +21,11 @@ double spacing_at(const Eigen::Vector3d& point, const PointTree& tree) {
 }
 
 double median_spacing(std::span<const Eigen::Vector3d> points) {
+  return points.size() < 2 ? 0 : median_spacing(points, PointTree(points));
+}
+
+double median_spacing(std::span<const Eigen::Vector3d> points, const PointTree& tree) {
   if (points.size() < 2) return 0;
-  const PointTree tree(points);
   std::vector<double> spacings;
   const std::size_t step = (points.size() - 1) / kMostTaken + 1;
   for (std::size_t i = 0; i < points.size(); i += step) spacings.push_back(spacing_at(points[i], tree));

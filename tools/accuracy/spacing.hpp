@@ -16,5 +16,7 @@ double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
 // The median over the points; 0 for fewer than two. The points are finite and distinct. Of more than 130,000
 // points as many are taken, evenly spread. Cost: n log n, for the tree.
 double median_spacing(std::span<const Eigen::Vector3d> points);
+double median_spacing(std::span<const Eigen::Vector3d> points,
+                      const PointTree& tree);  // the tree of the points
 
 }  // namespace lacuna::accuracy

@@ -1,12 +1,15 @@
 // What is true of a scan: the loops that its holes and rims have.
 #pragma once
 
+#include "engine/model/loop.hpp"
 #include "io/results/loops_reader.hpp"
 #include "tools/accuracy/edge_tree.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +20,8 @@ namespace lacuna::accuracy {
 struct TrueLoop {
   std::vector<std::uint64_t> vertices;              // ascending, each once
   std::vector<std::array<std::uint64_t, 2>> edges;  // in no particular order
+  std::string name;                                 // what the truth calls it; empty: nothing
+  std::optional<LoopKind> kind;                     // of loops as text; of a mesh's boundary not known
 };
 
 // For each point the lowest id among the points at exactly its coordinates (-0 is 0); a point that is not

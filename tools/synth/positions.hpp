@@ -20,8 +20,8 @@ class Positions {
   virtual std::uint64_t size() const = 0;
   virtual std::optional<Place> at(std::uint64_t number) const = 0;
 
-  // The numbers of the points around each hole and along each outer edge, in order. Each loop is closed, and
-  // visits no point twice.
+  // The numbers of the points around each hole, then along each outer edge, in order. Each loop is closed,
+  // and visits no point twice.
   virtual std::vector<NumberLoop> true_loops() const = 0;
 };
 

@@ -64,10 +64,7 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
 
   const std::vector<NamedLoop> loops = truth.loops();
   write_truth_head(truth_file, options.out);
-  for (const NamedLoop& loop : loops) {
-    truth_file.write("# " + loop.name + "\n");
-    write_loop(truth_file, loop.ids);
-  }
+  for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};

@@ -89,7 +89,7 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   const std::unique_ptr<Positions> positions = make_positions(grid, holes, options);
   const PointMaker points(grid, options);
   const Permutation shuffled(positions->size(), options.seed);
-  TruthLoops truth(positions->true_loops());
+  TruthLoops truth(positions->true_loops(), holes.size());
 
   for (std::uint64_t turn = 0; turn < positions->size(); ++turn) {
     const std::uint64_t number = options.order == Order::kRandom ? shuffled(turn) : turn;
@@ -101,7 +101,7 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
 
   const auto in_ids = truth.in_ids();
   write_truth_head(truth_file, options.out);
-  for (const auto& loop : in_ids) write_loop(truth_file, loop);
+  for (const auto& [ids, is_hole] : in_ids) write_loop(truth_file, is_hole ? "hole" : "outer edge", ids);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};

@@ -19,8 +19,8 @@ void write_truth_head(OutputFile& file, const fs::path& scan) {
   file.write(std::string(kTruthMark) + scan.filename().string() + "\n");
 }
 
-void write_loop(OutputFile& file, const std::vector<std::uint64_t>& loop) {
-  std::string line;
+void write_loop(OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop) {
+  std::string line = "# " + name + "\n";
   for (const std::uint64_t id : loop) line += std::to_string(id) + ' ';
   line.back() = '\n';
   file.write(line);

@@ -5,7 +5,8 @@
 
 namespace lacuna::synth {
 
-TruthLoops::TruthLoops(std::vector<NumberLoop> loops) : loops_(std::move(loops)) {
+TruthLoops::TruthLoops(std::vector<NumberLoop> loops, std::size_t holes)
+    : loops_(std::move(loops)), holes_(holes) {
   for (const NumberLoop& loop : loops_) numbers_.insert(numbers_.end(), loop.begin(), loop.end());
   std::sort(numbers_.begin(), numbers_.end());
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
@@ -18,8 +19,8 @@ void TruthLoops::note(std::uint64_t number, std::uint64_t id) {
     ids_[static_cast<std::size_t>(found - numbers_.begin())] = id;
 }
 
-std::vector<std::vector<std::uint64_t>> TruthLoops::in_ids() const {
-  std::vector<std::vector<std::uint64_t>> all;
+std::vector<TruthLoops::IdLoop> TruthLoops::in_ids() const {
+  std::vector<IdLoop> all;
   all.reserve(loops_.size());
   for (const NumberLoop& loop : loops_) {
     std::vector<std::uint64_t> ids;
@@ -30,9 +31,9 @@ std::vector<std::vector<std::uint64_t>> TruthLoops::in_ids() const {
     }
     std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
     if (ids.back() < ids[1]) std::reverse(ids.begin() + 1, ids.end());
-    all.push_back(std::move(ids));
+    all.push_back({std::move(ids), all.size() < holes_});
   }
-  std::sort(all.begin(), all.end());
+  std::sort(all.begin(), all.end(), [](const IdLoop& a, const IdLoop& b) { return a.ids < b.ids; });
   return all;
 }
 

@@ -32,6 +32,23 @@ TEST_CASE("loops as text are a line each, without comments and blank lines", "[i
   CHECK(read_loops(folder.write("empty.loops.txt", "")).empty());
 }
 
+TEST_CASE("the comment before a loop is its name, that of the file is none", "[io]") {
+  const ScratchFolder folder;
+  const auto named = [&](const std::string& text) {
+    std::vector<std::string> names;
+    for (const NamedLoopIds& loop : read_named_loops(folder.write("a.loops.txt", text)))
+      names.push_back(loop.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  const std::string head = std::string(kLoopsTextMark) + "a.ply\n";
+  CHECK(named(head + "1 2 3\n# window\n4 5\n6 7\n  #shadow  of\tsofa, door \r\n8 9\n") ==
+        Names{"", "window", "", "shadow of sofa, door"});
+  CHECK(named("# no\n\n# yes\n\n1 2\n#\n3\n# of none\n") == Names{"yes", ""});
+  CHECK(named("# " + std::string(300, 'x') + "\n1\n#" + std::string(300, 'x') + "\n2\n") == Names{"", ""});
+  CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).at(0).name.empty());
+}
+
 TEST_CASE("loops as text that are no ids are told with their line", "[io]") {
   const ScratchFolder folder;
   using Catch::Matchers::Contains;

@@ -1,0 +1,28 @@
+// What `lacuna evaluate` prints: for people, and as JSON.
+#pragma once
+
+#include "tools/accuracy/evaluation.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace lacuna {
+
+struct EvaluationText {
+  const accuracy::Result& result;
+  const accuracy::Truth& truth;
+  const accuracy::Evaluation& evaluation;
+  std::filesystem::path result_path, truth_path, surface_path;
+  accuracy::EvaluationRule rule;
+};
+
+// What counts: one sentence with what is found and false, then a line for each true loop, the largest first,
+// with its name, size and place, and who found it; then a line for each loop that matches none.
+std::string print_verdict(const EvaluationText& text);
+
+// All scores, and every number behind them, by loop.
+std::string print_details(const EvaluationText& text);
+
+std::string print_json(const EvaluationText& text);
+
+}  // namespace lacuna

@@ -1,0 +1,51 @@
+// How far a run is, over all of its stages, and how long it still takes.
+#pragma once
+
+#include "engine/config.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna {
+
+struct ExpectedStage {
+  std::string name;
+  double weight = 0;  // its typical time, in units common to all
+};
+
+// The stages of a run in their order, as far as the config determines them. A resolution that the run itself
+// chooses adds stages later.
+std::vector<ExpectedStage> expected_stages(const Config& config);
+
+// Follows a run by typical times of its stages. No clock of its own: `seconds` are those since the run began.
+class OverallProgress {
+ public:
+  struct State {
+    double share = 0;                    // from 0 to 1, never less than before
+    std::optional<double> seconds_left;  // 0 or more; none at the very beginning
+  };
+
+  explicit OverallProgress(std::vector<ExpectedStage> stages) : ahead_(std::move(stages)) {}
+
+  // Stages that were expected before this one do not take place. One that was not expected takes part with
+  // its typical weight.
+  void begin(std::string_view stage, double seconds);
+  void end();
+
+  // `done` of `total` of the current stage; a total of 0 is not known: then its time counts.
+  State at(double seconds, std::uint64_t done, std::uint64_t total);
+
+ private:
+  double share_of_stage(double seconds, std::uint64_t done, std::uint64_t total) const;
+
+  std::vector<ExpectedStage> ahead_;
+  double behind_ = 0;   // weight of the stages that have ended
+  double current_ = 0;  // weight of the current one; 0: none
+  double begin_ = 0;    // of the current one
+  double shown_ = 0;    // the largest share so far
+};
+
+}  // namespace lacuna

@@ -1,0 +1,29 @@
+// The words of `lacuna evaluate` for its decision on a loop, as docs/evaluate.md defines them.
+#pragma once
+
+#include "tools/accuracy/match_loops.hpp"
+
+namespace lacuna {
+
+constexpr const char* name_of(accuracy::EdgeDecision verdict) {
+  using accuracy::EdgeDecision;
+  switch (verdict) {
+    case EdgeDecision::kFound:
+      return "found";
+    case EdgeDecision::kRepeated:
+      return "repeated";
+    case EdgeDecision::kShort:
+      return "short";
+    case EdgeDecision::kJoined:
+      return "joined";
+    case EdgeDecision::kParted:
+      return "parted";
+    case EdgeDecision::kUnsampled:
+      return "unsampled";
+    case EdgeDecision::kFalse:
+      break;
+  }
+  return "false";
+}
+
+}  // namespace lacuna
