@@ -5,7 +5,7 @@
 #include "engine/run/error.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/results.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"

@@ -5,7 +5,7 @@
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
 #include "io/results/results.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"

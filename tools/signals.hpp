@@ -3,10 +3,10 @@
 
 namespace lacuna {
 
-// From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (io/temporary_folder.hpp) and end the
-// program with exit code 128 + signal. Call before any other thread starts: the signals are blocked in all
-// threads and waited for in one of its own, where, unlike in a signal handler, removing files is safe. Throws
-// `Error` if that thread cannot be started.
+// From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
+// end the program with exit code 128 + signal. Call before any other thread starts: the signals are blocked
+// in all threads and waited for in one of its own, where, unlike in a signal handler, removing files is safe.
+// Throws `Error` if that thread cannot be started.
 void handle_signals();
 
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
