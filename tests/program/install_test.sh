@@ -30,7 +30,7 @@ version=$("$prefix/bin/lacuna" --version)
 [[ $version == "lacuna "*.*.* ]] || fail "--version prints: $version"
 "$prefix/bin/lacuna" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
-grep --quiet '"kind": "hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
+grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
 for file in share/lacuna/configs/aerial.toml share/doc/lacuna/docs/usage.md; do
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
