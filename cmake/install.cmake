@@ -29,3 +29,22 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
         PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
+
+# The manual page and the completions of commands, which the program itself writes.
+set(reference ${PROJECT_BINARY_DIR}/reference)
+file(MAKE_DIRECTORY ${reference})
+add_custom_command(
+  OUTPUT ${reference}/lacuna.1.gz ${reference}/lacuna.bash ${reference}/_lacuna ${reference}/lacuna.fish
+  COMMAND lacuna manual > ${reference}/lacuna.1
+  COMMAND gzip -9nf ${reference}/lacuna.1
+  COMMAND lacuna completion bash > ${reference}/lacuna.bash
+  COMMAND lacuna completion zsh > ${reference}/_lacuna
+  COMMAND lacuna completion fish > ${reference}/lacuna.fish
+  DEPENDS lacuna VERBATIM)
+add_custom_target(lacuna_reference ALL DEPENDS ${reference}/lacuna.1.gz)
+set(LACUNA_ZSH_DIR zsh/site-functions CACHE STRING "Folder in share/ for the completion of zsh; Debian has its own")
+install(FILES ${reference}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${reference}/lacuna.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
+        COMPONENT program)
+install(FILES ${reference}/_lacuna DESTINATION ${CMAKE_INSTALL_DATADIR}/${LACUNA_ZSH_DIR} COMPONENT program)
+install(FILES ${reference}/lacuna.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)

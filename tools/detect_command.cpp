@@ -3,9 +3,9 @@
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/results.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -121,8 +121,7 @@ void add_detect_command(CLI::App& app) {
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,
-             "bar where stderr is a terminal, else plain, unless one is named")
-      ->type_name("STYLE");
+             "How progress is shown; bar where stderr is a terminal, else plain, unless one is named");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
   command->add_flag("--keep-workspace", arguments->keep_workspace,
                     "Leave the workspace with index.vdb, the cells and tiles as OpenVDB has them");

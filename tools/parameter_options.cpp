@@ -19,14 +19,22 @@ struct TypeName {
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
   std::string operator()(const std::vector<double>*) const { return "X,X..."; }
   std::string operator()(const std::vector<std::int64_t>*) const { return "N,N..."; }
-  std::string operator()(const NamedValue&) const { return "NAME"; }
+  std::string operator()(const NamedValue& value) const {
+    std::string names;
+    for (const std::string_view name : value.names) names += (names.empty() ? "" : "|") + std::string(name);
+    return names;
+  }
 };
+
+std::string type_name(const Parameter& parameter) {
+  return parameter.key == "workspace" ? "DIR" : std::visit(TypeName{}, parameter.value);
+}
 
 }  // namespace
 
 ParameterOptions::ParameterOptions(CLI::App& command) {
   command.add_option("--config", config_file_, "Config file (TOML); the command line counts over it")
-      ->type_name("FILE");
+      ->type_name("CONFIG");
   Config defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
@@ -36,7 +44,7 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
     option->description(std::string(parameter.help) +
                         (is_flag ? "" : " Allowed: " + std::string(parameter.allowed) + "."));
     option->group(std::string(parameter.section));
-    option->type_name(std::visit(TypeName{}, parameter.value));
+    option->type_name(type_name(parameter));
     option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
     if (!is_flag) option->default_str(parameter.print());
     given.option = option;

@@ -5,6 +5,7 @@
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/reference_commands.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
@@ -105,13 +106,14 @@ void prepare_process() {
 
 int run(int argc, char** argv) {
   CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
-  app.set_version_flag("--version", "lacuna " LACUNA_VERSION);
+  app.set_version_flag("-V,--version", "lacuna " LACUNA_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   add_detect_command(app);
   add_evaluate_command(app);
   add_info_command(app);
   add_synth_command(app);
+  add_reference_commands(app);
 
   try {
     prepare_process();
