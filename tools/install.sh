@@ -3,7 +3,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build
+  g++ cmake ninja-build dpkg-dev
   libopenvdb-dev libtbb-dev libeigen3-dev libnanoflann-dev libspdlog-dev libtomlplusplus-dev
   libcli11-dev nlohmann-json3-dev libhwy-dev libpugixml-dev catch2
   # OpenVDB's headers include Boost's, and its CMake module asks for these:

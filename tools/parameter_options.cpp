@@ -1,6 +1,7 @@
 #include "tools/parameter_options.hpp"
 
 #include "engine/run/error.hpp"
+#include "tools/config_files.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +34,9 @@ std::string type_name(const Parameter& parameter) {
 }  // namespace
 
 ParameterOptions::ParameterOptions(CLI::App& command) {
-  command.add_option("--config", config_file_, "Config file (TOML); the command line counts over it")
+  command
+      .add_option("--config", config_file_,
+                  "Config file (TOML), or the name of one that is installed; the command line counts over it")
       ->type_name("CONFIG");
   Config defaults;
   for (const Parameter& parameter : parameters(defaults)) {
@@ -54,7 +57,8 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
 EffectiveConfig ParameterOptions::read() const {
   Config config;
   std::vector<std::string> keys_in_file;
-  if (!config_file_.empty()) keys_in_file = read_config(config_file_, config);
+  const std::string file = config_file_.empty() ? "" : find_config(config_file_).string();
+  if (!file.empty()) keys_in_file = read_config(file, config);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (given_[i].option->count() == 0) continue;
@@ -67,8 +71,8 @@ EffectiveConfig ParameterOptions::read() const {
   try {
     check_config(config);
   } catch (const Error& error) {
-    if (config_file_.empty()) throw CLI::ValidationError(error.what());
-    throw Error(config_file_ + " with the command line: " + error.what());
+    if (file.empty()) throw CLI::ValidationError(error.what());
+    throw Error(file + " with the command line: " + error.what());
   }
   return {config, idle_warnings(config, keys_in_file)};
 }

@@ -49,8 +49,7 @@ std::string paragraph(std::string_view text) {
     const std::string next = escaped(word);
     if (!line.empty() && line.size() + 1 + next.size() > kWidth) out += line_of(std::exchange(line, ""));
     line += (line.empty() ? "" : " ") + next;
-    if (word.ends_with('.') || word.ends_with(':') || word.ends_with('?'))
-      out += line_of(std::exchange(line, ""));
+    if (word.ends_with('.') || word.ends_with('?')) out += line_of(std::exchange(line, ""));
   }
   return line.empty() ? out : out + line_of(line);
 }
@@ -120,17 +119,25 @@ std::string describe_parameters(const std::vector<const CommandEntry*>& commands
   return out;
 }
 
-std::string example(std::string_view text, std::string_view command) {
-  return paragraph(text) + ".PP\n.RS 4\n.nf\n" + escaped(command) + "\n.fi\n.RE\n.PP\n";
-}
+struct Example {
+  std::string_view text, command;
+};
+
+constexpr Example kExamples[] = {
+    {"The holes of a scan:", "lacuna detect scan.laz --out holes"},
+    {"Only holes in which a circle of 0.2 units of the scan fits, without outer boundaries:",
+     "lacuna detect scan.e57 --out holes --min-hole 0.2 --holes-only"},
+    {"All tiles of an aerial survey as one scan:", "lacuna detect tiles/ --config aerial --out holes"},
+    {"What a run would take:", "lacuna info scan.laz"},
+};
 
 std::string examples() {
-  return ".SH EXAMPLES\n" + example("The holes of a scan:", "lacuna detect scan.laz --out holes") +
-         example("Only holes in which a circle of 0.2 units of the scan fits, without outer boundaries:",
-                 "lacuna detect scan.e57 --out holes --min-hole 0.2 --holes-only") +
-         example("All tiles of an aerial survey as one scan:",
-                 "lacuna detect tiles/ --config aerial --out holes") +
-         example("What a run would take:", "lacuna info scan.laz");
+  std::string out;
+  for (const Example& example : kExamples) {
+    out += out.empty() ? ".SH EXAMPLES\n" : ".PP\n";
+    out += paragraph(example.text) + ".PP\n.RS 4\n.nf\n" + escaped(example.command) + "\n.fi\n.RE\n";
+  }
+  return out;
 }
 
 constexpr std::string_view kExitStatus = R"(.SH EXIT STATUS
