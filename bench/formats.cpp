@@ -4,7 +4,7 @@
 #include "bench/sample.hpp"
 #include "bench/scan_files.hpp"
 #include "io/file_scan.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 
 #include <filesystem>
 #include <string>

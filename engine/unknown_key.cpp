@@ -22,20 +22,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// " (did you mean "k"?)" where one of the words is close, else nothing.
-std::string suggestion(std::string_view word, const std::vector<std::string_view>& words) {
-  std::string_view closest;
-  std::size_t least = 3;  // a swap of two characters costs 2
-  for (const std::string_view candidate : words) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least && distance < candidate.size()) {
-      least = distance;
-      closest = candidate;
-    }
-  }
-  return closest.empty() ? "" : " (did you mean \"" + std::string(closest) + "\"?)";
-}
-
 std::string join(const std::vector<std::string_view>& words) {
   std::string joined;
   for (const std::string_view word : words) {
@@ -66,6 +52,19 @@ std::string belongs_in(const Parameter& parameter) {
 }
 
 }  // namespace
+
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& words) {
+  std::string_view closest;
+  std::size_t least = 3;  // a swap of two characters costs 2
+  for (const std::string_view candidate : words) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least && distance < candidate.size()) {
+      least = distance;
+      closest = candidate;
+    }
+  }
+  return closest.empty() ? "" : " (did you mean \"" + std::string(closest) + "\"?)";
+}
 
 const Parameter* find_key(const std::vector<Parameter>& all, std::string_view key) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key; });

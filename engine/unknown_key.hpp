@@ -1,4 +1,4 @@
-// What to say of a key or section of a config file that does not exist.
+// What to say of a word that does not exist: a key or section of a config file, an option, a command.
 #pragma once
 
 #include "engine/config.hpp"
@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace lacuna {
+
+// " (did you mean "k"?)" where one of the words is close to this one, else nothing.
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& words);
 
 // Null: there is none of that name.
 const Parameter* find_key(const std::vector<Parameter>& all, std::string_view key);

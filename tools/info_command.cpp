@@ -6,7 +6,7 @@
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/results.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"

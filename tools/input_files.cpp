@@ -94,6 +94,12 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const R
   std::vector<ScanInput> files;
   for (const fs::path& input : given) {
     std::error_code error;  // what is missing is an error later, when it is opened
+    if (input == "-") {
+      throw Error(
+          "-: standard input is not read, because a scan is read more than once; save it in a file first, "
+          "and name "
+          "that (./- for a file of this name)");
+    }
     if (input.string().starts_with('@') && !fs::exists(input, error)) {
       add_list(input.string().substr(1), files);
     } else if (fs::is_directory(input, error)) {

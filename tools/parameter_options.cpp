@@ -1,6 +1,7 @@
 #include "tools/parameter_options.hpp"
 
 #include "engine/run/error.hpp"
+#include "tools/config_files.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -19,14 +20,24 @@ struct TypeName {
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
   std::string operator()(const std::vector<double>*) const { return "X,X..."; }
   std::string operator()(const std::vector<std::int64_t>*) const { return "N,N..."; }
-  std::string operator()(const NamedValue&) const { return "NAME"; }
+  std::string operator()(const NamedValue& value) const {
+    std::string names;
+    for (const std::string_view name : value.names) names += (names.empty() ? "" : "|") + std::string(name);
+    return names;
+  }
 };
+
+std::string type_name(const Parameter& parameter) {
+  return parameter.key == "workspace" ? "DIR" : std::visit(TypeName{}, parameter.value);
+}
 
 }  // namespace
 
 ParameterOptions::ParameterOptions(CLI::App& command) {
-  command.add_option("--config", config_file_, "Config file (TOML); the command line counts over it")
-      ->type_name("FILE");
+  command
+      .add_option("--config", config_file_,
+                  "Config file (TOML), or the name of one that is installed; the command line counts over it")
+      ->type_name("CONFIG");
   Config defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
@@ -36,7 +47,7 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
     option->description(std::string(parameter.help) +
                         (is_flag ? "" : " Allowed: " + std::string(parameter.allowed) + "."));
     option->group(std::string(parameter.section));
-    option->type_name(std::visit(TypeName{}, parameter.value));
+    option->type_name(type_name(parameter));
     option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
     if (!is_flag) option->default_str(parameter.print());
     given.option = option;
@@ -46,7 +57,8 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
 EffectiveConfig ParameterOptions::read() const {
   Config config;
   std::vector<std::string> keys_in_file;
-  if (!config_file_.empty()) keys_in_file = read_config(config_file_, config);
+  const std::string file = config_file_.empty() ? "" : find_config(config_file_).string();
+  if (!file.empty()) keys_in_file = read_config(file, config);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (given_[i].option->count() == 0) continue;
@@ -59,8 +71,8 @@ EffectiveConfig ParameterOptions::read() const {
   try {
     check_config(config);
   } catch (const Error& error) {
-    if (config_file_.empty()) throw CLI::ValidationError(error.what());
-    throw Error(config_file_ + " with the command line: " + error.what());
+    if (file.empty()) throw CLI::ValidationError(error.what());
+    throw Error(file + " with the command line: " + error.what());
   }
   return {config, idle_warnings(config, keys_in_file)};
 }

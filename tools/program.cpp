@@ -1,6 +1,7 @@
 #include "tools/program.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/unknown_key.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
@@ -8,11 +9,13 @@
 #include "tools/parameter_options.hpp"
 #include "tools/render_command.hpp"
 #include "tools/report_command.hpp"
+#include "tools/reference_commands.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -47,32 +50,62 @@ int flush_output() {
   return fail("cannot write to standard output", kFailed);
 }
 
+const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->check_name(name)) return command;
+  }
+  return nullptr;
+}
+
+// "--k=3" is the option --k. Without it a misspelt option is an argument that was not expected.
+void check_option_names(const CLI::App& command, std::span<const std::string> arguments) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    const std::string name = argument.substr(0, argument.find('='));
+    if (!name.starts_with("--") || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw CLI::ParseError("unknown option " + name + suggestion(name, {names.begin(), names.end()}),
+                          CLI::ExitCodes::ExtrasError);
+  }
+}
+
 // Without it a misspelt command is told as a missing one.
-void check_command_names(const CLI::App& app, std::span<const std::string> arguments) {
+void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   const std::vector<const CLI::App*> commands = app.get_subcommands({});
-  if (commands.empty() || arguments.empty() || arguments.front().starts_with('-')) return;
+  if (commands.empty()) return check_option_names(app, arguments);
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  const std::string& word = arguments.front();
+  if (const CLI::App* const command = find_command(app, word))
+    return check_names(*command, arguments.subspan(1));
+  std::vector<std::string> names;
   std::string known;
   for (const CLI::App* command : commands) {
-    if (command->check_name(arguments.front())) return check_command_names(*command, arguments.subspan(1));
+    names.push_back(command->get_name());
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
-  throw CLI::ParseError("unknown command \"" + arguments.front() + "\"; allowed: " + known,
+  throw CLI::ParseError("unknown command \"" + word + "\"" + suggestion(word, {names.begin(), names.end()}) +
+                            "; allowed: " + known,
                         CLI::ExitCodes::ExtrasError);
 }
 
 int run_command(CLI::App& app, const std::vector<std::string>& arguments) {
-  check_command_names(app, arguments);
+  check_names(app, arguments);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   return flush_output();
 }
 
-std::string usage_hint(const CLI::App& app) {
-  std::string command = "lacuna";
-  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
-    at = at->get_subcommands().front();
-    command += " " + at->get_name();
+std::string usage_hint(const CLI::App& app, const std::vector<std::string>& arguments) {
+  std::string words = "lacuna";
+  const CLI::App* at = &app;
+  for (const std::string& argument : arguments) {
+    at = find_command(*at, argument);
+    if (at == nullptr) break;
+    words += " " + argument;
   }
-  return " (see " + command + " --help)";
+  return " (see " + words + " --help)";
 }
 
 std::string one_line(std::string text) {
@@ -108,7 +141,7 @@ void prepare_process() {
 
 int run(int argc, char** argv) {
   CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
-  app.set_version_flag("--version", "lacuna " LACUNA_VERSION);
+  app.set_version_flag("-V,--version", "lacuna " LACUNA_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   add_detect_command(app);
@@ -117,16 +150,18 @@ int run(int argc, char** argv) {
   add_report_command(app);
   add_render_command(app);
   add_synth_command(app);
+  add_reference_commands(app);
 
+  const std::vector<std::string> arguments = join_columns({argv + 1, argv + argc});
   try {
     prepare_process();
     remember_command_line("lacuna " LACUNA_VERSION, argc, argv);
-    return run_command(app, join_columns({argv + 1, argv + argc}));
+    return run_command(app, arguments);
   } catch (const CLI::Success& shown) {  // --help, --version
     app.exit(shown, std::cout, std::cerr);
     return flush_output();
   } catch (const CLI::Error& error) {
-    return fail(one_line(error.what()) + usage_hint(app), kWrongUsage);
+    return fail(one_line(error.what()) + usage_hint(app, arguments), kWrongUsage);
   } catch (const Error& error) {
     return fail(one_line(error.what()), kFailed);
   } catch (const std::bad_alloc&) {

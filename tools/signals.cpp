@@ -1,7 +1,7 @@
 #include "tools/signals.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "tools/terminal.hpp"
 #include "tools/workspace.hpp"
 

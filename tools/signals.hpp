@@ -5,7 +5,7 @@
 
 namespace lacuna {
 
-// From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (io/temporary_folder.hpp) and empty
+// From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and empty
 // folders that were made for the run (tools/workspace.hpp). They print one line, if stderr takes it at once,
 // and end the program with exit code 128 + signal. Call before any other thread starts: the signals are
 // blocked in all threads and waited for in one of its own, where, unlike in a signal handler, removing files

@@ -35,8 +35,11 @@ constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, 
 // What both kinds of scan have.
 template <typename Options>
 void add_common(CLI::App& app, Options& options) {
-  app.add_option("OUT", options.out, "the PLY file to write, binary little-endian")->required();
+  app.add_option("OUT", options.out, "the PLY file to write, binary little-endian")
+      ->type_name("FILE")
+      ->required();
   app.add_option("--truth", options.truth, "file of the true loops, 0-based point ids")
+      ->type_name("FILE")
       ->default_str("OUT.loops.txt");
   app.add_option("--points", options.points, "about how many points")
       ->check(whole_number())

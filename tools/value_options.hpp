@@ -16,12 +16,16 @@ struct Choice {
   T value;
 };
 
-// An option that takes one of the names.
+// An option that takes one of the names. Its type name has them all, "a|b": help and completions take them
+// from there.
 template <class T, std::size_t N>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, const std::array<Choice<T>, N>& choices,
                         T& value, const std::string& help) {
-  std::string names;
-  for (const Choice<T>& choice : choices) names += (names.empty() ? "" : ", ") + std::string(choice.name);
+  std::string names, type_name;
+  for (const Choice<T>& choice : choices) {
+    names += (names.empty() ? "" : ", ") + std::string(choice.name);
+    type_name += (type_name.empty() ? "" : "|") + std::string(choice.name);
+  }
   const auto choose = [&choices, &value, option, names](const std::string& text) {
     for (const Choice<T>& choice : choices) {
       if (text != choice.name) continue;
@@ -30,7 +34,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, const std:
     }
     throw CLI::ValidationError(option + " = " + text, "is not possible; allowed: " + names);
   };
-  return command.add_option_function<std::string>(option, choose, help + ": " + names);
+  return command.add_option_function<std::string>(option, choose, help)->type_name(type_name);
 }
 
 // For options that take whole numbers: CLI11 alone makes a number near 2^64 of -1.

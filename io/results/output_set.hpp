@@ -19,7 +19,7 @@
 #pragma once
 
 #include "io/results/output_file.hpp"
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "io/temporary_folder.hpp"
+#include "engine/store/temporary_folder.hpp"
 
 #include "engine/run/error.hpp"
 

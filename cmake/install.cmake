@@ -1,0 +1,50 @@
+# What `cmake --install` writes: the program with its manual and completions, the library, configs and documentation.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+include(cmake/public_headers.cmake)
+
+install(TARGETS lacuna COMPONENT program)
+
+# The library: lacuna::lacuna.
+set(public_headers ${PROJECT_BINARY_DIR}/include)
+file(REMOVE_RECURSE ${public_headers})  # headers that are public no more
+lacuna_copy_public_headers(engine/lacuna.hpp ${public_headers})
+install(DIRECTORY ${public_headers}/lacuna DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library)
+target_include_directories(lacuna_engine INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+set_target_properties(lacuna_engine PROPERTIES OUTPUT_NAME lacuna EXPORT_NAME lacuna)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lacuna)
+install(TARGETS lacuna_engine EXPORT lacuna-targets COMPONENT library)
+install(EXPORT lacuna-targets NAMESPACE lacuna:: DESTINATION ${package_folder} COMPONENT library)
+configure_package_config_file(cmake/lacuna-config.cmake.in ${PROJECT_BINARY_DIR}/lacuna-config.cmake
+                              INSTALL_DESTINATION ${package_folder})
+# Before 1.0 each minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lacuna-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/lacuna-config.cmake ${PROJECT_BINARY_DIR}/lacuna-config-version.cmake
+        DESTINATION ${package_folder} COMPONENT library)
+
+# Configs, and the documentation with its figures but without their scripts.
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/lacuna COMPONENT program FILES_MATCHING PATTERN "*.toml")
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
+        PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
+
+# The manual page and the completions of commands, which the program itself writes.
+set(reference ${PROJECT_BINARY_DIR}/reference)
+file(MAKE_DIRECTORY ${reference})
+add_custom_command(
+  OUTPUT ${reference}/lacuna.1.gz ${reference}/lacuna.bash ${reference}/_lacuna ${reference}/lacuna.fish
+  COMMAND lacuna manual > ${reference}/lacuna.1
+  COMMAND gzip -9nf ${reference}/lacuna.1
+  COMMAND lacuna completion bash > ${reference}/lacuna.bash
+  COMMAND lacuna completion zsh > ${reference}/_lacuna
+  COMMAND lacuna completion fish > ${reference}/lacuna.fish
+  DEPENDS lacuna VERBATIM)
+add_custom_target(lacuna_reference ALL DEPENDS ${reference}/lacuna.1.gz)
+set(LACUNA_ZSH_DIR zsh/site-functions CACHE STRING "Folder in share/ for the completion of zsh; Debian has its own")
+install(FILES ${reference}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${reference}/lacuna.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
+        COMPONENT program)
+install(FILES ${reference}/_lacuna DESTINATION ${CMAKE_INSTALL_DATADIR}/${LACUNA_ZSH_DIR} COMPONENT program)
+install(FILES ${reference}/lacuna.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)

@@ -1,0 +1,60 @@
+// Lacuna as a library: `#include <lacuna/lacuna.hpp>`. Everything that a user needs is in this header and in
+// those that it includes.
+//
+// - Points in memory: `find_holes`, below.
+// - A scan larger than memory: derive from `PointSource` (engine/model/points.hpp), and call `detect`
+//   (engine/pipeline.hpp). It returns the same results as streams (engine/model/detection.hpp).
+// - Parameters: `Config` (engine/config.hpp), one struct per stage with its defaults. `read_config` reads
+// them
+//   from a file, `parameters` lists them by name.
+// - Errors: `Error` (engine/run/error.hpp), one line of text for the user.
+//
+// Results are the same bytes for every number of threads and every memory limit. They are those of the
+// program, which calls the same functions. Source of the method: docs/method.md.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/model/points.hpp"
+#include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/progress.hpp"
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+// All that a run has found, in memory. A point's id is its index in the input.
+struct Holes {
+  std::vector<ReportedLoop> loops;  // in order of (first id, length, ids): holes and outer boundaries
+  std::vector<PointResult> points;  // one per point of the input, in its order; only with `output.points`
+  Summary summary;                  // counts, bounds, and the parameters in effect
+};
+
+// Finds the loops around every hole of the surface that `points` sample, in any unit of length; all lengths
+// of the results are in the same unit. Non-finite points are dropped and counted. Empty input, and fewer
+// points than a hole needs, give no loops.
+//
+// `config`: `input` is for files and has no effect; of `output`, `points` alone counts.
+// Throws `Error` for parameters that contradict each other, for a coordinate beyond `kFarthest`, and where
+// the workspace cannot be made or written to. The folder `run.workspace`, else that for temporary files,
+// holds the workspace, which is gone at the end.
+//
+// Cost: O(n log n) time; in memory the input, the results, and what `run.memory_limit` allows; on disk some
+// 100 bytes per point (`estimate` in engine/pipeline.hpp measures it). Calls from several threads are
+// independent of each other.
+Holes find_holes(std::span<const Eigen::Vector3d> points, const Config& config = {});
+
+// The same with known normals, one per point, of any length; NaN or zero where one is not known. Throws
+// `Error` too where their number is not that of the points.
+Holes find_holes(std::span<const Eigen::Vector3d> points, std::span<const Eigen::Vector3d> normals,
+                 const Config& config = {});
+
+// The same for any source, which may be larger than memory where its loops are not, and where `output.points`
+// is off.
+Holes find_holes(PointSource& scan, const Config& config = {});
+
+}  // namespace lacuna

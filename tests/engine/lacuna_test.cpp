@@ -1,0 +1,118 @@
+// The library's few functions against each other, and against the program.
+#include "engine/lacuna.hpp"
+
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::ScratchFolder;
+
+Cloud punched_sheet() {
+  return plane(50).punched({15, 14}, 5).punched({34, 33}, 7).jittered(0.3, 5).noisy(0.05, 6);
+}
+
+Config with_points() {
+  Config config;
+  config.output.points = true;
+  return config;
+}
+
+std::string bytes_of(const Holes& holes) {
+  return Detected{.summary = holes.summary, .points = holes.points, .boundary = {}, .loops = holes.loops}
+      .bytes();
+}
+
+std::string bytes_without_boundary(Detected detected) {
+  detected.boundary.clear();
+  return detected.bytes();
+}
+
+TEST_CASE("points in memory, a source of batches and the streams of detect have the same holes",
+          "[library]") {
+  const Cloud cloud = punched_sheet().with_unusable(3, 7);
+  const Holes in_memory = find_holes(cloud.positions, with_points());
+  REQUIRE(in_memory.loops.size() == 3);
+  CHECK(in_memory.points.size() == cloud.size());
+  CHECK(in_memory.summary.counts.dropped == 3);
+
+  MemoryScan batches(cloud, 77);
+  CHECK(bytes_of(find_holes(batches, with_points())) == bytes_of(in_memory));
+  CHECK(bytes_without_boundary(run_engine(cloud, tiled({}, 300))) == bytes_of(in_memory));
+}
+
+TEST_CASE("given normals count for the library", "[library]") {
+  const Cloud cloud = punched_sheet().with_random_normals(3);
+  const Holes found = find_holes(cloud.positions, cloud.normals, with_points());
+  CHECK(bytes_of(found) == bytes_without_boundary(run_engine(cloud, {})));
+  CHECK(bytes_of(found) != bytes_of(find_holes(cloud.positions, with_points())));
+}
+
+TEST_CASE("the library finds the holes that the program writes", "[library]") {
+  const Cloud cloud = punched_sheet();
+  std::ostringstream text;
+  text.precision(17);
+  for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("sheet.xyz", text.str());
+  REQUIRE(test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--min-diameter", "9"})
+              .exit_code == 0);
+
+  Config config;
+  config.selection.min_diameter = 9;
+  const Holes found = find_holes(cloud.positions, config);
+  const auto report = nlohmann::json::parse(test::read_file(scratch / "out" / "holes.json"));
+  REQUIRE(report["loops"].size() == found.loops.size());
+  REQUIRE(found.loops.size() == 3);
+  for (std::size_t i = 0; i < found.loops.size(); ++i) {
+    std::vector<std::uint64_t> ids;
+    for (const LoopPoint& point : found.loops[i].points) ids.push_back(value(point.id));
+    CHECK(report["loops"][i]["ids"] == ids);
+    CHECK(report["loops"][i]["perimeter"] == Approx(found.loops[i].measures.perimeter));
+    CHECK(report["loops"][i]["kind"] == name_of(found.loops[i].measures.kind));
+  }
+}
+
+TEST_CASE("the library gives results of points only where they are wanted, and no loops of nothing",
+          "[library]") {
+  CHECK(find_holes(punched_sheet().positions).points.empty());
+  const Holes none = find_holes(std::vector<Eigen::Vector3d>{}, with_points());
+  CHECK(none.loops.empty());
+  CHECK(none.points.empty());
+  CHECK(find_holes(plane(1).positions, with_points()).points.size() == 1);
+}
+
+TEST_CASE("the library's workspace is in the wanted folder, and gone at the end", "[library]") {
+  const ScratchFolder scratch;
+  Config config;
+  config.run.workspace = scratch.path().string();
+  CHECK(find_holes(punched_sheet().positions, config).loops.size() == 3);
+  CHECK(test::count_entries(scratch.path()) == 0);
+  config.run.workspace = (scratch / "missing").string();
+  CHECK_THROWS_WITH(find_holes(punched_sheet().positions, config), Contains("missing"));
+}
+
+TEST_CASE("what the library cannot do is an error", "[library]") {
+  const Cloud cloud = plane(5);
+  CHECK_THROWS_WITH(find_holes(cloud.positions, std::span(cloud.positions).first(4)),
+                    "4 normals for 25 points; allowed: one for each point");
+  Cloud far = cloud;
+  far.positions[7].x() = 1e200;
+  CHECK_THROWS_WITH(find_holes(far.positions), Contains("point 7 lies at"));
+  Config config;
+  config.neighbourhood.eps = 1;
+  config.neighbourhood.eps_fraction = 0.1;
+  CHECK_THROWS_WITH(find_holes(cloud.positions, config), Contains("eps_fraction"));
+}
+
+}  // namespace
+}  // namespace lacuna

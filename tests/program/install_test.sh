@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Installs to a new prefix, and builds and runs the example of docs/example against it, as a user of the library would.
+# Then moves the prefix: the package must not depend on its place.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source_folder=$PWD
+build_folder=$(dirname "${LACUNA_PROGRAM:?}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "install_test.sh: $*" >&2
+  exit 1
+}
+
+cmake --install "$build_folder" --prefix "$work/first" >"$work/log"
+mv "$work/first" "$work/moved"
+prefix=$work/moved
+for place in "$source_folder" "$build_folder" "$work"; do
+  if grep --recursive --files-with-matches --fixed-strings "$place" "$prefix"; then
+    fail "these files name $place"
+  fi
+done
+# Nothing of the engine but what lacuna.hpp includes, and all of that by names of its own.
+if grep --recursive '#include "' "$prefix/include"; then
+  fail "these includes depend on the user's folders"
+fi
+
+version=$("$prefix/bin/lacuna" --version)
+[[ $version == "lacuna "*.*.* ]] || fail "--version prints: $version"
+"$prefix/bin/lacuna" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
+"$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
+grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
+for file in share/lacuna/configs/aerial.toml share/doc/lacuna/docs/usage.md; do
+  [[ -s $prefix/$file ]] || fail "$file is missing"
+done
+
+# A user's own "engine/config.hpp" does not take the place of the library's.
+cp -r docs/example "$work/example"
+mkdir "$work/example/engine"
+echo '#error "this is not the header of the library"' >"$work/example/engine/config.hpp"
+cmake -S "$work/example" -B "$work/example/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
+  -DCMAKE_CXX_FLAGS=-I"$work/example" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be configured"; }
+cmake --build "$work/example/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be built"; }
+found=$("$work/example/build/find_holes")
+expected='^hole at (49|50)\.[0-9] (49|50)\.[0-9] -?0\.0: [0-9]+ points, perimeter [78][0-9]\.[0-9], diameter 2[4-6]\.'
+[[ $found =~ $expected && $(wc -l <<<"$found") == 1 ]] || fail "the example prints: $found"

@@ -1,0 +1,56 @@
+#include "tools/config_files.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/unknown_key.hpp"
+
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> config_folders() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const fs::path folder = program.parent_path();
+  std::vector<fs::path> folders = {folder.parent_path() / "share/lacuna/configs",
+                                   folder / "share/lacuna/configs"};
+  if (fs::exists(folder / "CMakeCache.txt", error)) folders.push_back(folder.parent_path() / "configs");
+  return folders;
+}
+
+[[noreturn]] void fail_unknown(const std::string& name, const std::vector<fs::path>& folders) {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code error;  // a folder that is missing has none
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+  }
+  std::string list;
+  for (const std::string& known : names) list += ", " + known;
+  throw Error("--config " + name + ": no file and no installed config has this name" +
+              suggestion(name, {names.begin(), names.end()}) + "; allowed: a TOML file" +
+              (names.empty() ? "; no config is installed" : ", or one of these:" + list.substr(1)));
+}
+
+}  // namespace
+
+fs::path find_config(const std::string& given) {
+  std::error_code error;
+  const bool is_file = given.find('/') != given.npos || given.ends_with(".toml") || fs::exists(given, error);
+  if (is_file) return given;
+  const std::vector<fs::path> folders = config_folders();
+  for (const fs::path& folder : folders) {
+    const fs::path file = folder / (given + ".toml");
+    if (fs::exists(file, error)) return file;
+  }
+  fail_unknown(given, folders);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,13 @@
+// The subcommands `lacuna manual`, `lacuna completion` and `lacuna help`.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace lacuna {
+
+// They describe all commands of `app`, those that are added later too.
+void add_reference_commands(CLI::App& app);
+
+}  // namespace lacuna
