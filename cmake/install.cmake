@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 include(cmake/public_headers.cmake)
 
 install(TARGETS lacuna COMPONENT program)
+install(TARGETS lacuna_gis LIBRARY DESTINATION lib/lacuna COMPONENT program)  # where the program looks for it
 
 # The library: lacuna::lacuna.
 set(public_headers ${PROJECT_BINARY_DIR}/include)

@@ -15,7 +15,7 @@ run() {
 
 mkdir -p demo
 run build/lacuna synth scan demo/scan.ply --stations 1 --points 400000 --seed 2
-run build/lacuna detect demo/scan.ply --out demo/holes --points
+run build/lacuna detect demo/scan.ply --out demo/holes --points --report
 run build/lacuna evaluate demo/holes demo/scan.loops.txt
 
 cat <<END
@@ -25,11 +25,13 @@ column, a lamp and a ball. So every place that the scanner could not sample is k
 With another --seed the scanner stands elsewhere, and some shadows that touch each other are found as one:
 docs/evaluate.md has the numbers.
 
-Look at it in CloudCompare or MeshLab:
+Look at it in a browser, by a double click:
+  $PWD/demo/holes/report.html   the scan and its holes in 3D
+or in CloudCompare or MeshLab:
   $PWD/demo/holes/points.ply    every point, with its boundary probability
   $PWD/demo/holes/boundary.ply  the boundary points
   $PWD/demo/holes/loops.ply     the loops around the holes
 and at $PWD/demo/holes/holes.csv for their measures; "loop 3" above has the id 3 there.
 On a scan of your own:
-  $PWD/build/lacuna detect SCAN.ply --out DIR
+  $PWD/build/lacuna detect SCAN.ply --out DIR --report
 END
