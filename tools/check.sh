@@ -23,6 +23,7 @@ case "$*" in
     options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=ON)  # warnings are no errors: GCC's can be wrong here
     # These measure memory and threads, of which the sanitizers take their own.
     excluded='within the memory limit|stay within|threads that cannot be started'
+    export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
     export LACUNA_DRAWN_SHARE=${LACUNA_DRAWN_SHARE:-0.1}       # of the cases that the longest tests draw
     ;;
   *)

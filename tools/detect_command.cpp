@@ -96,7 +96,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point end = Clock::now();
   std::string summary = print_summary(*detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
-                                       .total_seconds = std::chrono::duration<double>(end - start).count()});
+                                       .total_seconds = std::chrono::duration<double>(end - start).count()},
+                                      scan.length_unit());
   for (const fs::path& file : written) {
     if (!fs::exists(file)) continue;  // loops.prj, without a coordinate reference system
     summary += "written: " + visible(file.string()) + "\n";

@@ -10,6 +10,7 @@ packages=(
   # OpenVDB's headers include Boost's, and its CMake module asks for these:
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev
   python3 python3-jsonschema gdal-bin  # scripts of tests and benchmarks
+  python3-selenium chromium chromium-driver  # the test of the report
 )
 
 missing=()

@@ -124,7 +124,7 @@ TEST_CASE("a header alone is a scan without points: results without loops") {
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(report_of(out).at("loops").empty());
-    CHECK(count_entries(out) == 6);
+    CHECK(count_entries(out) == 7);
   }
   CHECK(run_program({"info", scratch.write("none.ply", header("0"))}).exit_code == 0);
 }
@@ -173,7 +173,7 @@ TEST_CASE("few points, equal points, collinear ones and unusable ones have resul
       REQUIRE(result.exit_code == 0);
       CHECK(report_of(out).at("counts").at("points") == scans[i].first.size());
       CHECK(report_of(out).at("counts").at("dropped") >= scans[i].second);
-      CHECK(count_entries(out) == 6);
+      CHECK(count_entries(out) == 7);
     }
   }
 }
@@ -271,7 +271,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     CHECK(count_entries(disk.path()) == 0);
     if (result.exit_code == 0) {
       ++done;
-      CHECK(count_entries(out) == 6);
+      CHECK(count_entries(out) == 7);
       continue;
     }
     ++failed;

@@ -163,7 +163,7 @@ TEST_CASE("a run makes its folder, tells what it found and leaves nothing else")
                              Contains("largest holes") && Contains((out / "holes.json").string()));
   CHECK_THAT(result.err, Contains("done in") && !Contains("\r"));
   CHECK(fs::exists(out / "holes.json"));
-  CHECK(count_entries(out) == 5);  // and no workspace
+  CHECK(count_entries(out) == 6);  // and no workspace
 }
 
 TEST_CASE("a quiet run says nothing") {
@@ -251,7 +251,7 @@ TEST_CASE("one run at a time writes to a folder, and tells of what a killed one 
   const ProgramResult result = run_program({"detect", scan, "--out", out.string(), "--quiet"});
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.err, Contains(".lacuna-killed") && Contains("left by a run that was killed"));
-  CHECK(count_entries(out) == 6);
+  CHECK(count_entries(out) == 7);
 }
 
 TEST_CASE("a file that the program did not write is refused before the work, and replaced on request") {
@@ -266,7 +266,7 @@ TEST_CASE("a file that the program did not write is refused before the work, and
     const std::string before = test::read_file(mine);
     check_failure(run_program(arguments), 1, "points.ply: exists, and this command did not write it");
     CHECK(test::read_file(mine) == before);
-    CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 6 : 1));
+    CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 7 : 1));
     arguments.push_back("--overwrite");
     CHECK(run_program(arguments).exit_code == 0);
     CHECK(test::read_file(mine) != before);
@@ -303,7 +303,7 @@ TEST_CASE("files, links, folders and pipes of like names are not touched, by a s
   CHECK(count_entries(out) == 4);
   CHECK(is_untouched());
   CHECK(run_program(arguments).exit_code == 0);
-  CHECK(count_entries(out) == 10);
+  CHECK(count_entries(out) == 11);
   CHECK(is_untouched());
 }
 
