@@ -78,6 +78,7 @@ void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   if (commands.empty()) return check_option_names(app, arguments);
   if (arguments.empty() || arguments.front().starts_with('-')) return;
   const std::string& word = arguments.front();
+  if (word == kHelpCommand && app.get_parent() == nullptr) return check_names(app, arguments.subspan(1));
   if (const CLI::App* const command = find_command(app, word))
     return check_names(*command, arguments.subspan(1));
   std::vector<std::string> names;

@@ -42,17 +42,20 @@ std::string page_date() {
 }
 
 void print_help(CLI::App& app, const std::vector<std::string>& words) {
-  CLI::App* at = &app;
-  for (const std::string& word : words) at = at->get_subcommand(word);
-  std::string name = "lacuna";
-  for (std::size_t i = 0; i + 1 < words.size(); ++i) name += " " + words[i];
-  std::cout << at->help(words.empty() ? "" : name, CLI::AppFormatMode::Normal);
+  const CLI::App* command = &app;
+  std::string name = app.get_name();
+  for (const std::string& word : words) {
+    command = command->get_subcommand(word);
+    name += " " + word;
+  }
+  // Not command->help: of the app, that is the help of the command that runs.
+  std::cout << app.get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal);
 }
 
 }  // namespace
 
 void add_reference_commands(CLI::App& app) {
-  CLI::App* help = app.add_subcommand("help", "Show the help of a command");
+  CLI::App* help = app.add_subcommand(kHelpCommand, "Show the help of a command");
   const auto words = std::make_shared<std::vector<std::string>>();
   help->add_option("COMMAND", *words, "Words of the command, such as synth surface")->type_name("COMMAND");
   help->callback([&app, words] { print_help(app, *words); });

@@ -7,6 +7,9 @@ class App;
 
 namespace lacuna {
 
+// The words behind it are commands, too.
+inline constexpr const char* kHelpCommand = "help";
+
 // They describe all commands of `app`, those that are added later too.
 void add_reference_commands(CLI::App& app);
 

@@ -31,7 +31,8 @@ version=$("$prefix/bin/lacuna" --version)
 "$prefix/bin/lacuna" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
 grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
-for file in share/lacuna/configs/aerial.toml share/doc/lacuna/docs/usage.md; do
+"$prefix/bin/lacuna" detect --print-config --config aerial >"$work/log" || fail "the installed config is not found"
+for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml share/doc/lacuna/docs/usage.md; do
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
 

@@ -87,6 +87,44 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   CHECK_FALSE(fs::exists("d"));
 }
 
+TEST_CASE("a mistyped option or command is told with the one that may be meant") {
+  check_failure(run_program({"detetc"}), 2, "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
+  check_failure(run_program({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
+  check_failure(run_program({"help", "surfac"}), 2, "unknown command \"surfac\"; allowed: detect");
+  const ProgramResult mistyped = run_program({"detect", "a.ply", "--min-hol", "3", "--out", "d"});
+  check_failure(mistyped, 2, "unknown option --min-hol (did you mean \"--min-hole\"?)");
+  CHECK_THAT(mistyped.err, Contains("see lacuna detect --help"));
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--colour=3"}), 2, "unknown option --colour (see");
+}
+
+TEST_CASE("lacuna help COMMAND is the help of the command") {
+  CHECK(run_program({"help"}).out == run_program({"--help"}).out);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect"}, {"synth", "scan"}}) {
+    std::vector<std::string> asked = {"help"}, flagged = words;
+    asked.insert(asked.end(), words.begin(), words.end());
+    flagged.push_back("--help");
+    CHECK(run_program(asked).out == run_program(flagged).out);
+  }
+  CHECK(run_program({"-V"}).out == run_program({"--version"}).out);
+}
+
+TEST_CASE("standard input as a scan is an error that says what to do") {
+  const ScratchFolder scratch;
+  const std::string out = (scratch / "out").string();
+  check_failure(run_program({"detect", "-", "--out", out}), 1, "save it in a file");
+  check_failure(run_program({"info", "-"}), 1, "standard input is not read");
+}
+
+TEST_CASE("a config is found by the name that it is installed with") {
+  const ProgramResult named = run_program({"detect", "--print-config", "--config", "aerial"});
+  const std::string file = LACUNA_SOURCE_DIR "/configs/aerial.toml";
+  CHECK(named.exit_code == 0);
+  CHECK(named.out == run_program({"detect", "--print-config", "--config", file}).out);
+  check_failure(run_program({"detect", "--print-config", "--config", "aerail"}), 1,
+                "--config aerail: no file and no installed config has this name (did you mean \"aerial\"?); allowed: "
+                "a TOML file, or one of these: aerial, default");
+}
+
 TEST_CASE("the printed config is the default one, and needs no scan") {
   const ProgramResult result = run_program({"detect", "--print-config"});
   CHECK(result.exit_code == 0);
