@@ -88,13 +88,15 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
 }
 
 TEST_CASE("a mistyped option or command is told with the one that may be meant") {
-  check_failure(run_program({"detetc"}), 2, "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
+  check_failure(run_program({"detetc"}), 2,
+                "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
   check_failure(run_program({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
   check_failure(run_program({"help", "surfac"}), 2, "unknown command \"surfac\"; allowed: detect");
   const ProgramResult mistyped = run_program({"detect", "a.ply", "--min-hol", "3", "--out", "d"});
   check_failure(mistyped, 2, "unknown option --min-hol (did you mean \"--min-hole\"?)");
   CHECK_THAT(mistyped.err, Contains("see lacuna detect --help"));
-  check_failure(run_program({"detect", "a.ply", "--out", "d", "--colour=3"}), 2, "unknown option --colour (see");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--colour=3"}), 2,
+                "unknown option --colour (see");
 }
 
 TEST_CASE("lacuna help COMMAND is the help of the command") {
@@ -120,9 +122,10 @@ TEST_CASE("a config is found by the name that it is installed with") {
   const std::string file = LACUNA_SOURCE_DIR "/configs/aerial.toml";
   CHECK(named.exit_code == 0);
   CHECK(named.out == run_program({"detect", "--print-config", "--config", file}).out);
-  check_failure(run_program({"detect", "--print-config", "--config", "aerail"}), 1,
-                "--config aerail: no file and no installed config has this name (did you mean \"aerial\"?); allowed: "
-                "a TOML file, or one of these: aerial, default");
+  check_failure(
+      run_program({"detect", "--print-config", "--config", "aerail"}), 1,
+      "--config aerail: no file and no installed config has this name (did you mean \"aerial\"?); allowed: "
+      "a TOML file, or one of these: aerial, default");
 }
 
 TEST_CASE("the printed config is the default one, and needs no scan") {
@@ -296,7 +299,8 @@ TEST_CASE("a file that the program did not write is refused before the work, and
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   fs::create_directory(scratch / "out");
-  const std::vector<std::string> detect = {"detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format", "ply"};
+  const std::vector<std::string> detect = {
+      "detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format", "ply"};
   const std::vector<std::string> synth = {"synth", "scan", (scratch / "out/points.ply").string(), "--points",
                                           "100"};
   const std::string mine = scratch.write("out/points.ply", "x y z\n1 2 3\n");
@@ -311,8 +315,8 @@ TEST_CASE("a file that the program did not write is refused before the work, and
     arguments.pop_back();
     CHECK(run_program(arguments).exit_code == 0);  // its own file
     if (arguments == synth) {
-      for (const char* name :
-           {"loops.ply", "boundary.ply", "holes.csv", "holes.json", "run.json", "points.loops.txt"})
+      for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "holes.csv", "holes.json",
+                               "run.json", "points.loops.txt"})
         fs::remove(scratch / "out" / name);
     }
   }
@@ -328,7 +332,8 @@ TEST_CASE("files, links, folders and pipes of like names are not touched, by a s
   fs::create_symlink(mine, out / "loops.ply.partial");
   REQUIRE(mkfifo((out / "points.ply.partial").c_str(), 0600) == 0);
   fs::create_directories(out / "holes.json.partial" / "mine");
-  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--quiet"};
+  const std::vector<std::string> arguments = {"detect",          scan,  "--out",  out.string(), "--points",
+                                              "--points-format", "ply", "--quiet"};
   const auto is_untouched = [&] {
     return test::read_file(mine) == "precious" &&
            test::read_file(out / "boundary.ply.partial") == "precious" &&
@@ -357,7 +362,8 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(300));
   const fs::path out = scratch / "out";
-  const std::vector<std::string> arguments = {"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--quiet"};
+  const std::vector<std::string> arguments = {"detect",          scan,  "--out",  out.string(), "--points",
+                                              "--points-format", "ply", "--quiet"};
   REQUIRE(run_program(arguments).exit_code == 0);
   const std::string before = test::read_file(out / "holes.json");
   const auto is_writing = [&] {
@@ -378,7 +384,7 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
     }
     CHECK(result.exit_code == 128 + signal);
     if (signal != SIGKILL) CHECK(result.err == "lacuna: interrupted; " + out.string() + " is as it was\n");
-    CHECK(count_entries(out) == (signal == SIGKILL ? 8 : 6));  // the workspace, and the results half-written
+    CHECK(count_entries(out) == (signal == SIGKILL ? 9 : 7));  // the workspace, and the results half-written
   }
 }
 
@@ -389,7 +395,7 @@ TEST_CASE("a workspace whose name takes a detour leaves none of it behind") {
                      (scratch / "b/../c/../work").string()})
             .exit_code == 0);
   CHECK(scratch.names() == std::vector<std::string>{"out", "scan.txt"});
-  CHECK(count_entries(scratch / "out") == 5);
+  CHECK(count_entries(scratch / "out") == 6);
 }
 
 TEST_CASE("a signal while a scan is made leaves nothing") {
@@ -435,8 +441,8 @@ TEST_CASE("info tells the size of the annotated scan, whatever the files hold") 
       "3 4 0 0 0 1 7\n");
   for (const std::vector<std::string>& scans : {std::vector<std::string>{text}, {ply}, {text, ply}}) {
     for (const std::string format : {"ply", "pcd", "las"}) {
-      std::vector<std::string> arguments = {"info", "--points", "--normals", "--json", "--points-format",
-                                            format};
+      std::vector<std::string> arguments = {"info",   "--points",        "--normals",
+                                            "--json", "--points-format", format};
       arguments.insert(arguments.end(), scans.begin(), scans.end());
       const auto told = nlohmann::json::parse(run_program(arguments).out);
       arguments[0] = "detect";

@@ -51,8 +51,8 @@ TEST_CASE("messages never go into a file, whichever standard descriptors are clo
   const std::string scan = scratch.write("scan.xyz", sheet(150));
   const auto detect = [&](const std::string& out, const std::string& redirections) {
     return run_in_shell("",
-                        {"detect", scan, "--points", "--points-format", "ply", "--out", (scratch / out).string(), "--progress", "plain",
-                         "--tile-points", "500"},
+                        {"detect", scan, "--points", "--points-format", "ply", "--out",
+                         (scratch / out).string(), "--progress", "plain", "--tile-points", "500"},
                         redirections);
   };
   REQUIRE(detect("open", "").exit_code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("messages never go into a file, whichever standard descriptors are clo
     const ProgramResult result = detect("out" + closed, closed);
     CHECK(result.exit_code == (Contains(">&- ").match(closed) ? 1 : 0));  // without stdout, no summary
     CHECK(test::read_file(scratch / ("out" + closed) / "points.ply") == points);
-    CHECK(count_entries(scratch / ("out" + closed)) == 6);
+    CHECK(count_entries(scratch / ("out" + closed)) == 7);
   }
 }
 

@@ -38,8 +38,9 @@ TEST_CASE(
             std::to_string(row[2]) + "\n";
   for (const std::string& scan : {surface, scratch.write("earth.txt", text)}) {
     const fs::path out = scratch / "out";
-    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--vdb", "--quiet"}).exit_code ==
-            0);
+    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--vdb",
+                         "--quiet"})
+                .exit_code == 0);
     const auto grids = test::read_vdb_grids(out / "probability.vdb");
     REQUIRE(grids.size() == 1);
     const test::VdbGrid& grid = grids.at("boundary_probability");

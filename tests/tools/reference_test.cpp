@@ -69,7 +69,7 @@ TEST_CASE("every completion has every parameter and every choice", "[reference]"
       const std::string option = parameter.option();
       CHECK_THAT(script, Contains(shell == "fish" ? " -l " + option.substr(2) + " " : option));
     }
-    for (const char* part : {"tangential paper", "bar plain none", "sphere-cap", "surface", "laz"})
+    for (const char* part : {"tangential paper", "bar plain json none", "sphere-cap", "surface", "laz"})
       CHECK_THAT(script, Contains(part));
     const test::ScratchFolder scratch;
     const std::string file = scratch.write("script", script);

@@ -205,7 +205,8 @@ TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[
   const auto detection = FakeDetection().with_results(1);
   Config with_points;
   with_points.output.points = true;
-  const Names all{"a.ply", "boundary.ply", "holes.csv", "holes.json", "loops.ply", "points.ply", "run.json"};
+  const Names all{"a.ply",     "boundary.ply", "holes.csv", "holes.json",
+                  "loops.ply", "points.ply",   "run.json",  "sample.ply"};
   for (const Config& config : {with_points, with_points, Config{}, Config{}, with_points}) {
     write_results(detection, scan, config, folder.path());
     Names expected = all;
