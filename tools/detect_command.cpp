@@ -138,8 +138,7 @@ void add_detect_command(CLI::App& app) {
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,
-             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs")
-      ->type_name("STYLE");
+             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs");
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
   command
       ->add_option("--log-file", arguments->log_file,

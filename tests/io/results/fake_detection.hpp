@@ -24,7 +24,8 @@ class FakeDetection final : public Detection {
   FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
     ReportedLoop loop;
     for (const std::uint64_t id : ids) {
-      loop.points.push_back({.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}});
+      loop.points.push_back(
+          {.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}, .probability = 0.25f});
     }
     loop.measures = {
         .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
