@@ -135,7 +135,7 @@ std::vector<T> array_of(const std::string& file, const std::string& section, con
   std::memcpy(&bytes, file.data() + place, sizeof bytes);
   std::vector<T> values(bytes / sizeof(T));
   REQUIRE(place + sizeof bytes + bytes <= file.size());
-  std::memcpy(values.data(), file.data() + place + sizeof bytes, bytes);
+  if (!values.empty()) std::memcpy(values.data(), file.data() + place + sizeof bytes, bytes);
   return values;
 }
 
