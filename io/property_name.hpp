@@ -12,6 +12,9 @@ std::string known_name(std::string_view given);
 // The same as a name that can stand in a PLY header: blanks and control characters become '_'.
 std::string property_name(std::string_view given);
 
+// Names of the properties that the colour of a point is made of.
+inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
+
 // One spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".
 std::string bare_name(std::string_view name);
 

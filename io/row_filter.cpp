@@ -2,7 +2,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -69,13 +69,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
 
 void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {
   if (!column) return;
-  const auto& [property, values] = *column;
-  column->values.resize(rows.count);
-  copy_column({.data = rows.bytes.data() + property.offset, .stride = stride_, .type = property.type},
-              {.data = reinterpret_cast<std::byte*>(column->values.data()),
-               .stride = sizeof(double),
-               .type = Scalar::kFloat64},
-              rows.count);
+  load_column(rows, stride_, column->property, column->values);
 }
 
 bool RowFilter::is_no_return(const Eigen::Vector3d& position) const {

@@ -6,6 +6,16 @@
 
 namespace lacuna {
 
+void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
+                 std::vector<double>& values) {
+  values.resize(rows.count);
+  copy_column({.data = rows.bytes.data() + property.offset, .stride = stride, .type = property.type},
+              {.data = reinterpret_cast<std::byte*>(values.data()),
+               .stride = sizeof(double),
+               .type = Scalar::kFloat64},
+              rows.count);
+}
+
 bool is_component(std::string_view property, const VectorNames& names) {
   return std::find(names.begin(), names.end(), property) != names.end();
 }

@@ -1,4 +1,4 @@
-// Positions and normals of rows: three columns each.
+// Columns of rows as numbers: one by one, and three together as positions or normals.
 #pragma once
 
 #include "io/scan_reader.hpp"
@@ -11,6 +11,10 @@
 #include <Eigen/Core>
 
 namespace lacuna {
+
+// A value of each row.
+void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
+                 std::vector<double>& values);
 
 using VectorNames = std::array<const char*, 3>;
 inline constexpr VectorNames kPositionNames = {"x", "y", "z"};

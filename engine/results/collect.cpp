@@ -1,5 +1,6 @@
 #include "engine/results/collect.hpp"
 
+#include "engine/store/column_writer.hpp"
 #include "engine/store/outbox.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -232,18 +233,9 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
       phase.advance(tile.points);
     });
     marked = sorted.size();
-    std::vector<StoredBoundary> block;
-    std::uint64_t written = 0;
-    const auto flush = [&] {
-      boundary_points.write(written, block);
-      written += block.size();
-      block.clear();
-    };
-    sorted.for_each([&](const StoredBoundary& p) {
-      block.push_back(p);
-      if (block.size() == 4096) flush();
-    });
-    flush();
+    ColumnWriter<StoredBoundary> writer(boundary_points);
+    sorted.for_each([&](const StoredBoundary& p) { writer.add(p); });
+    writer.finish();
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(

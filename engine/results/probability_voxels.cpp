@@ -1,6 +1,7 @@
 #include "engine/results/probability_voxels.hpp"
 
 #include "engine/results/voxel_sizes.hpp"
+#include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -107,24 +108,6 @@ void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
   if (last) visit(*last);
 }
 
-// Buffered appends of voxels.
-class VoxelWriter {
- public:
-  explicit VoxelWriter(Column<ProbabilityVoxel>& column) : column_(column) {}
-  void add(const ProbabilityVoxel& voxel) {
-    block_.push_back(voxel);
-    if (block_.size() == 4096) flush();
-  }
-  void flush() {
-    column_.append(block_);
-    block_.clear();
-  }
-
- private:
-  Column<ProbabilityVoxel>& column_;
-  std::vector<ProbabilityVoxel> block_;
-};
-
 }  // namespace
 
 void ProbabilityVoxels::take(const EvaluatedTile& tile) {
@@ -183,7 +166,7 @@ ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::V
   ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)},
                        Column<ProbabilityVoxel>(job.file("voxels"))};
   grid.lattice.points_left_out = tiling.points() - placed;
-  VoxelWriter writer(grid.voxels);
+  ColumnWriter<ProbabilityVoxel> writer(grid.voxels);
   std::span<const CellCoord> nodes = sizes.kept_nodes(doublings);
   for_each_voxel(sort, doublings, [&](const auto& voxel) {
     const CellCoord node = VoxelSizes::node_of(voxel.coord, 0);
@@ -195,7 +178,7 @@ ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::V
     ++grid.lattice.voxels;
     writer.add({{voxel.coord[0] - shift, voxel.coord[1] - shift, voxel.coord[2] - shift}, voxel.probability});
   });
-  writer.flush();
+  writer.finish();
   return grid;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/results/scan_sample.hpp"
 
+#include "engine/store/column_writer.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -78,16 +80,9 @@ Column<StoredSample> ScanSample::finish(Job& job) {
     if (taken++ < most_points_) sorted.add(candidate.sample);
   });
   Column<StoredSample> column(job.file("sample"));
-  std::vector<StoredSample> block;
-  const auto flush = [&] {
-    column.append(block);
-    block.clear();
-  };
-  sorted.for_each([&](const StoredSample& sample) {
-    block.push_back(sample);
-    if (block.size() == 4096) flush();
-  });
-  flush();
+  ColumnWriter<StoredSample> writer(column);
+  sorted.for_each([&](const StoredSample& sample) { writer.add(sample); });
+  writer.finish();
   return column;
 }
 

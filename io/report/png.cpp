@@ -37,7 +37,7 @@ void write_part(png_structp png, png_bytep data, std::size_t bytes) {
 }  // namespace
 
 FileMark picture_mark() {
-  constexpr std::uint64_t kText = 8 + 25 + 8;  // behind the signature, the header and the text's length and type
+  constexpr std::uint64_t kText = 8 + 25 + 8;  // signature, header, length and type of the text
   return {std::string_view("Software\0Lacuna", 15), kText};
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/number.hpp"
+#include "io/report/percentile.hpp"
 #include "io/results/loop_colours.hpp"
 
 #include <algorithm>
@@ -145,12 +146,7 @@ void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view
   const auto range = [&](const Eigen::Vector3f& axis) {
     std::vector<float> along;
     for (const Eigen::Vector3f& p : positions) along.push_back(p.dot(axis));
-    const auto rank = [&](double share) {
-      const auto at = along.begin() + std::llround(share * static_cast<double>(along.size() - 1));
-      std::nth_element(along.begin(), at, along.end());
-      return *at;
-    };
-    float low = rank(0.005), high = rank(0.995);
+    float low = percentile(along, 0.005), high = percentile(along, 0.995);
     const auto [least, most] = std::minmax_element(along.begin(), along.end());
     if (*most - *least < 2 * (high - low)) low = *least, high = *most;
     return std::pair{(low + high) / 2, (high - low) / 2};

@@ -3,6 +3,7 @@
 #include "engine/run/error.hpp"
 #include "io/report/base64.hpp"
 #include "io/report/page.hpp"
+#include "io/results/loop_measures.hpp"
 #include "io/results/results.hpp"
 
 #include <algorithm>
@@ -104,18 +105,15 @@ double rounded(double value) {
 
 Json loops_of(const Scene::Loops& loops) {
   Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
-  const auto add = [&](const char* name, auto&& value_of) {
-    Json& column = json[name] = Json::array();
+  const auto add = [&](std::string_view name, auto&& value_of) {
+    Json& column = json[std::string(name)] = Json::array();
     for (const LoopMeasures& loop : loops.measures) column.push_back(value_of(loop));
   };
   add("kind", [](const LoopMeasures& loop) { return Json(name_of(loop.kind)); });
-  add("points", [](const LoopMeasures& loop) { return Json(loop.points); });
-  add("confidence", [](const LoopMeasures& loop) { return Json(rounded(loop.confidence)); });
-  add("perimeter", [](const LoopMeasures& loop) { return Json(rounded(loop.perimeter)); });
-  add("area", [](const LoopMeasures& loop) { return Json(rounded(loop.area)); });
-  add("diameter", [](const LoopMeasures& loop) { return Json(rounded(loop.diameter)); });
-  add("planarity", [](const LoopMeasures& loop) { return Json(rounded(loop.planarity)); });
-  add("mean_probability", [](const LoopMeasures& loop) { return Json(rounded(loop.mean_probability)); });
+  for (const LoopMeasure& measure : kLoopMeasures)
+    add(measure.name, [&](const LoopMeasures& loop) {
+      return measure.is_count ? Json(loop.points) : Json(rounded(measure.of(loop)));
+    });
   add("centroid", [](const LoopMeasures& loop) { return list(loop.centroid); });
   add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });
   json["first"] = loops.first;
@@ -139,15 +137,10 @@ Json report_of(const Scene& scene) {
           {"changed", changed_parameters(holes.at("parameters"))},
           {"run", run_of(scene.run)},
           {"probability", holes.at("probability")},
-          {"frame",
-           {{"origin", list(scene.origin)},
-            {"edge", scene.edge},
-            {"middle", list(scene.origin + scene.middle.cast<double>())},
-            {"radius", scene.radius}}},
+          {"frame", {{"origin", list(scene.origin)}, {"edge", scene.edge}}},
           {"sample",
            {{"points", points.positions.size()},
             {"of", holes.at("counts").at("points")},
-            {"spacing", points.spacing},
             {"has_normals", true},
             {"has_colours", !points.colours.empty()}}},
           {"loops", loops_of(scene.loops)}};

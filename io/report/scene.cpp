@@ -1,9 +1,9 @@
 #include "io/report/scene.hpp"
 
+#include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
 #include "io/report/scene_colours.hpp"
 #include "io/results/results.hpp"
-#include "io/scalar.hpp"
 #include "io/scan_reader.hpp"
 #include "io/vectors.hpp"
 
@@ -14,7 +14,6 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <string>
 
 namespace lacuna {
@@ -51,15 +50,6 @@ LoopMeasures measures_of(const Json& record) {
           .mean_probability = number(record.at("mean_probability")),
           .confidence = number(record.at("confidence")),
           .tiles = record.at("tiles").get<std::uint64_t>()};
-}
-
-// Bit i moves to bit 3 i, for 21 bits.
-std::uint64_t spread_bits(std::uint64_t bits) {
-  bits = (bits | bits << 32) & 0x001f00000000ffff;
-  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  return (bits | bits << 2) & 0x1249249249249249;
 }
 
 // The head of holes.json and the measures of all loops; one loop is in memory at a time, without its points.
@@ -111,16 +101,6 @@ const Property& find(const fs::path& file, const RowLayout& layout, std::string_
   return *property;
 }
 
-void load_column(const RowBatch& rows, const RowLayout& layout, const Property& property,
-                 std::vector<double>& values) {
-  values.resize(rows.count);
-  copy_column({.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
-              {.data = reinterpret_cast<std::byte*>(values.data()),
-               .stride = sizeof(double),
-               .type = Scalar::kFloat64},
-              rows.count);
-}
-
 void read_points(const fs::path& file, std::size_t most, Scene& scene) {
   if (!fs::exists(file)) return;
   const std::unique_ptr<ScanReader> reader = open_scan(file, {});
@@ -128,19 +108,19 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
   const Property& probability = find(file, layout, "scalar_probability");
   for (const char* const name : kNormalNames) find(file, layout, name);
   const std::uint64_t rows = reader->expected_rows().value_or(0);
-  const std::uint64_t step = std::max<std::uint64_t>(1, (rows + most - 1) / most);  // one row of each step
+  const std::uint64_t wanted = std::min<std::uint64_t>(rows, most);
 
   ColourColumns colours(layout);
   std::vector<Eigen::Vector3d> positions, normals;
   std::vector<double> probabilities;
-  std::uint64_t next = 0, before = 0;
+  std::uint64_t taken = 0, before = 0;
   for (RowBatch batch; reader->next(batch, kRowsAtATime); before += batch.count) {
     load_vectors(batch, layout, kPositionNames, positions);
     load_vectors(batch, layout, kNormalNames, normals);
-    load_column(batch, layout, probability, probabilities);
+    load_column(batch, layout.stride, probability, probabilities);
     colours.load(batch);
-    for (; next < before + batch.count; next += step) {
-      const std::size_t i = next - before;
+    for (; taken < wanted && taken * rows / wanted < before + batch.count; ++taken) {
+      const std::size_t i = taken * rows / wanted - before;
       const Eigen::Vector3f normal = normals[i].cast<float>();
       scene.points.positions.push_back((positions[i] - scene.origin).cast<float>());
       scene.points.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0));
@@ -162,7 +142,7 @@ std::vector<bool> choose_loops(const std::vector<LoopMeasures>& loops, const Sce
   std::uint64_t vertices = 0;
   for (const std::size_t loop : order) {
     vertices += loops[loop].points;
-    if (taken++ == limits.loops || vertices > limits.loop_vertices) break;
+    if (taken++ == limits.loops || vertices > limits.positions / 4) break;
     is_shown[loop] = true;
   }
   return is_shown;
@@ -180,7 +160,7 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
   std::vector<std::size_t> lengths(is_shown.size());
   for (RowBatch batch; reader->next(batch, kRowsAtATime);) {
     load_vectors(batch, layout, kPositionNames, positions);
-    load_column(batch, layout, loop_property, loop_of);
+    load_column(batch, layout.stride, loop_property, loop_of);
     for (std::size_t i = 0; i < batch.count; ++i) {
       const auto loop = static_cast<std::size_t>(loop_of[i]);
       if (!(loop_of[i] >= 0) || loop >= is_shown.size()) {
@@ -196,6 +176,11 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
   loops.first = {0};
   for (std::size_t loop = 0; loop < is_shown.size(); ++loop) {
     if (!is_shown[loop]) continue;
+    if (lengths[loop] != loops.measures[loop].points) {
+      throw Error(file.string() + ": loop " + std::to_string(loops.ids[loop]) + " has " +
+                  std::to_string(lengths[loop]) + " vertices, in holes.json " +
+                  std::to_string(loops.measures[loop].points) + "; both must be of one run");
+    }
     loops.ids[kept] = loops.ids[loop];
     loops.measures[kept++] = loops.measures[loop];
     loops.first.push_back(loops.first.back() + lengths[loop]);
@@ -205,28 +190,24 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
 }
 
 // From the number of cells that points lie in, where these have about eight each. Cells halve from the cube
-// of the scene on: in the order of a Z curve, the first bit in which two points differ says where they part.
+// of the scene on: where two neighbours on the Z curve part, the highest bit in which they differ says.
 float typical_spacing(const Scene& scene) {
-  constexpr int kLevels = 21;
-  const auto& positions = scene.points.positions;
-  if (positions.size() < 2) return 0;
-  std::vector<std::uint64_t> codes;
-  codes.reserve(positions.size());
-  for (const Eigen::Vector3f& p : positions) {
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = std::clamp(p[axis] / scene.edge, 0.0, 1.0) * ((1 << kLevels) - 1);
-      code |= spread_bits(static_cast<std::uint64_t>(at)) << axis;
-    }
-    codes.push_back(code);
-  }
-  std::sort(codes.begin(), codes.end());
+  constexpr int kLevels = 21, kPlaceBits = 62;
+  const ZCurve curve({Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(scene.edge)});
+  std::vector<ZPlace> places;
+  places.reserve(scene.points.positions.size());
+  for (const Eigen::Vector3f& p : scene.points.positions) places.push_back(curve.place(p.cast<double>()));
+  if (places.size() < 2) return 0;
+  std::sort(places.begin(), places.end(), comes_before);
   std::array<std::uint64_t, kLevels + 1> parted{};  // neighbours on the curve that part at a level, from 1
-  for (std::size_t i = 1; i < codes.size(); ++i) {
-    const int bits = std::bit_width(codes[i - 1] ^ codes[i]);
-    if (bits > 0) ++parted[static_cast<std::size_t>(kLevels - (bits - 1) / 3)];
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    int bits = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bits = std::max(bits, static_cast<int>(std::bit_width(places[i - 1][axis] ^ places[i][axis])));
+    const int level = kPlaceBits + 1 - bits;
+    if (level <= kLevels) ++parted[static_cast<std::size_t>(std::max(level, 1))];
   }
-  const auto points = static_cast<double>(codes.size());
+  const auto points = static_cast<double>(places.size());
   std::uint64_t cells = 1;
   int level = 0;
   while (level < kLevels && points > 8 * static_cast<double>(cells))
@@ -234,27 +215,6 @@ float typical_spacing(const Scene& scene) {
   // A surface passes through about one and a half times as many cells as its area needs.
   return static_cast<float>(std::ldexp(scene.edge, -level) *
                             std::sqrt(static_cast<double>(cells) / points / 1.5));
-}
-
-// The box from the 1st to the 99th percentile of each axis, with as much around it, and the loops' middles.
-void frame(Scene& scene) {
-  const auto& positions = scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions;
-  if (positions.empty()) return;
-  Eigen::Vector3f low, high;
-  std::vector<float> values(positions.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(positions.begin(), positions.end(), values.begin(),
-                   [axis](const Eigen::Vector3f& p) { return p[axis]; });
-    const auto percentile = [&](double share) {
-      const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), at, values.end());
-      return *at;
-    };
-    low[axis] = percentile(0.01);
-    high[axis] = percentile(0.99);
-  }
-  scene.middle = (low + high) / 2;
-  scene.radius = std::max((high - low).norm() / 2, static_cast<float>(scene.edge) * 1e-6f);
 }
 
 }  // namespace
@@ -265,10 +225,9 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   Scene scene;
   read_holes(folder / "holes.json", scene);
   read_run(folder / "run.json", scene);
-  read_points(folder / "sample.ply", limits.points, scene);
   read_loops(folder / "loops.ply", limits, scene);
+  read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);
-  frame(scene);
   return scene;
 }
 

@@ -22,8 +22,6 @@ struct Scene {
   Json run;                         // run.json; null where the folder has none
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the scan's bounds
   double edge = 1;                  // of the cube from there that holds everything; above 0
-  Eigen::Vector3f middle{0, 0, 0};  // of nearly all points: outliers do not count
-  float radius = 0.5;               // of the sphere around the middle that holds these
 
   struct Points {
     std::vector<Eigen::Vector3f> positions;
@@ -43,15 +41,14 @@ struct Scene {
 };
 
 struct SceneLimits {
-  std::size_t points = 1'000'000;
-  std::size_t loops = 20'000;
-  std::size_t loop_vertices = 500'000;
+  std::size_t positions = 1'000'000;  // points and vertices of loops together; a quarter at most of loops
+  std::size_t loops = 10'000;
 };
 
 // Reads holes.json, run.json, sample.ply and loops.ply of `folder`. Without a sample.ply, the scene has loops
 // alone. Beyond the limits, points are left out evenly, and loops with the smallest perimeters. Loops are in
 // the order of their ids. Throws `Error` where a file is missing or not as `lacuna detect` writes it. Memory:
-// up to 40 bytes for each point and 150 for each loop of the run.
+// up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
 
 }  // namespace lacuna

@@ -1,6 +1,9 @@
 #include "io/report/scene_colours.hpp"
 
+#include "io/property_name.hpp"
+#include "io/report/percentile.hpp"
 #include "io/scalar.hpp"
+#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +16,7 @@ constexpr std::pair<double, double> kStretched = {0.02, 0.98};  // percentiles
 
 // The values that become 0 and 255.
 std::pair<float, float> range_of(std::vector<float> values, bool is_intensity, Scalar type) {
-  const auto rank = [&](double share) {
-    const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-  };
-  if (is_intensity) return {rank(kStretched.first), rank(kStretched.second)};
+  if (is_intensity) return {percentile(values, kStretched.first), percentile(values, kStretched.second)};
   const float most = *std::max_element(values.begin(), values.end());
   if (!is_integer(type)) return {0.0f, most > 1 ? 255.0f : 1.0f};
   return {0.0f, most > 255 ? 65535.0f : 255.0f};
@@ -38,14 +36,7 @@ ColourColumns::ColourColumns(const RowLayout& layout) : layout_(layout) {
 
 void ColourColumns::load(const RowBatch& rows) {
   for (std::size_t i = 0; i < properties_.size(); ++i) {
-    loaded_[i].resize(rows.count);
-    copy_column({.data = rows.bytes.data() + properties_[i]->offset,
-                 .stride = layout_.stride,
-                 .type = properties_[i]->type},
-                {.data = reinterpret_cast<std::byte*>(loaded_[i].data()),
-                 .stride = sizeof(double),
-                 .type = Scalar::kFloat64},
-                rows.count);
+    load_column(rows, layout_.stride, *properties_[i], loaded_[i]);
   }
 }
 

@@ -9,9 +9,6 @@
 
 namespace lacuna {
 
-// Names of the properties that colours are made of.
-inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
-
 class ColourColumns {
  public:
   explicit ColourColumns(const RowLayout& layout);

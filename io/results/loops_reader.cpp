@@ -4,7 +4,7 @@
 #include "io/input_file.hpp"
 #include "io/number.hpp"
 #include "io/ply/ply_reader.hpp"
-#include "io/scalar.hpp"
+#include "io/vectors.hpp"
 
 #include <string>
 #include <utility>
@@ -27,14 +27,7 @@ std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::s
   std::vector<std::uint64_t> column;
   std::vector<double> values;
   for (RowBatch batch; reader->next(batch, kRowsAtATime);) {
-    values.resize(batch.count);
-    copy_column({.data = batch.bytes.data() + property->offset,
-                 .stride = reader->layout().stride,
-                 .type = property->type},
-                {.data = reinterpret_cast<std::byte*>(values.data()),
-                 .stride = sizeof(double),
-                 .type = Scalar::kFloat64},
-                batch.count);
+    load_column(batch, reader->layout().stride, *property, values);
     for (const double value : values) {
       const bool whole =
           value >= 0 && value < kIdsEnd && value == static_cast<double>(static_cast<std::uint64_t>(value));

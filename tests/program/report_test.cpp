@@ -4,6 +4,8 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -167,6 +169,24 @@ TEST_CASE("a run without points, loops or sample has a report, too") {
   }
 }
 
+TEST_CASE("a scene with more than a page carries has the longest loops, and fewer points evenly") {
+  const Made made(sheet());
+  const Scene whole = read_scene(made.out());
+  REQUIRE(whole.loops.ids.size() == 3);
+  const std::size_t longest = whole.loops.first[1];  // the edge of the sheet
+  for (const std::size_t positions : {800, 1600, 3000}) {
+    const Scene part = read_scene(made.out(), {.positions = positions, .loops = 1});
+    CHECK(part.loops.ids.size() == (longest <= positions / 4 ? 1 : 0));
+    CHECK(part.loops.vertices.size() == (longest <= positions / 4 ? longest : 0));
+    CHECK(part.points.positions.size() == positions - part.loops.vertices.size());
+    std::array<std::size_t, 4> rows_of_quarters{};
+    for (const Eigen::Vector3f& p : part.points.positions)
+      ++rows_of_quarters[static_cast<std::size_t>(std::clamp(p.y() / 15, 0.0f, 3.0f))];
+    for (const std::size_t rows : rows_of_quarters) CHECK(rows > part.points.positions.size() / 5);
+  }
+  CHECK(read_scene(made.out(), {.positions = 4000, .loops = 0}).loops.ids.empty());
+}
+
 TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   const Made made(sheet());
   const auto refused = [&](const std::string& folder) {
@@ -189,6 +209,12 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   CHECK_THAT(refused(out), Contains("\"holes 9\"") && Contains("\"holes 1\" is read"));
   write("[1, 2]");
   CHECK_THAT(refused(out), Contains("holes.json"));
+  write(holes);
+  const std::string points = "\"points\": ";
+  std::string other = holes;
+  other.insert(other.find(points, other.find("\"loops\": [")) + points.size(), 1, '1');
+  write(other);
+  CHECK_THAT(refused(out), Contains("loops.ply") && Contains("both must be of one run"));
   write(holes);
   fs::resize_file(made.out() / "loops.ply", fs::file_size(made.out() / "loops.ply") - 9);
   CHECK_THAT(refused(out), Contains("loops.ply"));

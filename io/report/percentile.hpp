@@ -1,0 +1,17 @@
+// The value that stands at a share of all, in ascending order.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lacuna {
+
+// `share` from 0 to 1. There is a value; their order changes. Cost: linear.
+inline float percentile(std::vector<float>& values, double share) {
+  const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace lacuna
