@@ -210,9 +210,9 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   write("[1, 2]");
   CHECK_THAT(refused(out), Contains("holes.json"));
   write(holes);
-  const std::string points = "\"points\": ";
+  const std::string points = "\"points\":";
   std::string other = holes;
-  other.insert(other.find(points, other.find("\"loops\": [")) + points.size(), 1, '1');
+  other.insert(other.find(points, other.find("\"loops\": [\n")) + points.size(), 1, '1');
   write(other);
   CHECK_THAT(refused(out), Contains("loops.ply") && Contains("both must be of one run"));
   write(holes);

@@ -1,8 +1,11 @@
 #include "tests/support/tile.hpp"
 
+#include "engine/bucket/z_curve.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 namespace lacuna {
 
@@ -17,12 +20,29 @@ std::vector<PointId> distinct_ids(const Cloud& cloud) {
   return ids;
 }
 
+namespace {
+
+// As the points of a cell are.
+void sort_along_curve(const Cloud& cloud, std::vector<PointId>& ids) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : cloud.positions) box.extend(p);
+  const ZCurve curve(box);
+  std::vector<std::pair<ZPlace, PointId>> places;
+  for (const PointId id : ids) places.emplace_back(curve.place(cloud.positions[value(id)]), id);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = places[i].second;
+}
+
+}  // namespace
+
 TilePoints whole_tile(const Cloud& cloud) {
   return part_tile(cloud, std::vector<bool>(cloud.size(), true), 0);
 }
 
 TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::size_t k) {
   std::vector<PointId> ids = distinct_ids(cloud);
+  sort_along_curve(cloud, ids);
   std::stable_partition(ids.begin(), ids.end(), [&](PointId id) { return owns[value(id)]; });
   TilePoints points;
   for (const PointId id : ids) {
