@@ -3,12 +3,15 @@
 #include "engine/run/error.hpp"
 #include "io/number.hpp"
 #include "io/report/render.hpp"
+#include "io/report/section.hpp"
 #include "io/results/output_set.hpp"
 #include "tools/visible_text.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,6 +25,7 @@ constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
 struct RenderArguments {
   std::filesystem::path folder, out;
   std::string view = "oblique", size = "1600x1000";
+  std::optional<double> most_height;
   bool as_it_came = false;
   bool overwrite = false;
 };
@@ -41,7 +45,10 @@ void run_render(const RenderArguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   check_output(arguments.out, picture_mark(), overwrite);
-  const Scene scene = read_scene(arguments.folder);
+  if (arguments.most_height && !std::isfinite(*arguments.most_height))
+    throw CLI::ValidationError("--hide-above", "a finite height is allowed");
+  Scene scene = read_scene(arguments.folder);
+  if (arguments.most_height) hide_above(scene, *arguments.most_height);
   const View view = find_view(scene, arguments.view, width, height);
   OutputSet set(overwrite);
   write_png(render(scene, view, width, height, arguments.as_it_came), set.add(arguments.out, picture_mark()));
@@ -66,6 +73,10 @@ void add_render_command(CLI::App& app) {
   command->add_option("--size", arguments->size, "Width and height in pixels")
       ->type_name("WxH")
       ->capture_default_str();
+  command
+      ->add_option("--hide-above", arguments->most_height,
+                   "Draw nothing above this height, such as a ceiling; in units of the scan")
+      ->type_name("Z");
   command->add_flag("--as-it-came", arguments->as_it_came,
                     "Colours or intensities of the scan, where it has them, not probabilities");
   command->add_flag("--overwrite", arguments->overwrite,

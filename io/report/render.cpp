@@ -100,7 +100,7 @@ Eigen::Vector3f colour_of(const Scene::Points& points, std::size_t i, bool as_it
 
 void draw_points(const Scene::Points& points, const View& view, const Projection& project, bool as_it_came,
                  Canvas& canvas) {
-  const float radius = std::clamp(0.75f * points.spacing * project.scale(), 0.8f, 12.0f);
+  const float radius = std::clamp(0.9f * points.spacing * project.scale(), 0.8f, 12.0f);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3f at = project(points.positions[i]);
     if (!project.is_drawn(at.z())) continue;

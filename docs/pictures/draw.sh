@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Draws the pictures of README.md, choosing.md and examples.md into this folder, and prints what `lacuna evaluate` says
+# of each made scan.
+#
+#     docs/pictures/draw.sh build/lacuna [FOLDER]
+#
+# FOLDER has the real scans: autzen_trim.laz of PDAL's and dragon_30scans_793k.ply, 30 registered scans of Stanford's
+# dragon. Without it, their pictures stay.
+set -euo pipefail
+
+lacuna=$(realpath "$1")
+scans=${2:+$(realpath "$2")}
+pictures=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+# detect RESULT SCAN OPTIONS...: and how many of the true loops it finds.
+detect() {
+  local result=$1 scan=$2
+  shift 2
+  "$lacuna" detect "$scan" --out "$result" --quiet "$@"
+  local truth=${scan%.*}.loops.txt
+  [[ ! -e $truth ]] || echo "$result: $("$lacuna" evaluate "$result" "$truth" | head -n 1)"
+}
+
+render() {
+  local result=$1
+  shift
+  "$lacuna" render "$result" --out "$pictures/$result.png" --overwrite "$@" > log
+}
+
+small=(--view top --size 280x280)
+
+"$lacuna" synth surface rough.ply --kind plane --points 16000 --holes 7 --hole-radius 3 8 --positions random \
+  --noise 0.3 --seed 3 > log
+for k in 8 15 40; do
+  detect "k-$k" rough.ply --k "$k"
+  render "k-$k" "${small[@]}"
+done
+for size in 0.06 0.10 0.15; do
+  detect "min-hole-$size" rough.ply --min-hole "$size"
+  render "min-hole-$size" "${small[@]}"
+done
+detect weight-angle rough.ply --weight-halfdisc 0 --weight-shape 0
+detect weight-halfdisc rough.ply --weight-angle 0 --weight-shape 0
+detect weight-shape rough.ply --weight-angle 0 --weight-halfdisc 0
+for criterion in angle halfdisc shape; do render "weight-$criterion" "${small[@]}"; done
+
+"$lacuna" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3 > log
+for eps in 0 0.035; do
+  detect "eps-$eps" step.ply --eps "$eps"
+  render "eps-$eps" "${small[@]}"
+done
+
+"$lacuna" synth scan room.ply --stations 1 --points 400000 --seed 2 > log
+detect room room.ply
+render room --hide-above 2.5 --size 900x560
+
+if [[ -n $scans ]]; then
+  detect ground "$scans/autzen_trim.laz" --classes 2
+  render ground --view top --size 760x420
+  detect dragon "$scans/dragon_30scans_793k.ply"
+  render dragon --size 760x520
+fi

@@ -1,0 +1,56 @@
+#include "io/report/section.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+// Keeps the values of these rows, in order.
+template <class Value>
+void keep(std::vector<Value>& values, const std::vector<std::size_t>& rows) {
+  if (values.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) values[i] = values[rows[i]];
+  values.resize(rows.size());
+}
+
+void hide_points_above(float height, Scene::Points& points) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < points.positions.size(); ++i)
+    if (points.positions[i].z() <= height) shown.push_back(i);
+  keep(points.positions, shown);
+  keep(points.probabilities, shown);
+  keep(points.normals, shown);
+  keep(points.colours, shown);
+}
+
+void hide_loops_above(float height, Scene::Loops& loops) {
+  std::vector<std::size_t> shown;
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::size_t> first = {0};
+  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
+    const auto begin = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop]);
+    const auto end = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop + 1]);
+    if (std::all_of(begin, end, [&](const Eigen::Vector3f& v) { return v.z() > height; })) continue;
+    shown.push_back(loop);
+    std::copy(begin, end, std::back_inserter(vertices));
+    first.push_back(vertices.size());
+  }
+  keep(loops.ids, shown);
+  keep(loops.measures, shown);
+  loops.vertices = std::move(vertices);
+  loops.first = std::move(first);
+}
+
+}  // namespace
+
+void hide_above(Scene& scene, double height) {
+  const auto relative = static_cast<float>(height - scene.origin.z());
+  hide_points_above(relative, scene.points);
+  hide_loops_above(relative, scene.loops);
+}
+
+}  // namespace lacuna

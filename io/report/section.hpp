@@ -1,0 +1,12 @@
+// A section of a scene: what lies above a height would hide the rest, as a ceiling does.
+#pragma once
+
+#include "io/report/scene.hpp"
+
+namespace lacuna {
+
+// Leaves out the points above `height`, in coordinates of the scan, and the loops that lie above it with all
+// of their vertices. Cost: linear.
+void hide_above(Scene& scene, double height);
+
+}  // namespace lacuna

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# The pictures of the documentation are those that its script draws; those of real scans are left out.
+set -euo pipefail
+: "${LACUNA_PROGRAM:?}"
+cd "$(dirname "${BASH_SOURCE[0]}")/../../docs/pictures"
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cp draw.sh "$scratch"
+"$scratch/draw.sh" "$LACUNA_PROGRAM"
+status=0
+for picture in "$scratch"/*.png; do
+  cmp "$picture" "$(basename "$picture")" || status=1
+done
+exit "$status"
