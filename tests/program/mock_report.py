@@ -12,14 +12,15 @@ import base64
 import json
 import math
 import random
+import re
 import struct
 from array import array
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[2] / "io" / "report" / "page"
 THREE = Path("/usr/share/javascript/three")
-SCRIPTS = ["data", "format", "dom", "colour", "shading", "points", "lines", "camera", "view", "filter", "table", "histogram",
-           "details", "facts", "legend", "keys", "main"]
+# As CMake puts the page together.
+SCRIPTS = re.search(r"set\(page_scripts ([^)]*)\)", (PAGE / "page.cmake").read_text()).group(1).split()
 WIDTH, DEPTH = 10.0, 7.0
 
 

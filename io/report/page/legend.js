@@ -28,9 +28,10 @@ function draw_legend(colouring, theme, heights, units, loops) {
 
 // A bar of a round length at the distance of the target.
 function draw_scale(view, units) {
-  const {camera, canvas, controls, data} = view;
+  const {canvas, data} = view;
+  const {camera} = view.navigation;
   const focal = canvas.clientHeight / (2 * Math.tan((camera.fov * Math.PI) / 360));
-  const unit_pixels = focal / camera.position.distanceTo(controls.target) / data.frame.edge;
+  const unit_pixels = focal / view.navigation.target_distance() / data.frame.edge;
   const length = round_step(Math.min(130, 0.3 * canvas.clientWidth) / unit_pixels);
   if (!Number.isFinite(length) || !(length > 0)) return;
   find("scale-line").style.width = `${(length * unit_pixels).toFixed(1)}px`;

@@ -2,8 +2,16 @@
 
 const kColourings = ["probability", "height", "colour", "plain"];
 
+// Mean distance of neighbouring sample points in scene units.
+function sample_spacing({report, frame, points}) {
+  const sample = report.sample || {};
+  const sparse = sample.of > 0 && points.count > 0 ? Math.sqrt(Math.max(1, sample.of / points.count)) : 1;
+  const spacing = ((report.mean_edge_length || 0) * sparse) / frame.edge;
+  return spacing > 0 ? spacing : 1 / Math.sqrt(Math.max(16, points.count));
+}
+
 class PointCloud {
-  // `data` of read_data(); `spacing`: mean distance of neighbouring sample points in scene units.
+  // `data` of read_data(); `spacing` of sample_spacing().
   constructor(data, spacing, camera_uniforms) {
     const {count, positions, attributes, colours} = data.points;
     this.count = count;
