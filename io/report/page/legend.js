@@ -1,7 +1,7 @@
 // What lies over the view: the legend of colours and lines, the scale, the axes.
 
-// `heights`: real heights at the two ends of the colours.
-function draw_legend(colouring, theme, heights, units, loops) {
+// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty.
+function draw_legend(colouring, theme, heights, units, loops, hidden) {
   const parts = [];
   const names = {probability: "Boundary probability", height: "Height", colour: "Colours of the scan", plain: ""};
   if (colouring === "probability" || colouring === "height") {
@@ -22,6 +22,7 @@ function draw_legend(colouring, theme, heights, units, loops) {
         has_hole ? element("span", {}, element("i", {class: "swatch hole"}), "Hole") : null,
         has_outer ? element("span", {}, element("i", {class: "swatch outer"}), "Outer curve") : null));
   }
+  if (hidden) parts.push(element("p", {class: "legend-section"}, hidden));
   find("legend").hidden = parts.length === 0;
   find("legend").replaceChildren(...parts);
 }

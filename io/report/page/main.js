@@ -66,6 +66,7 @@ class Page {
     connect_tabs();
     this.connect_view();
     find("csv").addEventListener("click", () => this.save_csv());
+    find("reset").addEventListener("click", () => this.reset());
     const step = (direction) => {
       const index = this.table.neighbour(direction);
       if (index >= 0) this.select(index, true);
@@ -84,6 +85,7 @@ class Page {
     connect_settings();
     if (!this.view) return;
     connect_shown(this.view.scenes);
+    this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
@@ -122,9 +124,30 @@ class Page {
   update_colours() {
     if (!this.view) return;
     this.view.scenes.set_theme(this.theme, this.colouring);
+    this.update_legend();
+  }
+
+  update_legend() {
     const {low, high} = this.view.bounds.box;
     const heights = [low[2], high[2]].map((z) => to_real(this.data.frame, [0, 0, z])[2]);
-    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops);
+    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops,
+                this.section.words());
+  }
+
+  update_reset() {
+    find("reset").disabled = !this.filter.is_active() && !(this.section && this.section.is_active());
+  }
+
+  reset() {
+    this.filter.reset();
+    if (this.section) this.section.reset();
+  }
+
+  // Of the view alone: the table, the charts and the filters have all heights.
+  apply_section(low, high) {
+    this.view.set_section(low, high);
+    this.update_legend();
+    this.update_reset();
   }
 
   apply_filter() {
@@ -135,6 +158,7 @@ class Page {
     if (this.view) this.view.scenes.set_loops(this.table.shown);
     if (this.selected >= 0 && !passes(this.selected)) this.deselect();
     draw_charts(this.data, this.units, this.filter, this.theme);
+    this.update_reset();
   }
 
   // ---- Selection
@@ -149,6 +173,7 @@ class Page {
         const {navigation} = this.view;
         if (!this.former) this.former = navigation.flight ? navigation.flight.to : navigation.pose();
         navigation.fly(navigation.loop_pose(index));
+        this.section.open_for(loop_box(this.data.loops, index));
       }
     }
     this.update_chip();
@@ -162,9 +187,12 @@ class Page {
     this.update_chip();
   }
 
-  // Deselects, and goes back to the view before the flight.
+  // Deselects, and goes back to the view and the section before the flight.
   escape() {
-    if (this.former && this.view) this.view.navigation.fly(this.former);
+    if (this.former && this.view) {
+      this.view.navigation.fly(this.former);
+      this.section.close_again();
+    }
     this.former = null;
     if (this.selected >= 0) this.deselect();
     this.update_chip();

@@ -36,6 +36,7 @@ class PointCloud {
       defines: colours ? {HAS_COLOURS: 1} : {},
       vertexShader: `
         ${kCameraShader}
+        ${kSectionShader}
         uniform float size, focal, pixel_ratio, colouring, low, high, is_lit;
         uniform sampler2D ramp;
         attribute vec4 traits;
@@ -50,6 +51,10 @@ class PointCloud {
           return normalize(n);
         }
         void main() {
+          if (position.z < section.x || position.z > section.y) {
+            gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+            return;
+          }
           vec3 place = to_view(position);
           gl_Position = projectionMatrix * vec4(place, 1.0);
           diameter = clamp(size * focal / max(-place.z, 1e-9), 1.6 * pixel_ratio, 48.0 * pixel_ratio);

@@ -40,10 +40,16 @@ class View {
     const {navigation} = this;
     const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
     const found = point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
-                              tangent, this.spacing);
+                              tangent, this.spacing, this.uniforms.section.value);
     if (!found) return;
     const pose = navigation.pose();
     navigation.fly({...pose, target: found.place, distance: Math.min(pose.distance, found.distance)});
+  }
+
+  // Hides what lies below and above, in scene coordinates.
+  set_section(low, high) {
+    this.uniforms.section.value.set(low, high);
+    this.frames.changed();
   }
 
   resize() {
