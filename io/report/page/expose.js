@@ -12,6 +12,10 @@ function expose(page) {
     is_still: () => !view || (!view.navigation.flight && !view.frames.requested),
     visible_loops: () => page.table.shown.length,
     selected: () => (page.selected < 0 ? null : data.loops.id[page.selected]),
+    loop_heights: (id) => {
+      const {low, high} = loop_box(data.loops, data.loops.id.indexOf(id));
+      return [low, high].map((place) => to_real(data.frame, place)[2]);
+    },
     theme: (name) => page.set_theme(name),
     colouring: (name) => page.set_colouring(name),
     colours: () => Object.fromEntries(["view", "hole", "outer", "marked"].map(

@@ -30,12 +30,13 @@ class HeightLimit {
     this.value = Math.min(this.high, Math.max(this.low, value));
     this.slider.value = this.text(this.value);
     if (!is_typed) this.number.value = this.text(this.value);
+    this.number.classList.toggle("quiet", !this.is_active());
     this.slider.setAttribute("aria-valuetext", this.is_active() ? this.words() : "off");
   }
 
   is_active() { return this.value !== this.off; }
   text(value) { return value.toFixed(this.decimals); }
-  words() { return `${this.name} ${this.text(this.value)}${this.units.name ? ` ${this.units.name}` : ""}`; }
+  words() { return `${this.name} ${format_place(this.value, this.decimals)}${this.units.name ? ` ${this.units.name}` : ""}`; }
 }
 
 class Section {
@@ -47,7 +48,7 @@ class Section {
     const changed = () => { this.former = null; this.changed(); };
     this.above = new HeightLimit("above", range, range.high, units, changed);
     this.below = new HeightLimit("below", range, range.low, units, changed);
-    find("section").disabled = data.points.count + data.loops.count === 0;
+    find("section").disabled = data.points.count + data.loops.count === 0 || range.low === range.high;
   }
 
   is_active() { return this.above.is_active() || this.below.is_active(); }
