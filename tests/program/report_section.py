@@ -8,6 +8,7 @@ try:
 except ImportError:
     pass
 
+LINE_PIXELS = 4  # half of the widest line, and its soft edge
 # Number of pixels that are not background, the highest and the lowest row that has one (from the bottom).
 COVERED_ROWS = """
 const {width, height, pixels} = lacuna.read_pixels(), ground = lacuna.colours().view;
@@ -37,6 +38,15 @@ PICKED_AT = "return arguments[0].map(([x, y]) => lacuna.loop_at(x, y));"
 def limits(driver):
     """Values of the two sliders."""
     return driver.execute_script("return ['above', 'below'].map((n) => Number(document.getElementById(n + '-slider').value))")
+
+
+def type_height(driver, name, height):
+    number = driver.find_element(By.ID, f"{name}-number")
+    number.send_keys(Keys.CONTROL + "a")
+    number.send_keys(f"{height:.6f}")
+    number.send_keys(Keys.TAB)  # the change is done
+    still(driver)
+    return number
 
 
 def look_from(driver, side):
@@ -75,6 +85,17 @@ def check_hides(driver, name, low, high):
     show_alone(driver, "")
 
 
+def check_cut(driver):
+    """What is shown up to the height of the camera that looks ahead ends in the middle of the picture."""
+    show_alone(driver, "loops")
+    type_height(driver, "above", camera(driver)[2])
+    seen = driver.execute_script(COVERED_ROWS)
+    over = seen["high"] - seen["height"] / 2
+    require(over <= LINE_PIXELS, f"edges of loops are cut at the height ({over:.0f} pixels over it)")
+    reset(driver)
+    show_alone(driver, "")
+
+
 def check_picks(driver, low, high):
     look_from(driver, "top")
     places = dict(driver.execute_script(PICKED))
@@ -83,11 +104,9 @@ def check_picks(driver, low, high):
     middle = (min(top for _, top in heights.values()) + max(bottom for bottom, _ in heights.values())) / 2
     hidden = {loop for loop, (bottom, _) in heights.items() if bottom > middle}
     require(hidden, f"{len(places)} loops are picked, some above {middle:.3g}")
-    number = driver.find_element(By.ID, "above-number")
-    number.send_keys(Keys.CONTROL + "a")
-    number.send_keys(f"{middle:.6f}")
-    still(driver)
+    number = type_height(driver, "above", middle)
     require(abs(limits(driver)[0] - middle) <= (high - low) / 200, "the field moves the slider")
+    require(float(number.get_attribute("value")) == float(f"{middle:.6f}"), "the field keeps what is typed")
     now = set(driver.execute_script(PICKED_AT, list(places.values())))
     require(not hidden & now, f"hidden loops ({len(hidden)}) are not picked")
     left = {loop for loop, (_, top) in heights.items() if top < middle}
@@ -107,6 +126,12 @@ def check_flight(driver, count, low, high):
     press(driver, Keys.ESCAPE)
     still(driver)
     require(limits(driver) == [low, low], "Escape brings the section back")
+    press(driver, "n")
+    still(driver)
+    move_slider(driver, "below-slider", high)
+    press(driver, Keys.ESCAPE)
+    still(driver)
+    require(limits(driver) == [high, high], "Escape leaves a section that was moved since")
     reset(driver)
     require(limits(driver) == [high, low], "a reset clears it")
 
@@ -137,6 +162,7 @@ def check(driver, count):
     check_hides(driver, "points", low, high)
     if count > 0:
         check_hides(driver, "loops", low, high)
+        check_cut(driver)
         check_picks(driver, low, high)
         check_flight(driver, count, low, high)
     check_keyboard(driver, low, high)

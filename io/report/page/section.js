@@ -35,8 +35,17 @@ class HeightLimit {
   }
 
   is_active() { return this.value !== this.off; }
-  text(value) { return value.toFixed(this.decimals); }
-  words() { return `${this.name} ${format_place(this.value, this.decimals)}${this.units.name ? ` ${this.units.name}` : ""}`; }
+
+  // A height that was typed with more decimals keeps them.
+  text(value) {
+    const rounded = value.toFixed(this.decimals);
+    return Number(rounded) === value ? rounded : String(value);
+  }
+
+  words() {
+    const unit = this.units.name ? ` ${this.units.name}` : "";
+    return `${this.name} ${this.text(this.value).replace("-", "−")}${unit}`;
+  }
 }
 
 class Section {
