@@ -12,14 +12,21 @@ import base64
 import json
 import math
 import random
+import re
 import struct
 from array import array
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[2] / "io" / "report" / "page"
 THREE = Path("/usr/share/javascript/three")
-SCRIPTS = ["data", "format", "dom", "colour", "shading", "points", "lines", "camera", "view", "filter", "table", "histogram",
-           "details", "facts", "legend", "keys", "main"]
+
+
+def page_parts(kind):
+    """The styles or scripts of the page, put together as CMake does."""
+    names = re.search(rf"set\(page_{kind}s ([^)]*)\)", (PAGE / "page.cmake").read_text()).group(1).split()
+    return "\n".join((PAGE / f"{name}.{'css' if kind == 'style' else 'js'}").read_text() for name in names)
+
+
 WIDTH, DEPTH = 10.0, 7.0
 
 
@@ -228,8 +235,8 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
     for name, content in elements:
         data += f'\n<script type="application/base64" id="{name}">{base64.b64encode(content).decode()}</script>'
     three = (THREE / "three.min.js").read_text() + "\n" + (THREE / "examples/js/controls/OrbitControls.js").read_text()
-    parts = {"/*{style}*/": (PAGE / "page.css").read_text(), "/*{three}*/": three, "<!--{data}-->": data,
-             "/*{script}*/": "\n".join((PAGE / f"{name}.js").read_text() for name in SCRIPTS)}
+    parts = {"/*{style}*/": page_parts("style"), "/*{three}*/": three, "<!--{data}-->": data,
+             "/*{script}*/": page_parts("script")}
     lines = (PAGE / "page.html").read_text().split("\n")
     return "\n".join(parts.get(line, line) for line in lines)
 

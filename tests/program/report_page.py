@@ -10,20 +10,22 @@ Debian: python3-selenium chromium chromium-driver.
 """
 
 import argparse
-import shutil
 import sys
 import time
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # none beside the sources
+
+import report_browser
+import report_section
+from report_browser import Failed, camera, move_slider, open_browser, press, require, still, wait_for
+
 try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
 except ImportError:
-    webdriver = None
+    pass
 
-WAIT_SECONDS = 60
 LEAST_COVERED = 0.02  # of the canvas
 # Counts, in the page, the pixels that are not background and those of the colours of holes and outer curves.
 COUNT_PIXELS = """
@@ -40,67 +42,8 @@ return {covered: covered / (width * height), hole, outer};
 """
 
 
-class Failed(Exception):
-    pass
-
-
-def require(is_true, text):
-    if not is_true:
-        raise Failed(text)
-    print(f"ok: {text}")
-
-
-def open_browser(arguments):
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium")
-    for option in ["--headless=new", "--no-sandbox", "--hide-scrollbars", "--disable-dev-shm-usage", "--force-color-profile=srgb"]:
-        options.add_argument(option)
-    if arguments.no_webgl:
-        options.add_argument("--disable-3d-apis")
-    else:
-        options.add_argument("--use-angle=swiftshader")
-        options.add_argument("--enable-unsafe-swiftshader")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-    driver.set_page_load_timeout(WAIT_SECONDS)
-    driver.set_script_timeout(WAIT_SECONDS)
-    width, height = (int(value) for value in arguments.size.split("x"))
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                           {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
-        {"name": "prefers-color-scheme", "value": "dark" if arguments.dark else "light"}]})
-    return driver
-
-
-def wait_for(driver, expression, text, seconds=WAIT_SECONDS):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if driver.execute_script(f"return Boolean({expression})"):
-            return
-        time.sleep(0.05)
-    raise Failed(f"timed out: {text}")
-
-
-def still(driver):
-    wait_for(driver, "lacuna.is_still()", "the view comes to rest")
-
-
-def camera(driver):
-    return driver.execute_script("return lacuna.camera()")
-
-
 def distance(a, b):
     return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
-
-
-def press(driver, key):
-    webdriver.ActionChains(driver).send_keys(key).perform()
-
-
-def set_size_filter(driver, value):
-    driver.execute_script("const s = document.getElementById('size-slider'); s.value = arguments[0];"
-                          "s.dispatchEvent(new Event('input'));", value)
-    driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
 
 
 def check_points(driver):
@@ -120,11 +63,11 @@ def check_filter(driver, count):
     before = driver.execute_script(COUNT_PIXELS)
     require(before["hole"] + before["outer"] > 50,
             f"loops are drawn ({before['hole']} pixels of holes, {before['outer']} of outer curves)")
-    set_size_filter(driver, 1000)
+    move_slider(driver, "size-slider", 1000)
     require(driver.execute_script("return lacuna.visible_loops()") == 0, "the filter can leave out all loops")
     after = driver.execute_script(COUNT_PIXELS)
     require(after["hole"] + after["outer"] == 0, "loops left out are not drawn")
-    set_size_filter(driver, 500)
+    move_slider(driver, "size-slider", 500)
     part = driver.execute_script("return lacuna.visible_loops()")
     require(0 < part < count or count == 1, f"the filter shows {part} of {count} loops at the middle of the slider")
     driver.find_element(By.ID, "reset").click()
@@ -172,6 +115,9 @@ def check_without_webgl(driver):
     if count > 0:
         driver.find_element(By.CSS_SELECTOR, "#body tr[data-row]").click()
         require(driver.execute_script("return lacuna.selected()") is not None, "a click selects a row")
+        move_slider(driver, "size-slider", 1000)
+        driver.find_element(By.ID, "reset").click()
+        wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all loops")
 
 
 def check_console(driver):
@@ -193,6 +139,8 @@ def run(driver, arguments):
             require(driver.execute_script("return lacuna.has_view"), "there is a 3D view")
             check_points(driver)
             count = driver.execute_script("return lacuna.visible_loops()")
+            if driver.execute_script("return lacuna.points") > 0:
+                report_section.check(driver, count)
             if count > 0:
                 check_filter(driver, count)
                 check_flight(driver)
@@ -216,7 +164,7 @@ def main():
     parser.add_argument("--no-checks", action="store_true")
     parser.add_argument("--run", help="JavaScript before the picture")
     arguments = parser.parse_args()
-    if webdriver is None or not shutil.which("chromium") or not shutil.which("chromedriver"):
+    if not report_browser.is_installed():
         print("report_page.py: skipped: python3-selenium, chromium or chromium-driver is missing")
         return 77
     driver = open_browser(arguments)

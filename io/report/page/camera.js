@@ -91,33 +91,3 @@ function poses_between(a, b, part) {
     azimuth: a.azimuth + turn * eased,
   };
 }
-
-// Box of most positions, so that a few outliers do not make the rest small. Null without positions.
-function usual_box(positions) {
-  const count = positions.length / 3;
-  if (count === 0) return null;
-  const step = Math.max(1, Math.floor(count / 20000));
-  const low = [0, 0, 0], high = [0, 0, 0];
-  for (let axis = 0; axis < 3; ++axis) {
-    const values = new Float32Array(Math.ceil(count / step));
-    for (let i = 0, k = 0; i < count; i += step) values[k++] = positions[3 * i + axis];
-    values.sort();
-    const at = (part) => values[Math.round(part * (values.length - 1))];
-    const margin = 0.02 * (at(0.995) - at(0.005));
-    low[axis] = Math.max(values[0], at(0.005) - margin);
-    high[axis] = Math.min(values[values.length - 1], at(0.995) + margin);
-  }
-  return {low, high};
-}
-
-// A few thousand of the positions inside of the box, enough to fit a picture to; two corners of the box without any.
-function outline_places(positions, {low, high}) {
-  const count = positions.length / 3;
-  const step = Math.max(1, Math.floor(count / 6000));
-  const places = [];
-  for (let i = 0; i < count; i += step) {
-    const place = [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]];
-    if (place.every((value, axis) => value >= low[axis] && value <= high[axis])) places.push(...place);
-  }
-  return places.length > 0 ? places : [...low, ...high];
-}

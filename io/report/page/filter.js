@@ -49,7 +49,6 @@ class LoopFilter {
       this.changed();
     });
     find("filters").addEventListener("submit", (event) => event.preventDefault());
-    find("reset").addEventListener("click", () => this.reset());
   }
 
   reset() {
@@ -74,7 +73,6 @@ class LoopFilter {
     this.requested = true;
     requestAnimationFrame(() => {
       this.requested = false;
-      find("reset").disabled = !this.is_active();
       this.on_change();
     });
   }

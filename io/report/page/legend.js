@@ -1,7 +1,7 @@
 // What lies over the view: the legend of colours and lines, the scale, the axes.
 
-// `heights`: real heights at the two ends of the colours.
-function draw_legend(colouring, theme, heights, units, loops) {
+// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty.
+function draw_legend(colouring, theme, heights, units, loops, hidden) {
   const parts = [];
   const names = {probability: "Boundary probability", height: "Height", colour: "Colours of the scan", plain: ""};
   if (colouring === "probability" || colouring === "height") {
@@ -22,15 +22,17 @@ function draw_legend(colouring, theme, heights, units, loops) {
         has_hole ? element("span", {}, element("i", {class: "swatch hole"}), "Hole") : null,
         has_outer ? element("span", {}, element("i", {class: "swatch outer"}), "Outer curve") : null));
   }
+  if (hidden) parts.push(element("p", {class: "legend-section"}, hidden));
   find("legend").hidden = parts.length === 0;
   find("legend").replaceChildren(...parts);
 }
 
 // A bar of a round length at the distance of the target.
 function draw_scale(view, units) {
-  const {camera, canvas, controls, data} = view;
+  const {canvas, data} = view;
+  const {camera} = view.navigation;
   const focal = canvas.clientHeight / (2 * Math.tan((camera.fov * Math.PI) / 360));
-  const unit_pixels = focal / camera.position.distanceTo(controls.target) / data.frame.edge;
+  const unit_pixels = focal / view.navigation.target_distance() / data.frame.edge;
   const length = round_step(Math.min(130, 0.3 * canvas.clientWidth) / unit_pixels);
   if (!Number.isFinite(length) || !(length > 0)) return;
   find("scale-line").style.width = `${(length * unit_pixels).toFixed(1)}px`;

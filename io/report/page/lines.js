@@ -7,6 +7,7 @@
 // radius of the loop.
 const kLineVertexShader = `
   ${kCameraShader}
+  ${kSectionShader}
   uniform vec2 resolution;
   uniform float near, half_width, pixel_ratio, focal, crowded;
   attribute vec3 other;
@@ -20,9 +21,19 @@ const kLineVertexShader = `
     bool is_end = code > 1.5;
     float side = mod(code, 2.0) > 0.5 ? 1.0 : -1.0;
     vec3 mine = to_view(position), far_end = to_view(other);
+    along = more.x;
+    vec2 heights = vec2(position.z, other.z);
+    if (max(heights.x, heights.y) < section.x || min(heights.x, heights.y) > section.y) return;
+    vec2 shown = clamp(heights, section.x, section.y);
+    if (shown != heights) {
+      vec2 parts = (shown - heights.x) / (heights.y - heights.x);
+      along += (is_end ? -1.0 : 1.0) * parts.x * distance(mine, far_end);
+      vec3 edge = far_end - mine;
+      far_end = mine + parts.y * edge;
+      mine += parts.x * edge;
+    }
     float limit = -near;
     if (mine.z > limit && far_end.z > limit) return;
-    along = more.x;
     if (mine.z > limit) {
       float part = (limit - mine.z) / (far_end.z - mine.z);
       along += (is_end ? -1.0 : 1.0) * part * distance(mine, far_end);

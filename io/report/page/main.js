@@ -12,7 +12,8 @@ class Page {
     this.colouring = "probability";
     this.selected = -1;
     this.former = null;  // pose before the flight to a loop
-    this.write_header();
+    write_header(this.data);
+    find("csv").disabled = loops.count === 0;
     this.filter = new LoopFilter(loops, this.units, () => this.apply_filter());
     this.table = new LoopTable(loops, this.units, this.decimals, (index) => this.toggle(index));
     this.details = new Details(this.data, this.units, this.decimals,
@@ -29,22 +30,6 @@ class Page {
     this.times.since_navigation = performance.now();
   }
 
-  write_header() {
-    const {report, loops} = this.data;
-    const counts = report.counts || {};
-    const title = report.title || "Scan";
-    document.title = `${title} – Lacuna`;
-    find("title").textContent = title;
-    find("title").title = title;
-    const parts = [];
-    if (is_number(counts.holes)) parts.push(plural(counts.holes, "hole", "holes"));
-    if (is_number(counts.outer)) parts.push(plural(counts.outer, "outer curve", "outer curves"));
-    if (is_number(counts.points)) parts.push(plural(counts.points, "point", "points"));
-    if (report.crs) parts.push(crs_name(report.crs));
-    find("summary").replaceChildren(...parts.map((part) => element("span", {}, part)));
-    if (loops.count === 0) find("csv").disabled = true;
-  }
-
   make_view() {
     this.view = null;
     const say = (text, more) => {
@@ -59,7 +44,7 @@ class Page {
     }
     try {
       this.view = new View(find("canvas"), context, this.data, {
-        on_frame: (view) => { draw_scale(view, this.units); draw_triad(view.camera); },
+        on_frame: (view) => { draw_scale(view, this.units); draw_triad(view.navigation.camera); },
         on_loop: (index) => this.click_loop(index),
         on_hover: (index, x, y) => this.hover(index, x, y),
       });
@@ -77,87 +62,44 @@ class Page {
   }
 
   connect() {
-    this.connect_bar();
-    this.connect_tabs();
+    connect_header({set_theme: (name) => this.set_theme(name), other_theme: () => (this.theme === "dark" ? "light" : "dark")});
+    connect_tabs();
     this.connect_view();
+    find("csv").addEventListener("click", () => this.save_csv());
+    find("reset").addEventListener("click", () => this.reset());
     const step = (direction) => {
       const index = this.table.neighbour(direction);
       if (index >= 0) this.select(index, true);
     };
-    const side = (name) => { if (this.view) this.view.fly(this.view.side_pose(name)); };
-    connect_keys({view: this.view, press: {
+    const side = (name) => this.fly_to_side(name);
+    connect_keys({navigation: this.view && this.view.navigation, press: {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
       f: () => side("fit"), 1: () => side("top"), 2: () => side("front"), 3: () => side("side"),
       c: () => this.next_colouring(), t: () => find("through").click(),
     }});
   }
 
-  connect_bar() {
-    find("help-open").addEventListener("click", () => find("help").showModal());
-    find("help").addEventListener("click", (event) => { if (event.target === find("help")) find("help").close(); });
-    find("theme").addEventListener("click", () => {
-      this.is_theme_chosen = true;
-      this.set_theme(this.theme === "dark" ? "light" : "dark");
-    });
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => {
-      if (!this.is_theme_chosen) this.set_theme(event.matches ? "dark" : "light");
-    });
-    find("csv").addEventListener("click", () => {
-      const title = (this.data.report.title || "scan").replace(/\.[a-z0-9]+$/i, "").replace(/[^\w.-]+/g, "_");
-      save_text(this.table.csv(), `${title}_holes.csv`);
-    });
-  }
-
-  connect_tabs() {
-    const tabs = Array.from(document.querySelectorAll("[role=tab]"));
-    const choose = (tab, is_focused) => {
-      document.body.dataset.tab = tab.dataset.tab;
-      for (const other of tabs) {
-        other.setAttribute("aria-selected", String(other === tab));
-        other.tabIndex = other === tab ? 0 : -1;
-      }
-      if (is_focused) tab.focus();
-    };
-    for (const [at, tab] of tabs.entries()) {
-      tab.addEventListener("click", () => choose(tab, false));
-      tab.addEventListener("keydown", (event) => {
-        const move = {ArrowRight: 1, ArrowLeft: -1}[event.key];
-        if (move) choose(tabs[(at + move + tabs.length) % tabs.length], true);
-      });
-    }
-    choose(tabs[0], false);
-    find("sheet").addEventListener("click", () => {
-      const is_tall = document.body.classList.toggle("tall-sheet");
-      find("sheet").setAttribute("aria-expanded", String(is_tall));
-      find("sheet").setAttribute("aria-label", is_tall ? "Smaller panel" : "Larger panel");
-    });
-  }
-
   connect_view() {
     find("back").addEventListener("click", () => this.escape());
     find("colouring").addEventListener("change", () => this.set_colouring(find("colouring").value));
-    find("view-more").addEventListener("click", () => {
-      const is_open = find("view-settings").hidden;
-      find("view-settings").hidden = !is_open;
-      find("view-more").setAttribute("aria-expanded", String(is_open));
-    });
-    const {view} = this;
-    if (!view) return;
-    const size = () => {
-      const factor = Math.pow(2, Number(find("point-size").value));
-      find("point-size-value").textContent = `× ${format_number(factor, 2)}`;
-      view.cloud.set_factor(factor);
-      view.request();
-    };
-    find("point-size").addEventListener("input", size);
-    size();
-    const shown = () => view.set_shown(find("show-points").checked, find("show-loops").checked);
-    find("show-points").addEventListener("change", shown);
-    find("show-loops").addEventListener("change", shown);
-    find("through").addEventListener("change", () => view.set_through(find("through").checked));
+    connect_settings();
+    if (!this.view) return;
+    connect_shown(this.view.scenes);
+    this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
-      button.addEventListener("click", () => view.fly(view.side_pose(button.dataset.side)));
+      button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
+  }
+
+  fly_to_side(name) {
+    if (!this.view) return;
+    const {navigation} = this.view;
+    navigation.fly(navigation.side_pose(name));
+  }
+
+  save_csv() {
+    const title = (this.data.report.title || "scan").replace(/\.[a-z0-9]+$/i, "").replace(/[^\w.-]+/g, "_");
+    save_text(this.table.csv(), `${title}_holes.csv`);
   }
 
   next_colouring() {
@@ -181,10 +123,31 @@ class Page {
 
   update_colours() {
     if (!this.view) return;
-    this.view.set_theme(this.theme, this.colouring);
-    const {low, high} = this.view.box;
+    this.view.scenes.set_theme(this.theme, this.colouring);
+    this.update_legend();
+  }
+
+  update_legend() {
+    const {low, high} = this.view.bounds.box;
     const heights = [low[2], high[2]].map((z) => to_real(this.data.frame, [0, 0, z])[2]);
-    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops);
+    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops,
+                this.section.words());
+  }
+
+  update_reset() {
+    find("reset").disabled = !this.filter.is_active() && !(this.section && this.section.is_active());
+  }
+
+  reset() {
+    this.filter.reset();
+    if (this.section) this.section.reset();
+  }
+
+  // Of the view alone: the table, the charts and the filters have all heights.
+  apply_section(low, high) {
+    this.view.set_section(low, high);
+    this.update_legend();
+    this.update_reset();
   }
 
   apply_filter() {
@@ -192,9 +155,10 @@ class Page {
     this.table.show(passes);
     const count = this.table.shown.length, all = this.data.loops.count;
     find("shown").textContent = all === 0 ? "none" : `${format_count(count)} of ${format_count(all)} shown`;
-    if (this.view) this.view.set_loops(this.table.shown);
+    if (this.view) this.view.scenes.set_loops(this.table.shown);
     if (this.selected >= 0 && !passes(this.selected)) this.deselect();
     draw_charts(this.data, this.units, this.filter, this.theme);
+    this.update_reset();
   }
 
   // ---- Selection
@@ -204,10 +168,12 @@ class Page {
     this.table.select(index);
     this.details.show(index);
     if (this.view) {
-      this.view.set_selected(index);
+      this.view.scenes.set_selected(index);
       if (is_flight) {
-        if (!this.former) this.former = this.view.flight ? this.view.flight.to : this.view.pose();
-        this.view.fly(this.view.loop_pose(index));
+        const {navigation} = this.view;
+        if (!this.former) this.former = navigation.flight ? navigation.flight.to : navigation.pose();
+        navigation.fly(navigation.loop_pose(index));
+        this.section.open_for(loop_box(this.data.loops, index));
       }
     }
     this.update_chip();
@@ -217,13 +183,16 @@ class Page {
     this.selected = -1;
     this.table.select(-1);
     this.details.show(-1);
-    if (this.view) this.view.set_selected(-1);
+    if (this.view) this.view.scenes.set_selected(-1);
     this.update_chip();
   }
 
-  // Deselects, and goes back to the view before the flight.
+  // Deselects, and goes back to the view and the section before the flight.
   escape() {
-    if (this.former && this.view) this.view.fly(this.former);
+    if (this.former && this.view) {
+      this.view.navigation.fly(this.former);
+      this.section.close_again();
+    }
     this.former = null;
     if (this.selected >= 0) this.deselect();
     this.update_chip();
@@ -257,28 +226,6 @@ class Page {
         : `${loop_name(loops, this.selected)} · ⌀ ${this.units.length(loops.diameter[this.selected])} · ` +
           `${this.units.area(loops.area[this.selected])}`;
   }
-}
-
-// What tests need; everything in real coordinates.
-function expose(page) {
-  const {view, data} = page;
-  window.lacuna = {
-    ready: true,
-    times: page.times,
-    has_view: Boolean(view),
-    points: data.points.count,
-    camera: () => (view ? to_real(data.frame, view.camera.position.toArray()) : null),
-    target: () => (view ? to_real(data.frame, view.controls.target.toArray()) : null),
-    is_still: () => !view || (!view.flight && !view.requested),
-    visible_loops: () => page.table.shown.length,
-    selected: () => (page.selected < 0 ? null : data.loops.id[page.selected]),
-    theme: (name) => page.set_theme(name),
-    colouring: (name) => page.set_colouring(name),
-    colours: () => Object.fromEntries(["view", "hole", "outer", "marked"].map(
-        (name) => [name, css_rgb(style_value(`--${name}`)).map((value) => Math.round(255 * value))])),
-    read_pixels: () => view.read_pixels(),
-    loop_at: (x, y) => { const at = view.loop_at(x, y); return at < 0 ? null : data.loops.id[at]; },
-  };
 }
 
 function start() {

@@ -2,8 +2,16 @@
 
 const kColourings = ["probability", "height", "colour", "plain"];
 
+// Mean distance of neighbouring sample points in scene units.
+function sample_spacing({report, frame, points}) {
+  const sample = report.sample || {};
+  const sparse = sample.of > 0 && points.count > 0 ? Math.sqrt(Math.max(1, sample.of / points.count)) : 1;
+  const spacing = ((report.mean_edge_length || 0) * sparse) / frame.edge;
+  return spacing > 0 ? spacing : 1 / Math.sqrt(Math.max(16, points.count));
+}
+
 class PointCloud {
-  // `data` of read_data(); `spacing`: mean distance of neighbouring sample points in scene units.
+  // `data` of read_data(); `spacing` of sample_spacing().
   constructor(data, spacing, camera_uniforms) {
     const {count, positions, attributes, colours} = data.points;
     this.count = count;
@@ -28,6 +36,7 @@ class PointCloud {
       defines: colours ? {HAS_COLOURS: 1} : {},
       vertexShader: `
         ${kCameraShader}
+        ${kSectionShader}
         uniform float size, focal, pixel_ratio, colouring, low, high, is_lit;
         uniform sampler2D ramp;
         attribute vec4 traits;
@@ -42,6 +51,10 @@ class PointCloud {
           return normalize(n);
         }
         void main() {
+          if (position.z < section.x || position.z > section.y) {
+            gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+            return;
+          }
           vec3 place = to_view(position);
           gl_Position = projectionMatrix * vec4(place, 1.0);
           diameter = clamp(size * focal / max(-place.z, 1e-9), 1.6 * pixel_ratio, 48.0 * pixel_ratio);

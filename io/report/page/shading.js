@@ -1,4 +1,4 @@
-// What the shaders share: the camera in parts, so that large scenes stay still when the camera is close.
+// What the shaders share: the section, and the camera in parts, so that large scenes stay still when it is close.
 //
 // A vertex is taken relative to the eye before it is turned: near the eye the difference of two close floats is exact.
 // One matrix for all would lose those digits, and a hole of 10 cm in a scan of 1 km would tremble.
@@ -7,6 +7,11 @@ const kCameraShader = `
   uniform vec3 eye_high, eye_low;
   uniform mat3 turn;
   vec3 to_view(vec3 place) { return turn * ((place - eye_high) - eye_low); }
+`;
+
+// Lowest and highest height that is drawn, in scene coordinates.
+const kSectionShader = `
+  uniform vec2 section;
 `;
 
 const kDepthShader = `
@@ -19,12 +24,15 @@ const kDepthShader = `
   }
 `;
 
+const kAllHeights = [-1, 1];  // scene coordinates lie between -0.5 and 0.5
+
 // One set of uniforms for all materials.
 function make_camera_uniforms() {
   return {
     eye_high: {value: new THREE.Vector3()},
     eye_low: {value: new THREE.Vector3()},
     turn: {value: new THREE.Matrix3()},
+    section: {value: new THREE.Vector2(...kAllHeights)},
     near: {value: 0.1},
     far: {value: 10},
     focal: {value: 1000},  // pixels at distance 1

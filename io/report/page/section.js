@@ -1,0 +1,113 @@
+// The section: a height above which, and another one below which, the view shows nothing.
+//
+// Shaders leave out what lies outside, so that a change costs one picture, whatever the number of points.
+
+const kSliderSteps = 200;  // at least
+
+// One of the two heights: a slider and a number field that say the same. At its end of the range it hides nothing.
+class HeightLimit {
+  // `name` of its controls, "above" or "below"; the range in the scan's unit; `on_change()` when the user has moved it.
+  constructor(name, {low, high, step, decimals}, off, units, on_change) {
+    Object.assign(this, {name, low, high, decimals, off, units});
+    this.slider = find(`${name}-slider`);
+    this.number = find(`${name}-number`);
+    find(`${name}-unit`).textContent = units.name;
+    for (const input of [this.slider, this.number]) {
+      Object.assign(input, {min: this.text(low), max: this.text(high), step: this.text(step)});
+    }
+    this.slider.addEventListener("input", () => { this.set(Number(this.slider.value)); on_change(); });
+    this.number.addEventListener("input", () => {
+      const value = this.number.valueAsNumber;
+      this.set(Number.isNaN(value) ? off : value, true);
+      on_change();
+    });
+    this.number.addEventListener("change", () => this.set(this.value));
+    this.set(off);
+  }
+
+  // A field that is being typed in keeps its text.
+  set(value, is_typed = false) {
+    this.value = Math.min(this.high, Math.max(this.low, value));
+    this.slider.value = this.text(this.value);
+    if (!is_typed) this.number.value = this.text(this.value);
+    this.number.classList.toggle("quiet", !this.is_active());
+    this.slider.setAttribute("aria-valuetext", this.is_active() ? this.words() : "off");
+  }
+
+  is_active() { return this.value !== this.off; }
+
+  // A height that was typed with more decimals keeps them.
+  text(value) {
+    const rounded = value.toFixed(this.decimals);
+    return Number(rounded) === value ? rounded : String(value);
+  }
+
+  words() {
+    const unit = this.units.name ? ` ${this.units.name}` : "";
+    return `${this.name} ${this.text(this.value).replace("-", "−")}${unit}`;
+  }
+}
+
+class Section {
+  // `on_change(low, high)` gives the heights that are shown, in scene coordinates, after each change.
+  constructor(data, bounds, units, on_change) {
+    Object.assign(this, {frame: data.frame, on_change});
+    this.former = null;  // heights before the flight to a loop that they hid
+    const range = slider_range(...scene_heights(bounds, data).map((z) => to_real(data.frame, [0, 0, z])[2]));
+    const changed = () => { this.former = null; this.changed(); };
+    this.above = new HeightLimit("above", range, range.high, units, changed);
+    this.below = new HeightLimit("below", range, range.low, units, changed);
+    find("section").disabled = data.points.count + data.loops.count === 0 || range.low === range.high;
+  }
+
+  is_active() { return this.above.is_active() || this.below.is_active(); }
+
+  // What it hides; nothing if it hides nothing.
+  words() {
+    const active = [this.above, this.below].filter((limit) => limit.is_active());
+    return active.length > 0 ? `Hidden: ${active.map((limit) => limit.words()).join(", ")}` : "";
+  }
+
+  // [low, high] in scene coordinates.
+  heights() {
+    return [this.below, this.above].map(
+        (limit, i) => (limit.is_active() ? to_scene(this.frame, [0, 0, limit.value])[2] : kAllHeights[i]));
+  }
+
+  changed() { this.on_change(...this.heights()); }
+
+  reset() {
+    this.former = null;
+    this.set(this.above.off, this.below.off);
+  }
+
+  set(above, below) {
+    this.above.set(above);
+    this.below.set(below);
+    this.changed();
+  }
+
+  // Moves the heights that hide any of the box (scene coordinates, may be null) to where they hide nothing.
+  open_for(box) {
+    const [low, high] = this.heights();
+    const is_above = Boolean(box) && box.high[2] > high, is_below = Boolean(box) && box.low[2] < low;
+    if (!is_above && !is_below) return;
+    const now = [this.above.value, this.below.value];
+    this.former = this.former || now;
+    this.set(is_above ? this.above.off : now[0], is_below ? this.below.off : now[1]);
+  }
+
+  // To the heights before open_for(), unless the user has moved one since.
+  close_again() {
+    if (this.former) this.set(...this.former);
+    this.former = null;
+  }
+}
+
+// Whole steps around the heights: a few hundred of 1, 2 or 5 times a power of ten.
+function slider_range(low, high) {
+  const step = round_step(Math.max(high - low, 1e-6) / kSliderSteps);
+  const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+  const whole = (value) => Number((value * step).toFixed(decimals));
+  return {low: whole(Math.floor(low / step + 1e-6)), high: whole(Math.ceil(high / step - 1e-6)), step, decimals};
+}
