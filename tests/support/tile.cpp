@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <map>
 #include <utility>
 
@@ -68,6 +69,12 @@ TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::siz
     points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
   }
   return points;
+}
+
+LocalIndex row_of(const TilePoints& points, PointId id) {
+  const auto found = std::find(points.ids.begin(), points.ids.end(), id);
+  assert(found != points.ids.end());
+  return static_cast<LocalIndex>(found - points.ids.begin());
 }
 
 std::vector<Eigen::Vector3d> owned_normals(const Cloud& cloud, const TilePoints& points) {

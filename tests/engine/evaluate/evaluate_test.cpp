@@ -33,7 +33,8 @@ std::vector<Evaluated> evaluate_whole(const Cloud& cloud, const TilePoints& poin
 }
 
 Evaluated evaluate_first(const Cloud& cloud, const Config& config = {}) {
-  return evaluate_whole(cloud, whole_tile(cloud), config, config.neighbourhood.eps)[0];
+  const TilePoints points = whole_tile(cloud);
+  return evaluate_whole(cloud, points, config, config.neighbourhood.eps)[row_of(points, PointId{0})];
 }
 
 bool near(double a, double b) {

@@ -77,8 +77,7 @@ TEST_CASE("a point exactly at eps is a neighbour, one just beyond is not") {
   Cloud cloud;
   cloud.positions = {{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}, {std::nextafter(2.0, 3.0), 0, 0}};
   const TilePoints points = whole_tile(cloud);
-  const auto origin = std::find(points.ids.begin(), points.ids.end(), PointId{0}) - points.ids.begin();
-  CHECK(ids_of(find_neighbourhoods(points, 1, 2.0), points)[static_cast<std::size_t>(origin)] ==
+  CHECK(ids_of(find_neighbourhoods(points, 1, 2.0), points)[row_of(points, PointId{0})] ==
         std::vector{PointId{1}, PointId{2}});
 }
 
