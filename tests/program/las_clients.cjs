@@ -58,8 +58,8 @@ function checkHeader(las, sources) {
   if (sources.length === 1) {
     for (const name of ["globalEncoding", "scale", "offset", "min", "max"]) assert.deepEqual(header[name], first[name], name);
   } else {
-    const isText = format >= 6 ? 16 : 0;
-    assert.equal(header.globalEncoding, (first.globalEncoding & ~16) | isText);
+    const textBit = format >= 6 ? 16 : 0;
+    assert.equal(header.globalEncoding, (first.globalEncoding & ~16) | textBit);
   }
   // Behind the points and the records there is nothing.
   const last = las.records.filter((record) => record.isExtended).at(-1);

@@ -18,7 +18,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 mkdir npm
-if ! npm install --prefix npm --ignore-scripts --no-audit --no-fund --fetch-retries 1 copc@0.0.8 laz-perf@0.0.7 >npm.log 2>&1; then
+if ! npm install --prefix npm --cache "$work/cache" --ignore-scripts --no-audit --no-fund --fetch-retries 1 \
+  --fetch-retry-mintimeout 1000 --fetch-timeout 60000 copc@0.0.8 laz-perf@0.0.7 >npm.log 2>&1; then
   echo "skipped: npm cannot fetch copc@0.0.8:"
   tail -5 npm.log
   exit 77
