@@ -71,6 +71,14 @@ inline std::string detect_to(const ScratchFolder& folder, FileScan& scan, std::s
   return read_file(folder / "out" / "points.las");
 }
 
+// The points.las of these files, each of five points.
+inline std::string join(const ScratchFolder& folder, const std::vector<ScanInput>& inputs) {
+  Config config = las_config();
+  config.output.points_format = PointsFormat::kLas;
+  FileScan scan(inputs, {});
+  return detect_to(folder, scan, 5 * inputs.size(), config);
+}
+
 // The bytes of point i, without results.
 inline std::string point_of(const std::string& las, std::size_t i, std::size_t bytes) {
   const std::size_t record = at<std::uint16_t>(las, 105);
