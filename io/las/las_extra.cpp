@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -24,9 +25,9 @@ constexpr std::array<LasExtraType, 11> kTypes = {{{0, Scalar::kUint8},
                                                   {4, Scalar::kFloat32},
                                                   {8, Scalar::kFloat64}}};
 constexpr std::uint8_t kUint64 = 7, kInt64 = 8, kFloat = 9, kDouble = 10, kLastType = 30;
-constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kNoDataAt = 40,
-                      kDescriptionAt = 160;
-constexpr std::uint8_t kHasNoData = 1;
+constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kNoDataAt = 40, kMinAt = 64,
+                      kScaleAt = 112, kDescriptionAt = 160;
+constexpr std::uint8_t kHasNoData = 1, kHasMin = 2, kHasMax = 4;  // options
 
 std::uint8_t type_of(Scalar type) {
   switch (type) {
@@ -93,6 +94,19 @@ std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra) {
   return bytes;
 }
 
+std::optional<double> las_no_data(const LasExtraBytes& extra) {
+  if (extra.type == 0 || extra.type > kDouble || (extra.options & kHasNoData) == 0) return std::nullopt;
+  const std::byte* const from = &extra.descriptor[kNoDataAt];  // as eight bytes
+  const double value = extra.type == kFloat ? static_cast<double>(static_cast<float>(load<double>(from)))
+                                            : load_las_value(extra.type, from);
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+bool is_same_kind(const LasExtraBytes& a, const LasExtraBytes& b) {
+  return a.type == b.type && a.scale == b.scale && a.offset == b.offset &&
+         (a.type != 0 || a.options == b.options) && las_no_data(a) == las_no_data(b);
+}
+
 LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description) {
   LasExtraBytes extra{.name = {}, .type = type_of(type), .options = 0, .scale = 1, .offset = 0};
   extra.descriptor[kTypeAt] = static_cast<std::byte>(extra.type);
@@ -112,6 +126,19 @@ LasExtraBytes las_extra_without_type(std::size_t bytes) {
 void rename(LasExtraBytes& extra, std::string_view name) {
   extra.name = name.substr(0, kText);
   put_text(extra, kNameAt, extra.name);
+}
+
+LasExtraBytes as_double(const LasExtraBytes& extra) {
+  LasExtraBytes made = las_extra_of(extra.name, Scalar::kFloat64, "");
+  std::copy_n(extra.descriptor.begin() + kDescriptionAt, kText, made.descriptor.begin() + kDescriptionAt);
+  return made;
+}
+
+void forget_range(LasExtraBytes& extra) {
+  if (extra.type == 0) return;
+  extra.options &= static_cast<std::uint8_t>(~(kHasMin | kHasMax));
+  extra.descriptor[kOptionsAt] = static_cast<std::byte>(extra.options);
+  std::fill(extra.descriptor.begin() + kMinAt, extra.descriptor.begin() + kScaleAt, std::byte{0});
 }
 
 bool is_lacuna_extra(const LasExtraBytes& extra) {

@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kWayOut = "; --points-format ply holds them all";
 
-// Whether GPS times count from a week's beginning or from 1980.
-std::uint16_t time_kind(const LasHeader& header) {
+bool has_standard_time(const LasHeader& header) {
   const bool has_encoding = header.minor >= 2;
-  return has_encoding ? load<std::uint16_t>(&header.bytes[6]) & 1u : 0u;
+  return has_encoding && (load<std::uint16_t>(&header.bytes[6]) & 1u) != 0;
 }
 
-void check_fields(const std::vector<LasPart>& parts) {
+// Returns the first one with GPS times, if there is one.
+const LasPart* check_fields(const std::vector<LasPart>& parts) {
   const LasPart* timed = nullptr;
   for (const LasPart& part : parts) {
     const LasGroups groups = las_groups(part.header.point_format);
@@ -31,10 +31,11 @@ void check_fields(const std::vector<LasPart>& parts) {
                   kWayOut);
     if (!groups.gps_time) continue;
     if (timed == nullptr) timed = &part;
-    if (time_kind(part.header) != time_kind(timed->header))
+    if (has_standard_time(part.header) != has_standard_time(timed->header))
       throw Error(part.name + ": its GPS times are of another kind than those of " + timed->name +
                   ", and a LAS file has one kind" + kWayOut);
   }
+  return timed;
 }
 
 // Which column of the others becomes this field; none: nothing of that name fits it.
@@ -99,11 +100,6 @@ std::vector<ImportedField> match_fields(const std::vector<ImportedColumn>& colum
   return imported;
 }
 
-bool is_same_kind(const LasExtraBytes& a, const LasExtraBytes& b) {
-  return a.type == b.type && a.scale == b.scale && a.offset == b.offset &&
-         (a.type != 0 || a.options == b.options);
-}
-
 // Adds the extra bytes of a file.
 void join_extra(std::vector<LasExtraField>& joined, const std::vector<LasExtraBytes>& added,
                 const std::string& file) {
@@ -120,7 +116,7 @@ void join_extra(std::vector<LasExtraField>& joined, const std::vector<LasExtraBy
       if (!are_values)
         throw Error(file + ": its extra bytes '" + extra.name +
                     "' have another form than those of the files before" + kWayOut);
-      joined[i].what = las_extra_of(extra.name, Scalar::kFloat64, "");
+      joined[i].what = as_double(joined[i].what);
     }
   }
 }
@@ -133,8 +129,10 @@ std::string file_of_others(const LasParts& parts) {
 
 LasForm join_las(const LasParts& parts) {
   constexpr std::size_t kMostRecordBytes = 65535;
-  check_fields(parts.las);
+  const LasPart* timed = check_fields(parts.las);
+  if (timed == nullptr && !parts.las.empty()) timed = &parts.las.front();
   LasForm form;
+  form.has_standard_time = timed != nullptr && has_standard_time(timed->header);
   const bool has_code = parts.crs.starts_with("EPSG:");  // which records for the formats up to 5 name
   bool is_extended = parts.las.empty() && !has_code;
   bool has_time = false, has_colour = false, has_infrared = false, has_waveform = false;
@@ -193,6 +191,7 @@ LasForm join_las(const LasParts& parts) {
 
   form.record_bytes = las_point_bytes(form.point_format);
   for (LasExtraField& field : form.extra) {
+    if (!is_single) forget_range(field.what);
     field.offset = form.record_bytes;
     field.bytes = las_extra_size(field.what);
     form.record_bytes += field.bytes;

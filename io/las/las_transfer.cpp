@@ -22,13 +22,18 @@ unsigned bits(const std::byte* from, std::size_t at, unsigned shift, unsigned co
   return std::to_integer<unsigned>(from[at]) >> shift & ((1u << count) - 1);
 }
 
-// The fields of formats 0 to 5 behind the coordinates, as formats 6 to 10 have them.
+// The fields of formats 0 to 5 behind the coordinates, as formats 6 to 10 have them. Overlap is a flag there,
+// and its class reserved (LAS 1.4 R15, table 17).
 void widen_core(const std::byte* from, std::byte* to) {
-  constexpr double kStep = 0.006;      // degrees
+  constexpr double kStep = 0.006;  // degrees
+  constexpr unsigned kOverlapClass = 12, kUnclassified = 1, kOverlapFlag = 8;
+  const unsigned given = bits(from, 15, 0, 5);
+  const bool is_overlap = given == kOverlapClass;
   std::memcpy(to + 12, from + 12, 2);  // intensity
   to[14] = static_cast<std::byte>(bits(from, 14, 0, 3) | bits(from, 14, 3, 3) << 4);
-  to[15] = static_cast<std::byte>(bits(from, 15, 5, 3) | bits(from, 14, 6, 2) << 6);
-  to[16] = static_cast<std::byte>(bits(from, 15, 0, 5));
+  to[15] = static_cast<std::byte>(bits(from, 15, 5, 3) | (is_overlap ? kOverlapFlag : 0u) |
+                                  bits(from, 14, 6, 2) << 6);
+  to[16] = static_cast<std::byte>(is_overlap ? kUnclassified : given);
   to[17] = from[17];  // user data
   const double degrees = load<std::int8_t>(from + 16);
   store(to + 18, static_cast<std::int16_t>(std::lround(degrees / kStep)));
@@ -100,12 +105,10 @@ void LasTransfer::find_extra(const LasHeader& from, const LasForm& to) {
     if (i == to.extra.size()) continue;
     found.insert(i);
     const LasExtraField& field = to.extra[i];
-    const bool is_same =
-        field.what.type == extra.type && field.what.scale == extra.scale && field.what.offset == extra.offset;
-    if (is_same) {
+    if (is_same_kind(field.what, extra)) {
       copy(place, field.offset, bytes);
     } else {
-      widened_.push_back({extra.type, extra.scale, extra.offset, place, field.offset});
+      widened_.push_back({extra.type, extra.scale, extra.offset, las_no_data(extra), place, field.offset});
     }
   }
   for (std::size_t i = 0; i < to.extra.size(); ++i) {
@@ -133,8 +136,12 @@ void LasTransfer::convert(std::span<const std::byte> records, std::size_t stride
     for (const Copy& part : copies_) std::memcpy(out + part.to, from + part.from, part.bytes);
     if (is_whole_) continue;
     if (is_widened_core_) widen_core(from, out);
-    for (const Widen& value : widened_)
-      store(out + value.to, load_las_value(value.type, from + value.from) * value.scale + value.added);
+    for (const Widen& value : widened_) {
+      const double stored = load_las_value(value.type, from + value.from);
+      const bool is_missing = stored == value.no_data;
+      store(out + value.to,
+            is_missing ? std::numeric_limits<double>::quiet_NaN() : stored * value.scale + value.added);
+    }
     if (is_stepped_ || pose_) move(from, out);
     if (!normals_.empty()) turn(out);
   }

@@ -32,6 +32,7 @@ class LasTransfer {
   struct Widen {  // to a double
     std::uint8_t type;
     double scale, added;
+    std::optional<double> no_data;  // as it is stored
     std::size_t from, to;
   };
   struct Normal {  // one component, of type 9 or 10

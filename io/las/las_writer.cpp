@@ -1,98 +1,49 @@
 #include "io/las/las_writer.hpp"
 
-#include "io/input_file.hpp"
-#include "io/little_endian.hpp"
+#include "io/las/las_bytes.hpp"
+#include "io/las/las_records.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
 namespace lacuna {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 375, kRecordHead = 54, kExtendedHead = 60, kMostRecordData = 65535;
-constexpr std::string_view kProjection = "LASF_Projection", kSpecification = "LASF_Spec";
-constexpr std::uint16_t kExtraBytes = 4, kWellKnownText = 2112, kGeoKeys = 34735;
-constexpr std::uint16_t kTextBit = 16;  // of the global encoding: the system is well-known text
-
-template <class T>
-void put_at(std::string& bytes, std::size_t offset, T value) {
-  store(reinterpret_cast<std::byte*>(&bytes[offset]), value);
-}
-
-template <class T>
-T value_at(const std::string& bytes, std::size_t offset) {
-  return load<T>(reinterpret_cast<const std::byte*>(&bytes[offset]));
-}
-
-void put_text(std::string& bytes, std::size_t offset, std::size_t length, std::string_view text) {
-  text = text.substr(0, length);
-  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), length, '\0');
-  std::copy(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
-}
-
-// The head of a record, of either kind.
-std::string record_head(bool is_extended, std::string_view user, std::uint16_t number, std::uint64_t bytes,
-                        std::string_view description) {
-  std::string head(is_extended ? kExtendedHead : kRecordHead, '\0');
-  put_text(head, 2, 16, user);
-  put_at(head, 18, number);
-  if (is_extended) {
-    put_at(head, 20, bytes);
-  } else {
-    put_at(head, 20, static_cast<std::uint16_t>(bytes));
-  }
-  put_text(head, is_extended ? 28 : 22, 32, description);
-  return head;
-}
+constexpr std::size_t kHeaderBytes = 375;
+constexpr std::uint16_t kTimeBit = 1, kTextBit = 16;  // of the global encoding
 
 bool goes_over(const LasRecordPlace& record, const LasOrigin& origin) {
   if (record.user == "laszip encoded" || record.user == "copc") return false;
-  if (record.user == kProjection && !origin.has_crs) return false;
-  return record.user != kSpecification || record.number != kExtraBytes;
+  if (record.user == kLasProjection && !origin.has_crs) return false;
+  return record.user != kLasSpecification || record.number != kLasExtraBytes;
 }
 
-std::uint64_t copy_bytes(const std::filesystem::path& file, const LasRecordPlace& record, OutputFile& out) {
-  constexpr std::size_t kBuffer = std::size_t{1} << 16;
-  InputFile in(file, kBuffer);
-  in.skip(std::min(record.at, in.remaining()));
-  std::vector<std::byte> bytes(kBuffer);
-  for (std::uint64_t left = record.bytes; left > 0;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, kBuffer));
-    in.read(bytes.data(), count);
-    out.write(std::span(bytes).first(count));
-    left -= count;
+// Whether the coordinate reference system of a new file of these points is well-known text. Formats 6 to 10
+// ask for it, with a text or without (LAS 1.4 R15, 2.4). Keys of GeoTIFF alone stay what they are.
+bool has_text(const std::optional<LasOrigin>& origin, const LasForm& form, std::string_view crs) {
+  if (!is_extended_format(form.point_format)) return false;
+  if (!origin) return !crs.starts_with("EPSG:");
+  bool has_keys = false;
+  for (const auto* records : {&origin->header.records, &origin->header.extended}) {
+    for (const LasRecordPlace& record : *records) {
+      if (record.user != kLasProjection || !goes_over(record, *origin)) continue;
+      if (record.number == kLasWellKnownText) return true;
+      has_keys = has_keys || record.number == kLasGeoKeys;
+    }
   }
-  return record.bytes;
+  return !has_keys;
 }
 
-// "EPSG:N" or "EPSG:N+M" as a directory of GeoTIFF keys (GeoTIFF 1.1, 7.1); empty: no such code.
-std::string geo_keys(std::string_view crs) {
-  crs.remove_prefix(std::min<std::size_t>(5, crs.size()));
-  std::uint16_t horizontal = 0, vertical = 0;
-  const char* const end = crs.data() + crs.size();
-  const auto [stop, status] = std::from_chars(crs.data(), end, horizontal);
-  if (status != std::errc{}) return {};
-  if (stop != end && *stop == '+') std::from_chars(stop + 1, end, vertical);
-  const bool is_geographic = horizontal >= 4000 && horizontal < 5000;
-  struct Key {
-    std::uint16_t key, place, count, value;
-  };
-  std::vector<Key> keys = {{1024, 0, 1, static_cast<std::uint16_t>(is_geographic ? 2 : 1)},
-                           {static_cast<std::uint16_t>(is_geographic ? 2048 : 3072), 0, 1, horizontal}};
-  if (vertical != 0) keys.push_back({4096, 0, 1, vertical});
-  std::string data;
-  const auto add = [&](std::uint16_t value) {
-    data.resize(data.size() + sizeof value);
-    put_at(data, data.size() - sizeof value, value);
-  };
-  for (const std::uint16_t value : {1, 1, 0, static_cast<int>(keys.size())}) add(value);
-  for (const Key& key : keys) {
-    for (const std::uint16_t value : {key.key, key.place, key.count, key.value}) add(value);
-  }
-  return data;
+// What the form changes of the origin's global encoding.
+std::uint16_t encoding_of(std::uint16_t given, const std::optional<LasOrigin>& origin, const LasForm& form,
+                          std::string_view crs) {
+  unsigned encoding = given & ~unsigned{kTimeBit};
+  if (form.has_standard_time) encoding |= kTimeBit;
+  const bool is_widened =
+      !origin || (is_extended_format(form.point_format) && !is_extended_format(origin->header.point_format));
+  if (is_widened && has_text(origin, form, crs)) encoding |= kTextBit;
+  return static_cast<std::uint16_t>(encoding);
 }
 
 // The header of the origin as LAS 1.4 has it.
@@ -110,9 +61,8 @@ std::string header_of(const std::optional<LasOrigin>& origin, const LasForm& for
   } else {
     put_text(header, 0, 4, "LASF");
     put_text(header, 26, 32, "OTHER");
-    const bool has_code = crs.starts_with("EPSG:");
-    if (!has_code) put_at(header, 6, kTextBit);  // asked for by formats 6 to 10, with a text or without
   }
+  put_at(header, 6, encoding_of(value_at<std::uint16_t>(header, 6), origin, form, crs));
   put_at<std::uint8_t>(header, 24, 1);
   put_at<std::uint8_t>(header, 25, 4);
   put_text(header, kLasSoftwareAt, 32, std::string(kLasSoftware) + LACUNA_VERSION);
@@ -150,24 +100,24 @@ LasWriter::LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraByte
 void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs) {
   const auto write = [&](std::string_view user, std::uint16_t number, std::string_view data,
                          std::string_view description) {
-    out_.write(record_head(false, user, number, data.size(), description));
+    out_.write(las_record_head(false, user, number, data.size(), description));
     out_.write(data);
-    written_ += kRecordHead + data.size();
+    written_ += kLasRecordHead + data.size();
     ++records_;
   };
   if (origin_) {
     for (const LasRecordPlace& record : origin_->header.records) {
       if (!goes_over(record, *origin_)) continue;
-      written_ += copy_bytes(origin_->file, record, out_);
+      written_ += copy_las_record(origin_->file, record, out_);
       ++records_;
     }
   } else if (crs.starts_with("EPSG:")) {
     if (const std::string keys = geo_keys(crs); !keys.empty())
-      write(kProjection, kGeoKeys, keys, "GeoTIFF GeoKeyDirectoryTag");
+      write(kLasProjection, kLasGeoKeys, keys, "GeoTIFF GeoKeyDirectoryTag");
   } else if (!crs.empty()) {
     const std::string text = std::string(crs) + '\0';
-    if (text.size() <= kMostRecordData) {
-      write(kProjection, kWellKnownText, text, "OGC coordinate system WKT");
+    if (text.size() <= kMostLasRecordData) {
+      write(kLasProjection, kLasWellKnownText, text, "OGC coordinate system WKT");
     } else {
       long_text_ = text;
     }
@@ -175,7 +125,7 @@ void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::stri
   std::string descriptors;
   for (const LasExtraBytes& one : extra)
     descriptors.append(reinterpret_cast<const char*>(one.descriptor.data()), one.descriptor.size());
-  if (!extra.empty()) write(kSpecification, kExtraBytes, descriptors, "Extra Bytes Record");
+  if (!extra.empty()) write(kLasSpecification, kLasExtraBytes, descriptors, "Extra Bytes Record");
 }
 
 void LasWriter::put(std::span<const std::byte> records) {
@@ -201,13 +151,13 @@ void LasWriter::write_extended() {
     for (const LasRecordPlace& record : origin_->header.extended) {
       if (!goes_over(record, *origin_)) continue;
       if (record.at == origin_->header.waveforms_at) waveforms_at_ = written_;
-      written_ += copy_bytes(origin_->file, record, out_);
+      written_ += copy_las_record(origin_->file, record, out_);
       ++extended_;
     }
   }
   if (!long_text_.empty()) {
-    out_.write(
-        record_head(true, kProjection, kWellKnownText, long_text_.size(), "OGC coordinate system WKT"));
+    out_.write(las_record_head(true, kLasProjection, kLasWellKnownText, long_text_.size(),
+                               "OGC coordinate system WKT"));
     out_.write(long_text_);
     ++extended_;
   }

@@ -1,18 +1,14 @@
 #include "io/results/loops_gis.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/results/gdal_session.hpp"
 #include "io/results/loop_measures.hpp"
 #include "io/results/shapefile_check.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <memory>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
@@ -26,85 +22,10 @@ namespace fs = std::filesystem;
 constexpr const char* kDay = "1970-01-01";
 constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
 
-// Settings of GDAL, for this thread alone, as long as it lives.
-class Setting {
- public:
-  Setting(const char* key, const char* value) : key_(key) { CPLSetThreadLocalConfigOption(key, value); }
-  ~Setting() { CPLSetThreadLocalConfigOption(key_, nullptr); }
-  Setting(const Setting&) = delete;
-  Setting& operator=(const Setting&) = delete;
-
- private:
-  const char* key_;
-};
-
-// Keeps the first failure that GDAL reports in this thread, instead of printing it.
-class Failures {
- public:
-  Failures() {
-    CPLPushErrorHandlerEx(
-        [](CPLErr level, CPLErrorNum, const char* text) {
-          auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
-          if (level >= CE_Failure && first.empty()) first = text;
-        },
-        &first_);
-  }
-  ~Failures() { CPLPopErrorHandler(); }
-  Failures(const Failures&) = delete;
-  Failures& operator=(const Failures&) = delete;
-
-  const std::string& first() const { return first_; }
-  void forget() { first_.clear(); }
-
- private:
-  std::string first_;
-};
-
-void register_drivers() {
-  static const bool done = [] {
-    const Setting no_file_of_the_user("GDAL_CONFIG_FILE", "");
-    RegisterOGRGeoPackage();
-    RegisterOGRGeoJSON();
-    RegisterOGRShape();
-    OSRSetPROJEnableNetwork(FALSE);
-    return true;
-  }();
-  static_cast<void>(done);
-}
-
 struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
-// Where the GeoJSON goes: GDAL does not look whether what it writes to "/vsistdout/" arrives, so this does.
-class TextSink {
- public:
-  explicit TextSink(const GisTask& task) : task_(task) {
-    VSIStdoutSetRedirection(&TextSink::write, reinterpret_cast<FILE*>(this));
-  }
-  ~TextSink() { VSIStdoutSetRedirection(&std::fwrite, stdout); }
-  TextSink(const TextSink&) = delete;
-  TextSink& operator=(const TextSink&) = delete;
-
-  void check() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  static std::size_t write(const void* data, std::size_t size, std::size_t count, FILE* stream) {
-    auto& sink = *reinterpret_cast<TextSink*>(stream);
-    try {
-      if (!sink.failure_) sink.task_.take({static_cast<const char*>(data), size * count});
-    } catch (...) {  // passes no frame of GDAL's
-      sink.failure_ = std::current_exception();
-    }
-    return sink.failure_ ? 0 : count;
-  }
-
-  const GisTask& task_;
-  std::exception_ptr failure_;
-};
 
 struct Format {
   const char* driver;
@@ -238,7 +159,7 @@ class LoopsWriter {
   }
 
   const GisTask& task_;
-  Failures failures_;
+  GdalFailures failures_;
   OGRSpatialReference crs_;
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
@@ -248,11 +169,11 @@ class LoopsWriter {
 }  // namespace
 
 extern "C" bool lacuna_write_loops_gis(const GisTask& task) {
-  register_drivers();
-  const Setting time("OGR_CURRENT_DATE", kTime),
+  register_gdal_drivers();
+  const GdalSetting time("OGR_CURRENT_DATE", kTime),
       no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
-  const TextSink sink(task);
+  const GdalTextSink sink(task.take);
   LoopsWriter writer(task);
   bool understands_crs = false;
   try {

@@ -1,0 +1,66 @@
+#include "io/results/gdal_session.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
+
+namespace lacuna {
+
+void register_gdal_drivers() {
+  static const bool done = [] {
+    const GdalSetting no_file_of_the_user("GDAL_CONFIG_FILE", "");
+    RegisterOGRGeoPackage();
+    RegisterOGRGeoJSON();
+    RegisterOGRShape();
+    OSRSetPROJEnableNetwork(FALSE);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+GdalSetting::GdalSetting(const char* key, const char* value) : key_(key) {
+  CPLSetThreadLocalConfigOption(key, value);
+}
+
+GdalSetting::~GdalSetting() {
+  CPLSetThreadLocalConfigOption(key_, nullptr);
+}
+
+GdalFailures::GdalFailures() {
+  CPLPushErrorHandlerEx(
+      [](CPLErr level, CPLErrorNum, const char* text) {
+        auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
+        if (level >= CE_Failure && first.empty()) first = text;
+      },
+      &first_);
+}
+
+GdalFailures::~GdalFailures() {
+  CPLPopErrorHandler();
+}
+
+GdalTextSink::GdalTextSink(const Take& take) : take_(take) {
+  VSIStdoutSetRedirection(&GdalTextSink::write, reinterpret_cast<FILE*>(this));
+}
+
+GdalTextSink::~GdalTextSink() {
+  VSIStdoutSetRedirection(&std::fwrite, stdout);
+}
+
+void GdalTextSink::check() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+std::size_t GdalTextSink::write(const void* data, std::size_t size, std::size_t count, FILE* stream) {
+  auto& sink = *reinterpret_cast<GdalTextSink*>(stream);
+  try {
+    if (!sink.failure_) sink.take_({static_cast<const char*>(data), size * count});
+  } catch (...) {  // passes no frame of GDAL's
+    sink.failure_ = std::current_exception();
+  }
+  return sink.failure_ ? 0 : count;
+}
+
+}  // namespace lacuna

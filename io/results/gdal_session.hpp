@@ -1,0 +1,63 @@
+// What GDAL keeps for a thread or the whole program, held for as long as one file is written.
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace lacuna {
+
+// The drivers of the formats that are written, once.
+void register_gdal_drivers();
+
+// A setting of GDAL, for this thread alone.
+class GdalSetting {
+ public:
+  GdalSetting(const char* key, const char* value);
+  ~GdalSetting();
+  GdalSetting(const GdalSetting&) = delete;
+  GdalSetting& operator=(const GdalSetting&) = delete;
+
+ private:
+  const char* key_;
+};
+
+// Keeps the first failure that GDAL reports in this thread, instead of printing it.
+class GdalFailures {
+ public:
+  GdalFailures();
+  ~GdalFailures();
+  GdalFailures(const GdalFailures&) = delete;
+  GdalFailures& operator=(const GdalFailures&) = delete;
+
+  const std::string& first() const { return first_; }
+  void forget() { first_.clear(); }
+
+ private:
+  std::string first_;
+};
+
+// Takes what GDAL writes to "/vsistdout/". GDAL does not look whether the text arrives, so this does.
+class GdalTextSink {
+ public:
+  using Take = std::function<void(std::string_view text)>;  // may throw
+
+  explicit GdalTextSink(const Take& take);  // which must live as long
+  ~GdalTextSink();
+  GdalTextSink(const GdalTextSink&) = delete;
+  GdalTextSink& operator=(const GdalTextSink&) = delete;
+
+  // Throws what `take` has thrown.
+  void check() const;
+
+ private:
+  static std::size_t write(const void* data, std::size_t size, std::size_t count, FILE* stream);
+
+  const Take& take_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,31 @@
+// The rows of points.pcd, without the results: those of PCD files as they are, or the columns of any formats.
+#pragma once
+
+#include "io/file_scan.hpp"
+#include "io/pcd/pcd_header.hpp"
+#include "io/results/annotated_rows.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace lacuna {
+
+struct PcdInput {
+  PcdHeader header;  // its fields are those of the rows; the image and the viewpoint of a file that has these
+  std::unique_ptr<InputRows> rows;  // of the scan, which must live as long
+};
+
+// Without the fields that the results replace. None unless all files are PCD with the same fields and stay
+// where they are. Throws `Error`.
+std::optional<PcdInput> kept_pcd_input(const FileScan& scan, std::span<const ResultColumn> results);
+
+// In PCL's conventions: colours of bytes are one field.
+PcdInput converted_pcd_input(const FileScan& scan, std::span<const ResultColumn> results);
+
+// A column as a field, and PCL's name of it: normals have other ones.
+PcdField pcd_field_of(std::string name, Scalar type);
+std::string pcd_name_of(const std::string& name);
+
+}  // namespace lacuna
