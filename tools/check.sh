@@ -12,7 +12,7 @@ TEXT
 }
 
 build=build
-options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_WERROR=ON)
+options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_WERROR=ON -DLACUNA_PRECOMPILE=OFF)
 labels='^fast$'
 excluded='^$'
 case "$*" in

@@ -24,8 +24,8 @@ return {covered, high, low, height};
 # Pairs [id, [x, y]]: a place of the window where each loop is picked.
 PICKED = """
 const box = document.getElementById('canvas').getBoundingClientRect(), places = new Map();
-for (let y = box.top + 6; y < box.bottom - 6; y += 14) {
-  for (let x = box.left + 6; x < box.right - 6; x += 14) {
+for (let y = box.top + 6; y < box.bottom - 6; y += 24) {
+  for (let x = box.left + 6; x < box.right - 6; x += 24) {
     const id = lacuna.loop_at(x, y);
     if (id !== null) places.set(id, [x, y]);
   }
