@@ -65,7 +65,9 @@ function place_decimals(spacing) {
 }
 
 function format_place(value, decimals) {
-  return is_number(value) ? value.toFixed(decimals).replace("-", "−") : kMissing;
+  if (!is_number(value)) return kMissing;
+  const rounded = value.toFixed(decimals);
+  return Number(rounded) === 0 ? rounded.replace("-", "") : rounded.replace("-", "−");
 }
 
 function format_seconds(seconds) {
