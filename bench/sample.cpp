@@ -67,7 +67,7 @@ TilePoints sample_tile(const PointBatch& batch) {
   Survey survey(kMemory, batch.size());
   survey.add(batch);
   SurveyedScan surveyed = survey.finish();
-  const TilePlan plan = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size());
+  const TilePlan plan = split_tiles(std::move(surveyed.cells), surveyed.grid, batch.size(), batch.size());
   std::vector<std::uint32_t> cells(batch.size());
   CellIndex(plan.grid, plan.cells).find(batch.positions, cells);
 

@@ -221,7 +221,7 @@ struct UnorderedTile {
     Survey survey(kMemory, kPoints);
     survey.add(points);
     SurveyedScan scan = survey.finish();
-    plan = split_tiles(std::move(scan.cells), scan.grid, kPoints);
+    plan = split_tiles(std::move(scan.cells), scan.grid, kPoints, kPoints);
     for (const Eigen::Vector3d& p : points.positions) {
       stored.push_back({p.x(), p.y(), p.z(), PointId{stored.size()}});
     }

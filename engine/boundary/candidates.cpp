@@ -64,7 +64,7 @@ RowSet Candidates::coherent(Job& job) const {
 RowSet Candidates::between_loop_points(const RawLoops& loops, Job& job) const {
   RowSet on_loop(tiling_.row_count()), between(tiling_.row_count());
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    for (const Vertex& v : loops.read(i)) on_loop.insert(v.row);
+    loops.for_each_vertex(i, [&](const Vertex& v) { on_loop.insert(v.row); });
   }
   job.arena.for_each(tiling_.tiles.size(), [&](std::size_t t) {
     for (const StoredCandidate& c : lists_.read(t)) {

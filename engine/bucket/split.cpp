@@ -1,5 +1,7 @@
 #include "engine/bucket/split.hpp"
 
+#include "engine/survey/cell_tree.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -104,10 +106,13 @@ class Splitter {
 }  // namespace
 
 std::uint64_t TilePlan::group_points(std::size_t group) const {
-  if (group < heavy) return aside[group].points;
-  std::uint64_t points = 0;
-  for (std::size_t cell = heavy; cell < aside.size(); ++cell) points += aside[cell].points;
-  return points;
+  std::uint64_t sum = 0;
+  const bool is_far = group == heavy;
+  for (std::size_t cell = group; cell < (is_far ? aside.size() : group + 1); ++cell) {
+    if (aside[cell].points == kMostCounted) return points;  // counting ended there
+    sum += aside[cell].points;
+  }
+  return sum;
 }
 
 std::uint64_t TilePlan::most_tiles() const {
@@ -117,8 +122,9 @@ std::uint64_t TilePlan::most_tiles() const {
   return most;
 }
 
-TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points) {
-  TilePlan plan{.grid = grid, .cells = std::move(cells), .tile_points = tile_points};
+TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
+                     std::uint64_t tile_points) {
+  TilePlan plan{.grid = grid, .cells = std::move(cells), .points = points, .tile_points = tile_points};
   const auto begin = plan.cells.begin(), end = plan.cells.end();
   const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
   const auto heavy =

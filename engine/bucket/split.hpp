@@ -20,11 +20,12 @@ struct TilePlan {
   // tile may hold, each by itself, then those far from all others, together.
   std::vector<CountedCell> aside;
   std::size_t heavy = 0;          // how many of the first kind
+  std::uint64_t points = 0;       // finite ones of the scan
   std::uint64_t tile_points = 0;  // the most that a tile may hold
 
   bool has_far() const { return aside.size() > heavy; }
   std::size_t groups() const { return heavy + has_far(); }
-  std::uint64_t group_points(std::size_t group) const;
+  std::uint64_t group_points(std::size_t group) const;  // or more, where a cell has `kMostCounted`
   // No less than the number of tiles in the end.
   std::uint64_t most_tiles() const;
 };
@@ -32,6 +33,7 @@ struct TilePlan {
 // Halves the cells along the longest side of their box, at the point count's median, until a run holds at
 // most `tile_points` points: a tile. Goes on below, down to few cells, so that cells near in the order are
 // near in space. Far cells are set aside: they would widen the boxes of all runs. Cost: n log n in cells.
-TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t tile_points);
+TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
+                     std::uint64_t tile_points);
 
 }  // namespace lacuna

@@ -14,6 +14,9 @@ namespace {
 // whose distance bound holds more than both is that of an outlier.
 constexpr std::uint64_t kFarPoints = 32'768, kFarShare = 64;
 
+// Points that are searched together, also for a tile of fewer.
+constexpr std::uint64_t kGroupPoints = kFarPoints / 4;
+
 // Border cells to be searched together, and all cells within their distance bounds.
 struct Group {
   std::vector<std::uint32_t> border;
@@ -222,11 +225,11 @@ AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job) {
   const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
   Phase phase(job, "halo", tiling.points());
   std::vector<std::uint64_t> needs;
-  for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(tile.points));
+  for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(std::max(tile.points, kGroupPoints)));
   AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.memory.spills / 2);
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
-    const std::uint64_t group_points = std::max<std::uint64_t>(tile.points, kFarPoints / 4);
+    const std::uint64_t group_points = std::max(tile.points, kGroupPoints);
     const BorderPlan plan(tiling, tile, k, group_points);
     HaloBuilder builder(store, k, static_cast<TileIndex>(t), inboxes);
     for (const Group& group : plan.border().groups) builder.send_edges_of_group(group);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -11,10 +12,15 @@
 namespace lacuna {
 namespace {
 
+using Points = std::span<const StoredLoopPoint>;
+
 // Runs of the loop with their boxes, halved down to a few points: near along the loop is near in space.
 class Runs {
  public:
-  explicit Runs(std::span<const LoopPoint> loop) : loop_(loop) { build(0, loop.size()); }
+  Runs(Points loop, Scratch& scratch)
+      : loop_(loop), scratch_(scratch), runs_(scratch.array<Run>(most_runs(loop.size()))) {
+    build(0, loop.size());
+  }
 
   double diameter() {
     compare(0, 0);
@@ -22,46 +28,60 @@ class Runs {
   }
 
  private:
-  static constexpr std::size_t kLeaf = 8;
+  static constexpr std::size_t kLeaf = 16;
   struct Run {
-    Eigen::AlignedBox3d box;
+    std::array<double, 3> low, high;
     std::size_t first, last;
-    std::size_t left = 0, right = 0;
+    std::size_t left, right;  // 0: a leaf
+
+    std::size_t size() const { return last - first; }
   };
 
+  // Leaves hold more than half of what they may.
+  static std::size_t most_runs(std::size_t points) { return 4 * points / kLeaf + 2; }
+
   std::size_t build(std::size_t first, std::size_t last) {
-    const std::size_t index = runs_.size();
-    runs_.push_back({{}, first, last});
+    scratch_.trim();
+    const std::size_t index = count_++;
+    std::size_t left = 0, right = 0;
     Eigen::AlignedBox3d box;
-    for (std::size_t i = first; i < last; ++i) box.extend(loop_[i].position);
-    runs_[index].box = box;
-    if (last - first > kLeaf) {
+    if (last - first <= kLeaf) {
+      for (std::size_t i = first; i < last; ++i) box.extend(loop_[i].point.position());
+    } else {
       const std::size_t middle = first + (last - first) / 2;
-      const std::size_t left = build(first, middle);
-      const std::size_t right = build(middle, last);
-      runs_[index].left = left;
-      runs_[index].right = right;
+      left = build(first, middle);
+      right = build(middle, last);
+      for (const std::size_t half : {left, right})
+        box.extend(Eigen::AlignedBox3d(corner(runs_[half].low), corner(runs_[half].high)));
     }
+    runs_[index] = {{box.min().x(), box.min().y(), box.min().z()},
+                    {box.max().x(), box.max().y(), box.max().z()},
+                    first,
+                    last,
+                    left,
+                    right};
     return index;
   }
 
+  static Eigen::Vector3d corner(const std::array<double, 3>& of) { return {of[0], of[1], of[2]}; }
+
   static double bound(const Run& a, const Run& b) {
-    const Eigen::Array3d down = (a.box.max() - b.box.min()).array(), up = (b.box.max() - a.box.min()).array();
+    const Eigen::Array3d down = corner(a.high) - corner(b.low), up = corner(b.high) - corner(a.low);
     return down.max(up).square().sum();
   }
 
   void compare(std::size_t i, std::size_t j) {
+    scratch_.trim();
     const Run a = runs_[i], b = runs_[j];
     if (bound(a, b) <= best_) return;
     if (a.left == 0 && b.left == 0) {
-      for (std::size_t p = a.first; p < a.last; ++p) {
-        for (std::size_t q = b.first; q < b.last; ++q) {
-          best_ = std::max(best_, (loop_[p].position - loop_[q].position).squaredNorm());
-        }
+      for (const StoredLoopPoint& p : loop_.subspan(a.first, a.size())) {
+        for (const StoredLoopPoint& q : loop_.subspan(b.first, b.size()))
+          best_ = std::max(best_, (p.point.position() - q.point.position()).squaredNorm());
       }
       return;
     }
-    const bool split_a = b.left == 0 || (a.left != 0 && a.last - a.first >= b.last - b.first);
+    const bool split_a = b.left == 0 || (a.left != 0 && a.size() >= b.size());
     std::array<std::pair<std::size_t, std::size_t>, 2> halves =
         split_a ? std::array{std::pair{a.left, j}, std::pair{a.right, j}}
                 : std::array{std::pair{i, b.left}, std::pair{i, b.right}};
@@ -70,100 +90,136 @@ class Runs {
     for (const auto& [left, right] : halves) compare(left, right);
   }
 
-  std::span<const LoopPoint> loop_;
-  std::vector<Run> runs_;
+  Points loop_;
+  Scratch& scratch_;
+  std::span<Run> runs_;
+  std::size_t count_ = 0;
   double best_ = 0;
 };
 
-const LoopPoint& next(std::span<const LoopPoint> loop, std::size_t i) {
-  return loop[(i + 1) % loop.size()];
-}
-const LoopPoint& previous(std::span<const LoopPoint> loop, std::size_t i) {
-  return loop[(i + loop.size() - 1) % loop.size()];
+// visit(before, at, after) for each point of the loop, in order.
+template <class Visit>
+void for_each_with_neighbours(Points loop, Scratch& scratch, Visit&& visit) {
+  const std::size_t n = loop.size();
+  std::size_t i = 0;
+  scratch.for_each(loop, [&](const StoredLoopPoint& at) {
+    visit(loop[(i + n - 1) % n], at, loop[(i + 1) % n]);
+    ++i;
+  });
 }
 
-double perimeter(std::span<const LoopPoint> loop) {
+double perimeter(Points loop, Scratch& scratch) {
   double sum = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) sum += (next(loop, i).position - loop[i].position).norm();
+  for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {
+    sum += (after.point.position() - at.point.position()).norm();
+  });
   return sum;
 }
 
-Eigen::Vector3d centroid(std::span<const LoopPoint> loop) {
+Eigen::Vector3d centroid(Points loop, Scratch& scratch) {
+  const Eigen::Vector3d origin = loop[0].point.position();  // georeferenced: keep the digits
   Eigen::Vector3d sum{0, 0, 0};
-  for (const LoopPoint& p : loop) sum += p.position - loop[0].position;  // georeferenced: keep the digits
-  return loop[0].position + sum / static_cast<double>(loop.size());
+  scratch.for_each(loop, [&](const StoredLoopPoint& p) { sum += p.point.position() - origin; });
+  return origin + sum / static_cast<double>(loop.size());
 }
 
 // Half the sum of cross products (Newell): its length is the area, its direction the normal.
-Eigen::Vector3d area_vector(std::span<const LoopPoint> loop, const Eigen::Vector3d& centre) {
+Eigen::Vector3d area_vector(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   Eigen::Vector3d sum{0, 0, 0};
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    sum += (loop[i].position - centre).cross(next(loop, i).position - centre);
-  }
+  for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {
+    sum += (at.point.position() - centre).cross(after.point.position() - centre);
+  });
   return sum / 2;
 }
 
-double planarity(std::span<const LoopPoint> loop, const Eigen::Vector3d& centre) {
+double planarity(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const LoopPoint& p : loop) {
-    const Eigen::Vector3d d = p.position - centre;
+  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
+    const Eigen::Vector3d d = p.point.position() - centre;
     covariance += d * d.transpose();
-  }
+  });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   const Eigen::Vector3d extents = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   return extents[2] > 0 ? 1 - extents[0] / extents[2] : 0;
 }
 
 // Growth of the enclosed area as the points move towards the surface, each by its own offset.
-LoopKind kind(std::span<const LoopPoint> loop, const Eigen::Vector3d& normal) {
+LoopKind kind(Points loop, const Eigen::Vector3d& normal, Scratch& scratch) {
   double growth = 0, most = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Eigen::Vector3d along = next(loop, i).position - previous(loop, i).position;
-    const Eigen::Vector3d surface = loop[i].surface.cast<double>();
+  for_each_with_neighbours(loop, scratch, [&](const auto& before, const auto& at, const auto& after) {
+    const Eigen::Vector3d along = after.point.position() - before.point.position();
+    const Eigen::Vector3d surface(at.surface[0], at.surface[1], at.surface[2]);
     growth += surface.dot(along.cross(normal));
     most += surface.norm() * along.norm();
-  }
+  });
   // The end of a tube is neither inside nor outside of its surface: something to be filled all the same.
   constexpr double kUndecided = 0.1;
   return growth < -kUndecided * most ? LoopKind::kOuter : LoopKind::kHole;
 }
 
-std::uint64_t lattice_cubes(std::span<const LoopPoint> loop, double edge) {
+// A cube is wide against the distance of points, so consecutive points are mostly in one.
+std::uint64_t lattice_cubes(Points loop, double edge, Scratch& scratch) {
   std::vector<std::array<double, 3>> cubes;
-  for (const LoopPoint& p : loop) {
-    cubes.push_back({std::floor(p.position.x() / edge), std::floor(p.position.y() / edge),
-                     std::floor(p.position.z() / edge)});
-  }
+  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
+    const std::array cube{std::floor(p.point.x / edge), std::floor(p.point.y / edge),
+                          std::floor(p.point.z / edge)};
+    if (cubes.empty() || cubes.back() != cube) cubes.push_back(cube);
+  });
   std::sort(cubes.begin(), cubes.end());
   return static_cast<std::uint64_t>(std::unique(cubes.begin(), cubes.end()) - cubes.begin());
 }
 
-double mean_probability(std::span<const LoopPoint> loop) {
+double mean_probability(Points loop, Scratch& scratch) {
   double sum = 0;
-  for (const LoopPoint& p : loop) sum += p.probability;
+  scratch.for_each(loop, [&](const StoredLoopPoint& p) { sum += p.probability; });
   return sum / static_cast<double>(loop.size());
+}
+
+std::vector<StoredLoopPoint> stored(const Loop& loop) {
+  std::vector<StoredLoopPoint> stored;
+  for (const LoopPoint& p : loop) {
+    stored.push_back({{p.position.x(), p.position.y(), p.position.z(), p.id},
+                      p.row,
+                      {p.surface.x(), p.surface.y(), p.surface.z()},
+                      p.probability});
+  }
+  return stored;
+}
+
+Scratch in_memory() {
+  return Scratch({}, std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace
 
-double diameter(std::span<const LoopPoint> loop) {
-  return Runs(loop).diameter();
+double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+  return Runs(loop, scratch).diameter();
 }
 
-LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge) {
+LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch) {
   LoopMeasures measures;
   measures.points = loop.size();
-  measures.perimeter = perimeter(loop);
-  measures.diameter = diameter(loop);
-  measures.centroid = centroid(loop);
-  const Eigen::Vector3d area = area_vector(loop, measures.centroid);
+  measures.perimeter = perimeter(loop, scratch);
+  measures.diameter = diameter(loop, scratch);
+  measures.centroid = centroid(loop, scratch);
+  const Eigen::Vector3d area = area_vector(loop, measures.centroid, scratch);
   measures.area = area.norm();
   if (measures.area > 0) measures.normal = area / measures.area;
-  measures.kind = kind(loop, measures.normal);
-  measures.planarity = planarity(loop, measures.centroid);
-  measures.mean_probability = mean_probability(loop);
-  measures.tiles = lattice_cubes(loop, lattice_edge);
+  measures.kind = kind(loop, measures.normal, scratch);
+  measures.planarity = planarity(loop, measures.centroid, scratch);
+  measures.mean_probability = mean_probability(loop, scratch);
+  measures.tiles = lattice_cubes(loop, lattice_edge, scratch);
   return measures;
+}
+
+double diameter(const Loop& loop) {
+  Scratch scratch = in_memory();
+  return diameter(stored(loop), scratch);
+}
+
+LoopMeasures measure_loop(const Loop& loop, double lattice_edge) {
+  Scratch scratch = in_memory();
+  return measure_loop(stored(loop), lattice_edge, scratch);
 }
 
 }  // namespace lacuna

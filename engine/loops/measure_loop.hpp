@@ -1,12 +1,28 @@
 // measure_loop: what a user sorts and filters loops by.
 #pragma once
 
+#include "engine/model/ids.hpp"
 #include "engine/model/loop.hpp"
+#include "engine/store/point_column.hpp"
+#include "engine/store/scratch.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace lacuna {
+
+// A point of a loop as plain data: a loop may be larger than memory.
+struct StoredLoopPoint {
+  StoredPoint point;
+  Row row;
+  std::array<float, 3> surface;
+  float probability;
+};
+
+inline LoopPoint loaded(const StoredLoopPoint& p) {
+  return {p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
+}
 
 // Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours).
 // If the area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer
@@ -16,10 +32,15 @@ namespace lacuna {
 // area: its length, that of the loop seen along the normal. planarity: 1 - sqrt(smallest / largest
 // eigenvalue of the points' covariance). tiles: cubes of a fixed lattice, of edge `lattice_edge`, that hold
 // a point of the loop, so that the number does not depend on the tiling of the run.
-// Precondition: three points or more. Cost: linear, but for the diameter (see `diameter`).
-LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge);
+// `scratch` holds the loop and what measuring it needs. Precondition: three points or more. Cost: linear, but
+// for the diameter (see `diameter`).
+LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
 
 // Largest distance between two points, exactly, by branch and bound over runs of the loop.
-double diameter(std::span<const LoopPoint> loop);
+double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch);
+
+// The same of a loop in memory.
+LoopMeasures measure_loop(const Loop& loop, double lattice_edge);
+double diameter(const Loop& loop);
 
 }  // namespace lacuna

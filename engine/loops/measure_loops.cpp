@@ -1,49 +1,56 @@
 #include "engine/loops/measure_loops.hpp"
 
-#include "engine/loops/measure_loop.hpp"
+#include "engine/run/error.hpp"
+#include "engine/store/outbox.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <utility>
 
 namespace lacuna {
 namespace {
 
-// A place on a loop that needs its point.
+// A place among the points of all loops, and the point that belongs there.
 struct Wanted {
   Row row;
-  std::size_t slot;
+  std::uint64_t place;
 };
 
-Loop to_loop(std::span<const StoredLoopPoint> stored) {
-  Loop loop;
-  loop.reserve(stored.size());
-  for (const StoredLoopPoint& p : stored) {
-    loop.push_back(
-        {p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability});
+using WantedLists = AppendLists<Wanted>;
+
+WantedLists wanted_points(const RawLoops& loops, const Tiling& tiling, const Job& job) {
+  WantedLists wanted(job.file("wanted-loop-points"), tiling.tiles.size(), job.memory.spills / 4);
+  Outbox<Wanted> outbox(wanted);
+  std::uint64_t place = 0;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    loops.for_each_vertex(i, [&](const Vertex& v) {
+      outbox.add(tiling.tile_of_row(v.row), {v.row, place++});
+    });
   }
-  return loop;
+  outbox.send();
+  return wanted;
 }
 
-// Joins what is wanted of a tile with its vertices.
-void gather(std::vector<Wanted> wanted, const LoopPointLists& lists, const Tiling& tiling, TileIndex t,
-            std::span<StoredLoopPoint> points) {
-  if (wanted.empty()) return;
-  std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.row < b.row; });
-  const std::vector<StoredVertex> vertices = lists.read(t);
-  auto vertex = vertices.begin();
-  for (const Wanted& w : wanted) {
-    const auto owned = tiling.tiles[t].local(w.row);
-    vertex = std::lower_bound(vertex, vertices.end(), owned,
-                              [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
-    assert(vertex != vertices.end() && vertex->owned == owned);
-    points[w.slot] = {vertex->point,
-                      w.row,
-                      {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
-                      vertex->probability};
+// Puts the points of a tile into their places.
+void place_points(std::vector<Wanted> wanted, std::span<const StoredVertex> vertices, const Tile& tile,
+                  Column<StoredLoopPoint>& points) {
+  std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.place < b.place; });
+  std::vector<StoredLoopPoint> run;  // of consecutive places
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const LocalIndex owned = tile.local(wanted[i].row);
+    const auto vertex = std::lower_bound(vertices.begin(), vertices.end(), owned,
+                                         [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
+    if (vertex == vertices.end() || vertex->owned != owned)
+      fail_inconsistent("a loop passes through a point that was not kept");
+    run.push_back({vertex->point,
+                   wanted[i].row,
+                   {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
+                   vertex->probability});
+    if (i + 1 < wanted.size() && wanted[i + 1].place == wanted[i].place + 1) continue;
+    points.write(wanted[i].place + 1 - run.size(), run);
+    run.clear();
   }
 }
 
@@ -54,39 +61,37 @@ double lattice_edge(double mean_edge_length) {
 
 }  // namespace
 
-Loop MeasuredLoops::read(std::size_t loop) const {
-  return to_loop(points.read(offsets[loop], offsets[loop + 1] - offsets[loop]));
+void MeasuredLoops::for_each_point(std::size_t loop,
+                                   const std::function<void(const StoredLoopPoint&)>& visit) const {
+  ColumnReader<StoredLoopPoint> reader(points);
+  for (std::uint64_t i = offsets[loop]; i < offsets[loop + 1]; ++i) visit(reader[i]);
 }
 
 MeasuredLoops measure_loops(const RawLoops& loops, const LoopPointLists& lists, const Tiling& tiling,
                             double mean_edge_length, Job& job) {
   Phase phase(job, "measure", loops.points());
   MeasuredLoops measured{.points = Column<StoredLoopPoint>(job.file("loops")), .offsets = {0}};
+  const WantedLists wanted = wanted_points(loops, tiling, job);
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    if (wanted.count(t) > 0) place_points(wanted.read(t), lists.read(t), tiling.tiles[t], measured.points);
+  });
+
+  std::vector<std::uint64_t> needs;
+  const std::uint64_t most = job.memory.global / (2 * job.arena.threads());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    measured.offsets.push_back(measured.offsets.back() + loops.points(i));
+    needs.push_back(std::min(most, 2 * loops.points(i) * sizeof(StoredLoopPoint)));
+  }
   measured.measures.resize(loops.size());
   const double edge = lattice_edge(mean_edge_length);
-  const std::uint64_t most = job.memory.global / (2 * sizeof(StoredLoopPoint) + 2 * sizeof(Wanted));
-  for (std::size_t begin = 0, end; begin < loops.size(); begin = end) {
-    std::vector<std::vector<Wanted>> wanted(tiling.tiles.size());
-    std::size_t count = 0;
-    for (end = begin; end < loops.size() && (end == begin || count + loops.points(end) <= most); ++end) {
-      for (const Vertex& v : loops.read(end)) wanted[tiling.tile_of_row(v.row)].push_back({v.row, count++});
-      measured.offsets.push_back(measured.offsets.back() + loops.points(end));
-    }
-    const std::uint64_t first = measured.offsets[begin];
-    const auto memory = std::make_unique_for_overwrite<StoredLoopPoint[]>(count);
-    const std::span<StoredLoopPoint> points(memory.get(), count);
-    job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
-      gather(std::move(wanted[t]), lists, tiling, static_cast<TileIndex>(t), points);
-    });
-    measured.points.write(first, points);
-    job.arena.for_each(end - begin, [&](std::size_t i) {
-      const std::uint64_t from = measured.offsets[begin + i] - first;
-      const Loop loop = to_loop(points.subspan(from, loops.points(begin + i)));
-      measured.measures[begin + i] = measure_loop(loop, edge);
-      measured.measures[begin + i].confidence = loops.rating(begin + i).confidence;
-    });
-    phase.advance(points.size());
-  }
+  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t i) {
+    Scratch scratch(job.workspace, most);
+    const std::span<StoredLoopPoint> loop = scratch.array<StoredLoopPoint>(loops.points(i));
+    measured.points.read(measured.offsets[i], loop);
+    measured.measures[i] = measure_loop(loop, edge, scratch);
+    measured.measures[i].confidence = loops.rating(i).confidence;
+    phase.advance(loop.size());
+  });
   return measured;
 }
 

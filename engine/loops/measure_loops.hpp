@@ -2,21 +2,17 @@
 #pragma once
 
 #include "engine/loops/loop_points.hpp"
+#include "engine/loops/measure_loop.hpp"
 #include "engine/loops/raw_loops.hpp"
 #include "engine/model/loop.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/column.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace lacuna {
-
-struct StoredLoopPoint {
-  StoredPoint point;
-  Row row;
-  float surface[3];
-  float probability;
-};
 
 // All loops that are sure enough, in order of (first id, length, ids).
 struct MeasuredLoops {
@@ -24,10 +20,12 @@ struct MeasuredLoops {
   std::vector<std::uint64_t> offsets;  // loops + 1
   std::vector<LoopMeasures> measures;
 
-  Loop read(std::size_t loop) const;
+  // In the order of the loop, in blocks: it may be larger than memory.
+  void for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const;
 };
 
-// In batches that fit in memory. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
+// Memory: a share of the limit, whatever the length of a loop. `mean_edge_length` sets the lattice of
+// LoopMeasures::tiles.
 MeasuredLoops measure_loops(const RawLoops& loops, const LoopPointLists& points, const Tiling& tiling,
                             double mean_edge_length, Job& job);
 

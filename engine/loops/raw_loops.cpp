@@ -46,17 +46,20 @@ void RawLoops::for_each_vertex(std::size_t loop, const std::function<void(const 
   }
 }
 
+bool RawLoops::comes_first(const Entry& a, const Entry& b) const {
+  if (a.first != b.first) return a.first < b.first;
+  if (a.points != b.points) return a.points < b.points;
+  if (a.offset == b.offset) return false;
+  ColumnReader<Vertex> of_a(vertices_), of_b(vertices_);
+  for (std::uint64_t i = 0; i < a.points; ++i) {
+    const PointId id_a = of_a[a.offset + i].id, id_b = of_b[b.offset + i].id;
+    if (id_a != id_b) return id_a < id_b;
+  }
+  return false;
+}
+
 void RawLoops::sort() {
-  const auto ids = [&](const Entry& entry) {
-    std::vector<PointId> ids;
-    for (const Vertex& v : vertices_.read(entry.offset, entry.points)) ids.push_back(v.id);
-    return ids;
-  };
-  std::sort(index_.begin(), index_.end(), [&](const Entry& a, const Entry& b) {
-    if (a.first != b.first) return a.first < b.first;
-    if (a.points != b.points) return a.points < b.points;
-    return a.offset != b.offset && ids(a) < ids(b);
-  });
+  std::sort(index_.begin(), index_.end(), [&](const Entry& a, const Entry& b) { return comes_first(a, b); });
 }
 
 }  // namespace lacuna

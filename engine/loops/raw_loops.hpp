@@ -51,6 +51,8 @@ class RawLoops {
     PointId first;
     LoopRating rating;
   };
+  bool comes_first(const Entry& a, const Entry& b) const;
+
   double min_confidence_;
   std::uint64_t found_ = 0;
   Column<Vertex> vertices_;

@@ -111,7 +111,14 @@ class Detection {
   virtual const Summary& summary() const = 0;
   // Measures of every reported loop, in order.
   virtual const std::vector<LoopMeasures>& loops() const = 0;
-  virtual ReportedLoop read_loop(std::size_t index) const = 0;  // index < loops().size()
+  // In the order of the loop, which may be larger than memory. loop < loops().size()
+  virtual void for_each_loop_point(std::size_t loop,
+                                   const std::function<void(const LoopPoint&)>& visit) const = 0;
+  ReportedLoop read_loop(std::size_t loop) const {
+    ReportedLoop read{loops()[loop], {}};
+    for_each_loop_point(loop, [&](const LoopPoint& p) { read.points.push_back(p); });
+    return read;
+  }
   // In ascending id.
   virtual void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const = 0;
   // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.

@@ -59,8 +59,9 @@ class WorkspaceDetection final : public Detection {
 
   const Summary& summary() const override { return summary_; }
   const std::vector<LoopMeasures>& loops() const override { return loops_; }
-  ReportedLoop read_loop(std::size_t index) const override {
-    return {loops_[index], raw_loops_.read(selected_[index])};
+  void for_each_loop_point(std::size_t loop,
+                           const std::function<void(const LoopPoint&)>& visit) const override {
+    raw_loops_.for_each_point(selected_[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
   }
 
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
@@ -156,12 +157,11 @@ void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selecte
   for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
     const bool reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = reported ? static_cast<std::int32_t>(next_selected++) : kNoLoop;
-    for (const StoredLoopPoint& p :
-         loops.points.read(loops.offsets[i], loops.offsets[i + 1] - loops.offsets[i])) {
+    loops.for_each_point(i, [&](const StoredLoopPoint& p) {
       const TileIndex t = tiling.tile_of_row(p.row);
       const auto owned = tiling.tiles[t].local(p.row);
       outbox.add(t, {owned, name, p.probability, kBoundary, p.point});
-    }
+    });
   }
   outbox.send();
 }

@@ -41,7 +41,10 @@ class SpreadDetection final : public Detection {
 
   const Summary& summary() const override { return detection_->summary(); }
   const std::vector<LoopMeasures>& loops() const override { return detection_->loops(); }
-  ReportedLoop read_loop(std::size_t index) const override { return detection_->read_loop(index); }
+  void for_each_loop_point(std::size_t loop,
+                           const std::function<void(const LoopPoint&)>& visit) const override {
+    detection_->for_each_loop_point(loop, visit);
+  }
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     detection_->for_each_boundary_point(visit);
   }

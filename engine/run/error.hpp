@@ -17,4 +17,10 @@ class Error : public std::runtime_error {
   throw Error("the input changed while it was read: " + how);
 }
 
+// What one step reads of another does not agree: a fault of the program or of the machine. `how`: what shows
+// it.
+[[noreturn]] inline void fail_inconsistent(const std::string& how) {
+  throw Error("the run contradicts itself: " + how + "; please report this");
+}
+
 }  // namespace lacuna

@@ -1,9 +1,11 @@
 #include "engine/run/job.hpp"
 
+#include "engine/run/error.hpp"
 #include "engine/run/machine_memory.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include <malloc.h>
 
@@ -15,8 +17,30 @@ constexpr std::uint64_t kMiB = 1 << 20;
 // The program, its libraries, threads' stacks, buffers of readers and writers: measured 28 MiB.
 constexpr std::uint64_t kProgram = 36 * kMiB;
 
+// Of a tile at work, whatever its points.
+constexpr std::uint64_t kTileBytes = kMiB / 4;
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Stored point, position, id, row, tree, evaluation, edges; and k neighbours in two lists.
+std::uint64_t bytes_per_tile_point(std::int64_t k) {
+  return 420 + 12 * static_cast<std::uint64_t>(k);
+}
+
+// Points that a tile may have. With fewer, the tables with entries for every tile do not fit in memory; with
+// more, a tile does not, or its neighbours cannot be numbered in 32 bits.
+struct TileSizes {
+  std::uint64_t least, most;
+};
+
+TileSizes tile_sizes(const Memory& memory, std::uint64_t points, std::int64_t k) {
+  constexpr std::uint64_t kTables = 1 << 10;  // bytes for each tile, in all tables that exist at a time
+  const std::uint64_t neighbours = 2 * static_cast<std::uint64_t>(k);  // of a point, on average at most
+  return {.least = points / (memory.spills / kTables) + 1,
+          .most = std::min((memory.tiles - kTileBytes) / bytes_per_tile_point(k),
+                           std::numeric_limits<std::uint32_t>::max() / neighbours)};
 }
 
 }  // namespace
@@ -41,27 +65,34 @@ Job::Job(const Config& config, std::filesystem::path workspace, Progress& progre
   // kept and used again: fresh pages have to be cleared by the system.
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 256, kMiB, 32 * kMiB)));
   ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 32, kMiB, 512 * kMiB)));
-  ::mallopt(M_ARENA_MAX, static_cast<int>(std::min<std::size_t>(arena.threads(), 4)));
+  // An arena keeps up to several MiB that nobody uses.
+  const std::uint64_t arenas = std::clamp<std::uint64_t>(memory.limit / (32 * kMiB), 1, 4);
+  ::mallopt(M_ARENA_MAX, static_cast<int>(std::min<std::uint64_t>(arena.threads(), arenas)));
   release_symbol_tables();
 }
 
 std::uint64_t Job::tile_bytes(std::uint64_t points) const {
-  const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
-  // Stored point, position, id, row, tree, evaluation, edges; and k neighbours in two lists.
-  return points * (420 + 12 * k) + kMiB / 4;
+  return points * bytes_per_tile_point(config.neighbourhood.k) + kTileBytes;
 }
 
 std::uint64_t Job::tile_points(std::uint64_t points) const {
-  constexpr std::uint64_t kLeast = 256;         // below, a tile is all border
-  constexpr std::uint64_t kMost = 256 << 10;    // smaller ones have more border; larger ones gain little
+  constexpr std::uint64_t kLeast = 4096;        // smaller ones are mostly border
+  constexpr std::uint64_t kMost = 256 << 10;    // larger ones gain little
   constexpr std::uint64_t kTilesPerThread = 2;  // so that the last tiles do not leave threads idle
-  const std::uint64_t threads = arena.threads();
-  const std::uint64_t affordable = std::max(memory.tiles / threads / tile_bytes(1024) * 1024, kLeast);
+  const std::int64_t k = config.neighbourhood.k;
+  TileSizes sizes = tile_sizes(memory, points, k);
+  if (sizes.least > sizes.most) {
+    std::uint64_t limit = memory.limit / kMiB * kMiB;
+    for (; sizes.least > sizes.most; limit += kMiB) sizes = tile_sizes(Memory::share(limit), points, k);
+    throw Error("the memory limit of " + std::to_string(memory.limit / kMiB) + " MiB is too small for " +
+                std::to_string(points) + " points; allowed: " + std::to_string(limit / kMiB) + "MiB or more");
+  }
   if (config.run.tile_points > 0)
-    return std::min(static_cast<std::uint64_t>(config.run.tile_points), affordable);
+    return std::clamp(static_cast<std::uint64_t>(config.run.tile_points), sizes.least, sizes.most);
   // Halves are not quite equal: without space for the larger ones some would be halved once more.
-  const std::uint64_t share = points * 9 / 8 / (kTilesPerThread * threads);
-  return std::min(std::clamp(share, std::uint64_t{4096}, kMost), affordable);
+  const std::uint64_t threads = arena.threads(), share = points * 9 / 8 / (kTilesPerThread * threads);
+  const std::uint64_t wanted = std::min(std::clamp(share, kLeast, kMost), sizes.most / threads);
+  return std::max(wanted, sizes.least);
 }
 
 std::uint64_t Job::cell_points(std::uint64_t points) const {
@@ -76,8 +107,9 @@ Phase::Phase(Job& job, std::string_view name, std::uint64_t total) : job_(job), 
   job_.progress.begin(name, total);
 }
 
-void Job::trim() const {
-  if (resident_memory().all > memory.limit / 2) ::malloc_trim(0);
+void Job::trim(double share) const {
+  if (static_cast<double>(resident_memory().all) > share * static_cast<double>(memory.limit))
+    ::malloc_trim(0);
 }
 
 Phase::~Phase() {

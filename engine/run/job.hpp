@@ -37,12 +37,13 @@ struct Job {
   Memory memory;
   std::vector<PhaseTime> phases;
 
-  // Gives memory that was freed back to the system, where more than half of the limit is in use. At the end
-  // of each phase, and between steps that need much.
-  void trim() const;
+  // Gives memory that was freed back to the system, where more than `share` of the limit is in use. At the
+  // end of each phase, between steps that need much, and within a phase where the limit is near.
+  void trim(double share = 0.5) const;
   // A file of the workspace.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
-  // Points per tile: as the config has it, or enough tiles for all threads; never more than memory allows.
+  // Points per tile: as the config has it, or enough tiles for all threads; never fewer or more than memory
+  // allows. Throws `Error` where so many points can never fit.
   std::uint64_t tile_points(std::uint64_t points) const;
   // Points in a cell of the index, so that all cells fit in memory.
   std::uint64_t cell_points(std::uint64_t points) const;
@@ -55,7 +56,10 @@ class Phase {
  public:
   Phase(Job& job, std::string_view name, std::uint64_t total);
   ~Phase();
-  void advance(std::uint64_t count) { job_.progress.advance(count); }
+  void advance(std::uint64_t count) {
+    job_.trim(0.85);
+    job_.progress.advance(count);
+  }
 
  private:
   Job& job_;

@@ -1,7 +1,8 @@
 #include "engine/stitch/components.hpp"
 
+#include "engine/run/error.hpp"
+
 #include <algorithm>
-#include <cassert>
 
 namespace lacuna {
 namespace {
@@ -67,7 +68,8 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
   const auto index_of = [&](Row row) {
     scratch.trim();
     const auto at = std::lower_bound(ends.begin(), ends.end(), row);
-    assert(at != ends.end() && *at == row);  // both tiles have every crossing edge
+    if (at == ends.end() || *at != row)
+      fail_inconsistent("an edge between two tiles is known to one of them");
     return static_cast<LocalIndex>(at - ends.begin());
   };
   UnionFind components(scratch.array<LocalIndex>(ends.size()));

@@ -6,10 +6,10 @@
 // handed out from disk.
 #pragma once
 
+#include "engine/run/error.hpp"
 #include "engine/stitch/components.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -50,7 +50,7 @@ class Stitch {
     members.reserve(part.records.size());
     for (std::size_t i = 0; i < part.records.size(); ++i) {
       const LocalIndex of_part = open.part_of_root[connected.find(part.vertex_of[i])];
-      assert(of_part != kNoIndex);
+      if (of_part == kNoIndex) fail_inconsistent("a record of the stitch leaves no tile");
       members.push_back({of_part, part.records[i]});
       ++open.parts[of_part].records;
     }

@@ -94,7 +94,7 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
 void TileStore::add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
                          std::vector<Cell> cells) {
   const TileIndex index = next_tile();
-  assert(index < duplicates_.lists());
+  if (index >= duplicates_.lists()) fail_changed(kOtherPoints);
   tiling_.tiles.push_back({.first_row = Row{aligned_row(tiling_.row_count())}, .raw = points.size()});
   cells_.emplace_back();
   put(index, points, normals, std::move(cells));

@@ -15,8 +15,8 @@ namespace {
 
 Bucketed bucket_points(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
-  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, tile_points);
+  const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
   TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
   return {{}, std::move(survey), tile_points, std::move(store)};
 }

@@ -2,6 +2,10 @@
 #include "io/results/results.hpp"
 #include "io/scalar.hpp"
 
+#include <functional>
+#include <string>
+#include <string_view>
+
 namespace lacuna {
 namespace {
 
@@ -77,38 +81,57 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   return json;
 }
 
-Json record(std::size_t id, const ReportedLoop& loop, bool with_coordinates) {
-  const LoopMeasures& measures = loop.measures;
-  Json record = {{"id", id},
-                 {"kind", name_of(measures.kind)},
-                 {"confidence", measures.confidence},
-                 {"perimeter", measures.perimeter},
-                 {"area", measures.area},
-                 {"diameter", measures.diameter},
-                 {"planarity", measures.planarity},
-                 {"mean_probability", measures.mean_probability},
-                 {"centroid", list(measures.centroid)},
-                 {"normal", list(measures.normal)},
-                 {"tiles", measures.tiles},
-                 {"points", loop.points.size()}};
-  Json& ids = record["ids"] = Json::array();
-  for (const LoopPoint& point : loop.points) ids.push_back(value(point.id));
-  if (!with_coordinates) return record;
-  Json& coordinates = record["coordinates"] = Json::array();
-  for (const LoopPoint& point : loop.points) coordinates.push_back(list(point.position));
-  return record;
+// `"key":[...]` of a list that may be larger than memory: `put(element)` writes an element.
+void write_list(std::string_view key, OutputFile& out,
+                const std::function<void(const std::function<void(const Json&)>& put)>& for_each) {
+  out.write(",\"" + std::string(key) + "\":[");
+  bool is_first = true;
+  for_each([&](const Json& element) {
+    out.write((is_first ? "" : ",") + print(element, -1));
+    is_first = false;
+  });
+  out.write("]");
+}
+
+// Point by point: a loop may be larger than memory.
+void write_loop(std::size_t id, const Detection& detection, bool with_coordinates, OutputFile& out) {
+  const LoopMeasures& measures = detection.loops()[id];
+  const Json head = {{"id", id},
+                     {"kind", name_of(measures.kind)},
+                     {"confidence", measures.confidence},
+                     {"perimeter", measures.perimeter},
+                     {"area", measures.area},
+                     {"diameter", measures.diameter},
+                     {"planarity", measures.planarity},
+                     {"mean_probability", measures.mean_probability},
+                     {"centroid", list(measures.centroid)},
+                     {"normal", list(measures.normal)},
+                     {"tiles", measures.tiles},
+                     {"points", measures.points}};
+  std::string text = print(head, -1);
+  text.pop_back();  // its closing brace
+  out.write(text);
+  write_list("ids", out, [&](const auto& put) {
+    detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(value(point.id)); });
+  });
+  if (with_coordinates) {
+    write_list("coordinates", out, [&](const auto& put) {
+      detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(list(point.position)); });
+    });
+  }
+  out.write("}");
 }
 
 }  // namespace
 
 void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
   std::string text = print(head(detection, scan, config), 2);
-  text.resize(text.size() - 2);  // without its "\n}": the loops follow, one in memory at a time
+  text.resize(text.size() - 2);  // without its "\n}": the loops follow
   out.write(text);
   out.write(",\n  \"loops\": [");
   for (std::size_t i = 0; i < detection.loops().size(); ++i) {
     out.write(i == 0 ? "\n    " : ",\n    ");
-    out.write(print(record(i, detection.read_loop(i), !config.output.no_coordinates), -1));
+    write_loop(i, detection, !config.output.no_coordinates, out);
   }
   out.write(detection.loops().empty() ? "]\n}\n" : "\n  ]\n}\n");
 }

@@ -117,21 +117,22 @@ void put_measures(DxfText& dxf, std::size_t id, const LoopMeasures& loop) {
   }
 }
 
-void put_loop(DxfText& dxf, std::size_t id, const ReportedLoop& loop) {
+void put_loop(DxfText& dxf, std::size_t id, const Detection& detection) {
   constexpr int kClosed = 1, k3D = 8, k3DVertex = 32;
-  const char* const layer = layer_of(loop.measures.kind);
+  const LoopMeasures& measures = detection.loops()[id];
+  const char* const layer = layer_of(measures.kind);
   dxf.put(0, "POLYLINE");
   dxf.put(8, layer);
   dxf.put_whole(66, 1);  // vertices follow
   dxf.put_point(10, {0, 0, 0});
   dxf.put_whole(70, kClosed + k3D);
-  put_measures(dxf, id, loop.measures);
-  for (const LoopPoint& point : loop.points) {
+  put_measures(dxf, id, measures);
+  detection.for_each_loop_point(id, [&](const LoopPoint& point) {
     dxf.put(0, "VERTEX");
     dxf.put(8, layer);
     dxf.put_point(10, point.position);
     dxf.put_whole(70, k3DVertex);
-  }
+  });
   dxf.put(0, "SEQEND");
   dxf.put(8, layer);
 }
@@ -145,7 +146,7 @@ void write_loops_dxf(const Detection& detection, OutputFile& out) {
   put_tables(dxf);
   dxf.put(0, "SECTION");
   dxf.put(2, "ENTITIES");
-  for (std::size_t id = 0; id < detection.loops().size(); ++id) put_loop(dxf, id, detection.read_loop(id));
+  for (std::size_t id = 0; id < detection.loops().size(); ++id) put_loop(dxf, id, detection);
   dxf.put(0, "ENDSEC");
   dxf.put(0, "EOF");
 }

@@ -25,18 +25,18 @@ void write_loops_obj(const Detection& detection, OutputFile& out) {
   out.write(kObjMark);
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t id = 0; id < detection.loops().size(); ++id) {
-    const ReportedLoop loop = detection.read_loop(id);
-    out.write(head_of(id, loop.measures));
+    const LoopMeasures& loop = detection.loops()[id];
+    out.write(head_of(id, loop));
     std::string line;
-    for (const LoopPoint& point : loop.points) {
+    detection.for_each_loop_point(id, [&](const LoopPoint& point) {
       line = "v";
       for (const double component : point.position) append_plain(line += " ", component);
       out.write(line += "\n");
-    }
+    });
     out.write("l");
-    for (std::size_t i = 0; i < loop.points.size(); ++i) out.write(" " + std::to_string(next + i));
+    for (std::uint64_t i = 0; i < loop.points; ++i) out.write(" " + std::to_string(next + i));
     out.write(" " + std::to_string(next) + "\n");
-    next += loop.points.size();
+    next += loop.points;
   }
 }
 

@@ -3,7 +3,6 @@
 #include "io/results/loop_colours.hpp"
 #include "io/results/results.hpp"
 
-#include <cassert>
 #include <limits>
 
 namespace lacuna {
@@ -38,17 +37,16 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   PlyWriter writer(out, {vertex, edge});
 
   for (std::size_t loop = 0; loop < detection.loops().size(); ++loop) {
-    const auto [measures, members] = detection.read_loop(loop);
+    const LoopMeasures& measures = detection.loops()[loop];
     const LoopColour& colour = colour_of(measures.kind);
-    assert(members.size() == detection.loops()[loop].points);
-    for (const LoopPoint& point : members) {
+    detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
       for (const double component : point.position) writer.put_as(coordinate, component);
       writer.put(static_cast<std::int32_t>(loop));
       writer.put_as(id, static_cast<double>(value(point.id)));
       writer.put(static_cast<std::uint8_t>(measures.kind == LoopKind::kOuter));
       writer.put(point.probability);
       for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) writer.put(part);
-    }
+    });
   }
   std::int32_t first = 0;
   for (const LoopMeasures& loop : detection.loops()) {

@@ -52,8 +52,8 @@ class LoopArrays {
     arrays_.push_back({std::move(section), std::move(name), std::move(type), components, points_ * bytes,
                        [this, put_point](OutputFile& out) {
                          for (std::size_t i = 0; i < loops_; ++i) {
-                           for (const LoopPoint& point : detection_.read_loop(i).points)
-                             put_point(out, point);
+                           detection_.for_each_loop_point(
+                               i, [&](const LoopPoint& point) { put_point(out, point); });
                          }
                        }});
   }

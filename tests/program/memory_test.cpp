@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
+
+namespace fs = std::filesystem;
 
 void check_memory(const std::string& points, const std::string& limit) {
   const test::ScratchFolder scratch;
@@ -85,6 +88,52 @@ TEST_CASE("far outliers stay within the memory limit") {
   const auto far = [&] { return 1e6 * std::tan(random.uniform(-1.57, 1.57)); };
   for (std::size_t i = 0; i < cloud.size(); i += 20) cloud.positions[i] = {far(), far(), far()};
   check_limit(cloud);
+}
+
+// A strip of five points in zigzag: its outer curve passes through two points in five.
+Cloud folded_strip(int lanes, int length) {
+  Cloud cloud;
+  Random random(1);
+  const auto put = [&](int x, int y) {
+    cloud.positions.push_back({x + random.uniform(-0.15, 0.15), y + random.uniform(-0.15, 0.15), 0});
+  };
+  for (int lane = 0; lane < lanes; ++lane) {
+    for (int y = 10 * lane; y < 10 * lane + 5; ++y) {
+      for (int x = 0; x < length; ++x) put(x, y);
+    }
+    if (lane + 1 == lanes) break;
+    const int turn = lane % 2 == 0 ? length - 5 : 0;
+    for (int y = 10 * lane + 5; y < 10 * lane + 10; ++y) {
+      for (int x = turn; x < turn + 5; ++x) put(x, y);
+    }
+  }
+  return cloud;
+}
+
+TEST_CASE("a loop of two hundred thousand points stays within the memory limit") {
+  const test::ScratchFolder scratch;
+  const std::string scan = write_scan(scratch, folded_strip(100, 1000)), out = (scratch / "out").string();
+  const test::ProgramResult result =
+      test::run_program({"detect", scan, "--out", out, "--quiet", "--threads", "2", "--memory-limit", "64MiB",
+                         "--obj", "--dxf", "--vtp"});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CAPTURE(result.peak_memory >> 20);  // MiB
+  CHECK(result.peak_memory <= 64 << 20);
+  CHECK(fs::file_size(scratch / "out" / "loops.ply") > 5'000'000);
+}
+
+TEST_CASE("ten million points and sixteen threads stay within 64 MiB", "[.slow]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "surface.ply").string();
+  REQUIRE(test::run_program({"synth", "surface", scan, "--points", "10000000"}).exit_code == 0);
+  const test::ProgramResult result =
+      test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--threads", "16",
+                         "--memory-limit", "64MiB"});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CAPTURE(result.peak_memory >> 20);  // MiB
+  CHECK(result.peak_memory <= 64 << 20);
 }
 
 // Large enough that the points alone would fill the limit.

@@ -878,26 +878,32 @@ FoundLoop rated(const std::vector<CurvePoint>& rim, const TangentialConfig& conf
   return loop;
 }
 
-// A fine loop stands where the coarse loops that share most points with it are together nearly as long, or
-// none of them is surer.
+// Of a fine loop and a coarse one with a quarter of its points or more on it, the surer stands. A sure fine
+// loop also stands where the sure coarse ones on it are together nearly as long.
 Loops chosen(const Loops& fine, const Loops& coarse, double same_hole) {
-  std::map<std::size_t, Loops> on;  // by fine loop
+  constexpr double kSure = 0.75;
+  const auto lies_on = [](const FoundLoop& loop, const FoundLoop& other) {
+    const std::set<PointId> points(other.points.begin(), other.points.end());
+    const auto count = static_cast<std::size_t>(
+        std::count_if(loop.points.begin(), loop.points.end(), [&](PointId p) { return points.contains(p); }));
+    return 4 * count >= loop.points.size();
+  };
   Loops chosen;
-  for (const FoundLoop& loop : coarse) {
-    std::size_t best = fine.size(), most = 0;
-    for (std::size_t f = 0; f < fine.size(); ++f) {
-      const std::set<PointId> points(fine[f].points.begin(), fine[f].points.end());
-      const auto count = static_cast<std::size_t>(std::count_if(
-          loop.points.begin(), loop.points.end(), [&](PointId p) { return points.contains(p); }));
-      if (count > most) best = f, most = count;
-    }
-    (best < fine.size() ? on[best] : chosen).push_back(loop);
-  }
-  for (std::size_t f = 0; f < fine.size(); ++f) {
+  for (const FoundLoop& f : fine) {
     double length = 0, surest = 0;
-    for (const FoundLoop& loop : on[f]) length += loop.length, surest = std::max(surest, loop.confidence);
-    if (length >= same_hole * fine[f].length || surest <= fine[f].confidence) on[f] = {fine[f]};
-    chosen.insert(chosen.end(), on[f].begin(), on[f].end());
+    for (const FoundLoop& c : coarse) {
+      if (!lies_on(c, f)) continue;
+      surest = std::max(surest, c.confidence);
+      if (c.confidence >= kSure) length += c.length;
+    }
+    const bool is_same = f.confidence >= kSure && length >= same_hole * f.length;
+    if (surest <= f.confidence || is_same) chosen.push_back(f);
+  }
+  const std::size_t standing = chosen.size();
+  for (const FoundLoop& c : coarse) {
+    if (std::none_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(standing),
+                     [&](const FoundLoop& f) { return lies_on(c, f); }))
+      chosen.push_back(c);
   }
   sort_loops(chosen);
   return chosen;
@@ -946,11 +952,9 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
   std::size_t coarse_edges = 0;
   std::array<Loops, 2> rims{find_curves(positions, config.tangential, rough, 0, stars, result.boundary_edges),
                             find_curves(positions, config.tangential, rough, 1, stars, coarse_edges)};
-  for (Loops& of_scale : rims) {
-    std::erase_if(of_scale, [&](const FoundLoop& loop) { return loop.confidence < min_confidence; });
-  }
   std::set<PointId> on_loop;
   for (const auto& [rim, confidence, length] : chosen(rims[0], rims[1], config.tangential.same_hole)) {
+    if (confidence < min_confidence) continue;
     result.loops.push_back(rim);
     result.confidences.push_back(confidence);
     result.sure.push_back(rim);

@@ -10,9 +10,9 @@ namespace lacuna {
 namespace {
 
 TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
-  const std::uint64_t tile_points = job.tile_points(survey.points - survey.dropped);
-  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, tile_points), survey.bounds,
-                     survey.precision(), job);
+  const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
+  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, points, tile_points),
+                     survey.bounds, survey.precision(), job);
 }
 
 }  // namespace

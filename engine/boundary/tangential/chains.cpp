@@ -1,10 +1,11 @@
 #include "engine/boundary/tangential/chains.hpp"
 
+#include "engine/run/error.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -38,19 +39,26 @@ class Partners {
   explicit Partners(std::span<LocalIndex> partners) : partners_(partners) {}
 
   void add(const NumberedEnd& end) {
-    if (is_second_) {
-      assert(before_.low == end.low && before_.high == end.high && before_.scale == end.scale);
-      partners_[before_.end] = end.end;
-      partners_[end.end] = before_.end;
+    if (!first_) {
+      first_ = end;
+      return;
     }
-    is_second_ = !is_second_;
-    before_ = end;
+    if (first_->low != end.low || first_->high != end.high || first_->scale != end.scale) fail();
+    partners_[first_->end] = end.end;
+    partners_[end.end] = first_->end;
+    first_.reset();
+  }
+
+  // All ends are added.
+  void finish() const {
+    if (first_) fail();
   }
 
  private:
+  [[noreturn]] static void fail() { fail_inconsistent("a boundary curve ends at the border of a tile"); }
+
   std::span<LocalIndex> partners_;
-  NumberedEnd before_;
-  bool is_second_ = false;
+  std::optional<NumberedEnd> first_;  // of two that share a boundary edge
 };
 
 void read_points(const OpenChain& chain, bool forwards, const Column<CurvePoint>& points,
@@ -114,6 +122,7 @@ void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& p
   std::vector<LocalIndex> partners(ends.size());
   Partners join(partners);
   for (const NumberedEnd& end : ends) join.add(end);
+  join.finish();
   std::vector<std::uint8_t> is_done(chains.size());
   Scratch none(workspace, budget);
   ChainFollower(chains, partners, is_done, none).for_each_curve(points, workspace, budget, visit);
@@ -137,6 +146,7 @@ void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, s
     scratch.trim();
     join.add(end);
   });
+  join.finish();
   ChainFollower(chains, partners, scratch.array<std::uint8_t>(count), scratch)
       .for_each_curve(points, workspace, budget, visit);
 }

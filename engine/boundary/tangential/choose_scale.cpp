@@ -57,44 +57,43 @@ SortedRuns<SharedPoint> shared_points(const RawLoops& fine, const RawLoops& coar
   return shared;
 }
 
-// By coarse loop, the fine one that it lies on: the first of those with which it shares most points.
-std::vector<std::uint32_t> fine_loops_of(const RawLoops& fine, const RawLoops& coarse, const Job& job) {
-  std::vector<std::uint32_t> fine_of(coarse.size(), kNoLoop);
-  std::vector<std::uint64_t> most(coarse.size());
+// Each coarse loop with each fine one that it lies on: one that has at least a quarter of its points.
+std::vector<SharedPoint> same_places(const RawLoops& fine, const RawLoops& coarse, const Job& job) {
+  std::vector<SharedPoint> places;
   SharedPoint before{kNoLoop, kNoLoop};
   std::uint64_t count = 0;
   shared_points(fine, coarse, job).for_each([&](const SharedPoint& shared) {
     count = shared == before ? count + 1 : 1;
     before = shared;
-    if (count <= most[shared.coarse]) return;
-    most[shared.coarse] = count;
-    fine_of[shared.coarse] = shared.fine;
+    if (count == (coarse.points(shared.coarse) + 3) / 4) places.push_back(shared);
   });
-  return fine_of;
+  return places;
 }
 
 }  // namespace
 
 void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, RawLoops& chosen) {
-  const std::vector<std::uint32_t> fine_of = fine_loops_of(fine, coarse, job);
-  // Of the coarse loops on each: the highest confidence and the sum of lengths.
+  const std::vector<SharedPoint> places = same_places(fine, coarse, job);
+  // Of the coarse loops on each fine one: the highest confidence, and the length of those that are sure.
   std::vector<LoopRating> on(fine.size(), LoopRating{.confidence = 0, .length = 0});
-  for (std::uint32_t c = 0; c < coarse.size(); ++c) {
-    if (fine_of[c] == kNoLoop) continue;
-    LoopRating& of_fine = on[fine_of[c]];
-    of_fine.confidence = std::max(of_fine.confidence, coarse.rating(c).confidence);
-    of_fine.length += coarse.rating(c).length;
+  for (const auto& [c, f] : places) {
+    const auto& [confidence, length] = coarse.rating(c);
+    on[f].confidence = std::max(on[f].confidence, confidence);
+    if (confidence >= kSure) on[f].length += length;
   }
   const double same_hole = job.config.tangential.same_hole;
   const auto stands = [&](std::uint32_t f) {
     const auto& [confidence, length] = fine.rating(f);
-    return on[f].length >= same_hole * length || on[f].confidence <= confidence;
+    return on[f].confidence <= confidence || (confidence >= kSure && on[f].length >= same_hole * length);
   };
+  std::vector<std::uint8_t> is_covered(coarse.size());
+  for (const auto& [c, f] : places) is_covered[c] |= stands(f);
+  const double least = job.config.selection.min_confidence;
   for (std::uint32_t f = 0; f < fine.size(); ++f) {
-    if (stands(f)) chosen.add(fine, f);
+    if (stands(f) && fine.rating(f).confidence >= least) chosen.add(fine, f);
   }
   for (std::uint32_t c = 0; c < coarse.size(); ++c) {
-    if (fine_of[c] == kNoLoop || !stands(fine_of[c])) chosen.add(coarse, c);
+    if (!is_covered[c] && coarse.rating(c).confidence >= least) chosen.add(coarse, c);
   }
 }
 

@@ -20,6 +20,11 @@ constexpr std::uint64_t kBytesPerWedge = 160;
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
+// Of loops that the choice between scales takes into account.
+double least_confidence(const Config& config) {
+  return std::min(config.selection.min_confidence, kSure);
+}
+
 // Wedges of one point, which are next to each other, connect the chains that they are on.
 void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
                     UnionFind connected) {
@@ -36,8 +41,8 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
       tiling_(store.tiling()),
       stars_(store, job),
       chain_points_(job.file("chain-points")),
-      loops_{RawLoops(job.file("fine-loops"), job.config.selection.min_confidence),
-             RawLoops(job.file("coarse-loops"), job.config.selection.min_confidence)},
+      loops_{RawLoops(job.file("fine-loops"), least_confidence(job.config)),
+             RawLoops(job.file("coarse-loops"), least_confidence(job.config))},
       workspace_(job.workspace),
       curve_budget_(job.memory.global / 8 / job.arena.threads()),
       config_(job.config.tangential) {}

@@ -55,7 +55,7 @@ void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
 
 TilePlan plan_of(const Cloud& cloud, std::uint64_t tile_points) {
   SurveyedScan scan = survey(cloud);
-  return split_tiles(std::move(scan.cells), scan.grid, tile_points);
+  return split_tiles(std::move(scan.cells), scan.grid, scan.points, tile_points);
 }
 
 // The index of a cloud's distinct points, and the points of each of its cells.
@@ -309,11 +309,20 @@ TEST_CASE("a tiling is found wrong where cells are missing, rows overlap or node
 TEST_CASE("a single heavy cell is set aside, as is a far one, and no cells make no tiles") {
   const std::vector<CountedCell> cells = {
       {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, 1'000, 0}, 1, true}};
-  const TilePlan plan = split_tiles(cells, CellGrid{}, 12);
+  const TilePlan plan = split_tiles(cells, CellGrid{}, 10'016, 12);
   CHECK(counts_of(plan.aside) == std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, 1'000, 0}, 1}});
   CHECK(plan.heavy == 1);
   CHECK(plan.cells.size() == 3);
-  CHECK(split_tiles({}, CellGrid{}, 12).tiles.empty());
+  CHECK(split_tiles({}, CellGrid{}, 0, 12).tiles.empty());
+}
+
+TEST_CASE("where the count of a cell ended, there is space for tiles of all points of the scan") {
+  constexpr std::uint64_t kPoints = 10'000'000'000, kTile = 1'000'000;
+  const std::vector<CountedCell> cells = {{{0, 0, 0}, kMostCounted}, {{9, 1'000, 0}, 5, true}};
+  const TilePlan plan = split_tiles(cells, CellGrid{}, kPoints, kTile);
+  CHECK(plan.group_points(0) == kPoints);
+  CHECK(plan.group_points(1) == 5);
+  CHECK(plan.most_tiles() == kPoints / kTile + 1);
 }
 
 TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbour of any of its points") {

@@ -44,7 +44,8 @@ TEST_CASE(
     REQUIRE(measured.measures.size() == 4);
     REQUIRE(measured.offsets.size() == 5);
     for (std::size_t i = 0; i < 4; ++i) {
-      const Loop loop = measured.read(i);
+      Loop loop;
+      measured.for_each_point(i, [&](const StoredLoopPoint& p) { loop.push_back(loaded(p)); });
       const std::vector<Vertex> vertices = traced.loops.read(i);
       REQUIRE(loop.size() == vertices.size());
       std::size_t wrong = 0;

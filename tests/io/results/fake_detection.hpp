@@ -50,7 +50,10 @@ class FakeDetection final : public Detection {
 
   const Summary& summary() const override { return numbers; }
   const std::vector<LoopMeasures>& loops() const override { return measures_; }
-  ReportedLoop read_loop(std::size_t index) const override { return found.at(index); }
+  void for_each_loop_point(std::size_t loop,
+                           const std::function<void(const LoopPoint&)>& visit) const override {
+    for (const LoopPoint& point : found.at(loop).points) visit(point);
+  }
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     for (const BoundaryPoint& point : boundary) visit(point);
   }

@@ -1,0 +1,49 @@
+#include "engine/run/job.hpp"
+
+#include "engine/run/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint64_t kMiB = 1 << 20;
+
+std::uint64_t tile_points(std::uint64_t points, std::uint64_t memory_limit, std::int64_t threads,
+                          std::int64_t k = 15, std::int64_t wanted = 0) {
+  const test::ScratchFolder folder;
+  NoProgress progress;
+  Config config;
+  config.run = {.threads = threads, .memory_limit = memory_limit, .tile_points = wanted};
+  config.neighbourhood.k = k;
+  return Job(config, folder.path(), progress).tile_points(points);
+}
+
+TEST_CASE("however many threads work, the tables with entries for each tile fit in memory") {
+  for (const std::int64_t threads : {1, 2, 16, 64}) {
+    INFO(threads << " threads");
+    CHECK(10'000'000 / tile_points(10'000'000, 64 * kMiB, threads) < 4096);
+    CHECK(10'000'000 / tile_points(10'000'000, 64 * kMiB, threads, 15, 100) < 4096);
+  }
+}
+
+TEST_CASE(
+    "more points than the memory limit can ever hold are refused, and the limit that is named is enough") {
+  const std::uint64_t points = 1'000'000'000;
+  CHECK_THROWS_WITH(tile_points(points, 64 * kMiB, 2),
+                    "the memory limit of 64 MiB is too small for 1000000000 points; allowed: 154MiB or more");
+  CHECK_THROWS_AS(tile_points(points, 153 * kMiB, 2), Error);
+  CHECK(tile_points(points, 154 * kMiB, 2) > 0);
+}
+
+TEST_CASE("the neighbours in a tile can be numbered in 32 bits, whatever is asked for") {
+  for (const std::int64_t k : {15, 128, 1000}) {
+    INFO("k = " << k);
+    const std::uint64_t most = tile_points(1'000'000'000, 64 * 1024 * kMiB, 2, k, 1'000'000'000);
+    CHECK(2 * static_cast<std::uint64_t>(k) * most <= std::uint64_t{1} << 32);
+  }
+}
+
+}  // namespace
+}  // namespace lacuna
