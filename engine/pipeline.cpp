@@ -58,7 +58,7 @@ std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Jo
   return std::make_unique<TangentialBoundary>(store, job);
 }
 
-// Of the workspace, for a clean scan.
+// The bytes of a point in the workspace, for a clean scan.
 std::uint64_t bytes_per_point(const PointSource& scan, const Config& config, Precision precision,
                               std::uint64_t tile_points) {
   const std::uint64_t stored = precision == Precision::kSingle ? 16 : sizeof(StoredPoint);

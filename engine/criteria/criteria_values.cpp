@@ -25,8 +25,8 @@ HWY_INLINE Vector<V> vectors(double value) {
 
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
-// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz; and whether the weight of
-// the nearest neighbour is larger than nothing.
+// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz. Also whether the weight of
+// the nearest neighbour is more than nothing.
 struct Covariance {
   Vector<V> diagonal, off_diagonal;
   Mask counts_for_something;

@@ -1,8 +1,8 @@
 // The largest gaps between the directions of a batch's neighbours in their tangent planes (paper, 4.2).
 //
-// Directions are sorted in single precision. Where the largest gap is larger than any other by more than that
-// can be wrong, its size is taken in double; elsewhere the point is ambiguous, and the exact fallback finds
-// its gap. Which way is taken depends on the point alone.
+// Directions are sorted in single precision. Where the largest gap exceeds all others by more than the
+// possible error, its size is taken in double precision. Elsewhere the point is ambiguous, and the exact
+// fallback finds its gap. Which way is taken depends on the point alone.
 #if defined(LACUNA_CRITERIA_LARGEST_GAPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_LARGEST_GAPS_INL
 #undef LACUNA_CRITERIA_LARGEST_GAPS_INL
@@ -42,12 +42,13 @@ constexpr std::int32_t kTurn = 1 << 30;
 constexpr std::int32_t kNoTurn = 1 << 29;  // nothing below is a normal number
 constexpr std::int32_t kInfinite = 0x7f800000;
 
-// Two turns are ambiguous if they differ by no more. A direction is wrong by no more than 1e-6 of a radian
-// (angle and its quotient in single precision, 4e-7; cut to 2^-24 turns, 4e-7; the row below, as much), a
-// turn by twice, a difference of two by four times that: 4e-6, and this is 1.2e-5.
+// Two turns are ambiguous if they differ by no more. A direction is wrong by at most 1e-6 of a radian. Its
+// angle and quotient in single precision give 4e-7, the cut to 2^-24 turns 4e-7, and the number below as
+// much. A turn is wrong by twice that, a difference of two by four times: 4e-6. This is 1.2e-5.
 constexpr std::int32_t kAmbiguousTurn = 2048;
 
-// Likewise, in units of the squared distance, whether a neighbour is within the cone around the normal.
+// In units of the squared distance: below this difference, it is ambiguous whether a neighbour is within the
+// cone around the normal.
 constexpr float kAmbiguousCone = 1e-5F;
 
 // A point with a neighbour nearer than 1e-10 of the mean distance is ambiguous: nothing underflows here.
@@ -58,7 +59,7 @@ struct Projection {
   Batch<float> x, y, squared_distance;
 };
 
-// Of the first `rows` neighbours.
+// Projects the first `rows` neighbours.
 void project(const Slice& slice, const Frame<V>& frame, std::size_t rows, Projection* projections) {
   const hn::Rebind<float, Doubles> single;
   const NeighbourBatch& batch = slice.batch;

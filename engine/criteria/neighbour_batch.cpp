@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kStep = kLanes<Doubles>;
 
-// Of as many points as a vector holds, from `first` on. What is read again and again is named first: for all
-// that the compiler knows, a row that is written might hold it.
+// Gathers as many points as a vector holds, from `first` on. What is read again and again is named first: for
+// all that the compiler knows, a row that is written might hold it.
 void gather_from(const NeighbourLists& lists, std::size_t first, NeighbourBatch& batch) {
   const Doubles d;
   const double* const positions = lists.positions;

@@ -41,7 +41,7 @@ struct Slice {
   HWY_INLINE Vector<V> offset(std::size_t row) const {
     return {get(batch.x[row]), get(batch.y[row]), get(batch.z[row])};
   }
-  // Of another row for each point; `rows`: from 0 on.
+  // Returns the offset of another neighbour for each point; `rows` counts from 0.
   using Rows = hn::Rebind<std::int32_t, Doubles>;
   HWY_INLINE Vector<V> offset_in_rows(hn::Vec<Rows> rows) const {
     const hn::RebindToSigned<Doubles> wide;

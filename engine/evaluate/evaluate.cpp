@@ -35,8 +35,8 @@ class Batches {
           std::span<const Eigen::Vector3d> given_normals)
       : points_(points), neighbourhoods_(neighbourhoods), given_normals_(given_normals) {}
 
-  // Of the points [first, last) that have neighbours. visit(batch, points): the points of the batch; a
-  // last one that is not full repeats a point.
+  // Goes through the points [first, last) that have neighbours. It calls visit(batch, points) with the points
+  // of the batch; a last batch that is not full repeats a point.
   template <class Visit>
   void for_each(LocalIndex first, LocalIndex last, Visit&& visit) {
     order_by_count(first, last);

@@ -106,7 +106,7 @@ LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
   return largest;
 }
 
-// Of each owned point whether it has foreign neighbours. Few do, and these lie near each other.
+// Returns for each owned point whether it has foreign neighbours. Few do, and these lie near each other.
 std::vector<std::uint8_t> border_of(const TilePoints& points, const Rows& neighbourhoods) {
   constexpr std::size_t kRun = 64;
   std::vector<std::uint8_t> is_border(points.owned);

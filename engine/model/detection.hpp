@@ -57,8 +57,8 @@ struct Summary {
 
 inline constexpr std::size_t kMostCriteria = 8;
 
-// Result of one point of the input; a duplicate has those of the point that it is a copy of, a point that was
-// thinned out those of its representative.
+// The result of one point of the input. A duplicate has that of the point that it is a copy of. A point that
+// was thinned out has that of its representative.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table

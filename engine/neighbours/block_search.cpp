@@ -267,9 +267,10 @@ bool BlockSearch::set_origin(const BlockBox& run, double radius) {
     extent = std::max({extent, (run.high[axis] - surroundings_.origin[axis]) * surroundings_.scale,
                        (surroundings_.origin[axis] - run.low[axis]) * surroundings_.scale});
   }
-  // Rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
-  // point at d from it: 2 u (extent + d) of each difference of coordinates, so 4 u (sqrt(3) extent d + d^2)
-  // of the squares' sum, and 3 u d^2 of squaring and adding. That is below 7 u d (extent + d).
+  // The rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
+  // point at distance d. Each difference of coordinates has an error of 2 u (extent + d). So the sum of
+  // squares has one of 4 u (sqrt(3) extent d + d^2). Squaring and adding add 3 u d^2. That is below 7 u d
+  // (extent + d).
   constexpr double kRounding = 0x1p-24;
   surroundings_.margin = 8 * kRounding * scaled * (extent + scaled);
   return extent <= kLargestRun * scaled;

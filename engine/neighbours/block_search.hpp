@@ -39,7 +39,7 @@ class BlockSearch {
     }
   }
 
-  // The same, to rows that begin so far apart.
+  // Lists that begin so far apart.
   struct Rows {
     LocalIndex* first;
     std::size_t stride;

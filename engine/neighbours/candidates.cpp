@@ -37,8 +37,8 @@ HWY_INLINE hn::Vec<D> squared_gaps(D d, const Number* low, const Number* high, c
   return sum;
 }
 
-// Of the surroundings, the blocks whose boxes are within the limit: rounding keeps the order of box and
-// points. Returns how many.
+// Collects the blocks of the surroundings whose boxes are within the limit: rounding keeps the order of box
+// and points. Returns how many.
 HWY_INLINE std::size_t near_blocks(const Surroundings& surroundings, const float* query, float limit,
                                    std::uint32_t* near) {
   const hn::Vec<Singles> all_limit = hn::Set(kSingles, limit);
@@ -94,8 +94,8 @@ void put_numbers(std::size_t rows, Ranking& ranking) {
   }
 }
 
-// Of successive keys, as near to each other as the numbers in them allow. `ends`: what is in no list is no
-// nearer.
+// Finds successive keys that are as near to each other as the numbers in them allow. `ends`: what is in no
+// list is no nearer.
 void find_ambiguous(const float* ends, const float* margins, std::size_t wanted, Ranking& ranking) {
   const auto number_bits = hn::Set(kWhole, ranking.number_bits);
   const auto least_of = [&](hn::Vec<Whole> key)

@@ -119,7 +119,7 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
   for (LocalIndex p = 0; p < points.owned; ++p) {
     end = nearest.copy(p, end);
 
-    // Of the k nearest and the points within eps, one holds the other: both begin alike.
+    // One of the k nearest and the points within eps holds the other: both begin alike.
     const auto beyond = near[p].subspan(std::min(nearest.lists().count, near[p].size()));
     end = std::copy(beyond.begin(), beyond.end(), end);
 

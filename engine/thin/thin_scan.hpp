@@ -40,11 +40,11 @@ struct ThinnedScan {
   std::optional<AppendLists<Represented>> represented;
 };
 
-// Chooses, for each occupied cell of an absolute lattice with edges of `resolution`, the input point nearest
-// to the mean of the cell's points; of several the one with the lowest coordinates, then the lowest id. The
-// choice does not depend on memory, threads or the order of the points. Reads the scan twice, and a third
-// time with output.points. Where the cells do not fit in memory, shares of them take as many passes each.
-// Throws `Error`.
+// Chooses one input point for each occupied cell of an absolute lattice with edges of `resolution`: the
+// nearest to the mean of the cell's points. Of several it is the one with the lowest coordinates, then the
+// lowest id. The choice does not depend on memory, threads or the order of the points. Reads the scan twice,
+// and a third time with output.points. Where the cells do not fit in memory, shares of them take as many
+// passes each. Throws `Error`.
 ThinnedScan thin_scan(PointSource& scan, double resolution, Job& job);
 
 // The representatives as a scan, with the ids of the input. `thinned` must outlive it.

@@ -7,8 +7,8 @@
 namespace lacuna {
 namespace {
 
-// Half steps from an open vertex, or the end of an undecided edge, to the middle of the unknown: two of them
-// may be as near to each other as one edge.
+// Half steps from an open vertex, or from the end of an undecided edge, to the middle of the unknown. Two of
+// them may be as near to each other as one edge.
 constexpr std::int64_t kToUnknown = 1;
 
 }  // namespace

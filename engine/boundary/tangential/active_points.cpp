@@ -103,7 +103,8 @@ class TileStarFinder {
     }
   }
 
-  // Of the points and of all their neighbours: the samplings of these bound the points' triangles.
+  // Finds the stars of the points and of all their neighbours: the samplings of these bound the points'
+  // triangles.
   void find_stars_around(std::span<const LocalIndex> points) {
     wanted_.clear();
     for (const LocalIndex p : points) {
@@ -130,7 +131,7 @@ class TileStarFinder {
     wanted_.push_back(p);
   }
 
-  // Of wanted points and their neighbours.
+  // Makes the sites of wanted points and their neighbours.
   void make_sites() {
     list_without_site();
     for (std::size_t i = 0; i < without_site_.size(); ++i) {

@@ -1,10 +1,10 @@
 // active_points: which points of a tile are active, and their stars (method.md, C.1).
 //
 // A surface ends where triangles are missing. The search starts at the seeds, which are the paper's
-// candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. Where a triangle in
-// the star of an active point is inconsistent (its ball is too large, or the star of another active vertex
-// does not have it), all its vertices are active. That is a least fixed point: neither the order of the
-// search nor the tiles matter. Along a boundary wedge all points are active, which closes the boundary
+// candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. A triangle in the star
+// of an active point is inconsistent if its circumradius is too large, or if the star of another active
+// vertex does not have it. Then all its vertices are active. That is a least fixed point: neither the order
+// of the search nor the tiles matter. Along a boundary wedge all points are active, which closes the boundary
 // curves.
 #pragma once
 
@@ -20,9 +20,9 @@
 
 namespace lacuna {
 
-// Of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active are
-// measured or in the belt: from the belt on, the search takes each triangle for inconsistent that may turn
-// out so.
+// The stars of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active
+// are measured or in the belt. From the belt on, the search takes each triangle for inconsistent that may
+// turn out so.
 struct TileStars {
   std::vector<PointState> states;
   std::vector<std::uint8_t> is_active;  // for certain

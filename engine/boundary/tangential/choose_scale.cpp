@@ -77,7 +77,7 @@ std::vector<std::uint32_t> fine_loops_of(const RawLoops& fine, const RawLoops& c
 
 void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, RawLoops& chosen) {
   const std::vector<std::uint32_t> fine_of = fine_loops_of(fine, coarse, job);
-  // Of the coarse loops on each: the highest confidence and the sum of lengths.
+  // For each fine loop: the highest confidence of the coarse loops on it, and the sum of their lengths.
   std::vector<LoopRating> on(fine.size(), LoopRating{.confidence = 0, .length = 0});
   for (std::uint32_t c = 0; c < coarse.size(); ++c) {
     if (fine_of[c] == kNoLoop) continue;

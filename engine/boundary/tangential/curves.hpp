@@ -25,7 +25,7 @@ struct CurvePoint {
 // among these wedges.
 using WedgePartners = std::array<LocalIndex, 2>;
 
-// Of each wedge. `wedges`: in ascending row. Cost: linear.
+// Returns the partners of each wedge. `wedges`: in ascending row. Cost: linear.
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges);
 
 // Wedges one after the other along boundary edges, by their numbers. An open chain begins and ends at wedges
@@ -41,8 +41,8 @@ struct WedgeChain {
 void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
                    const std::function<void(const WedgeChain&)>& visit);
 
-// Turned so that the curve starts at its smallest id and goes on to that one's smaller neighbour (of several
-// such ways, the one whose ids come first).
+// The curve starts at its smallest id and goes on to the smaller neighbour of that one. Of several such ways,
+// it takes the one whose ids come first.
 void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch);
 
 // visit(curve): a curve passes a point twice where two holes touch, and is split there into curves that pass

@@ -24,7 +24,8 @@ class Growth {
          const OpenStars& open, std::span<const RemoteTriangle> remote_triangles);
 
   // Vertices of inconsistent triangles of active points become active, here and in other tiles, until there
-  // are no more. visit(row): each point that was not active before. Several tiles may grow at once.
+  // are no more. It calls visit(row) for each point that was not active before. Several tiles may grow at
+  // once.
   void find_active_points(const std::function<void(Row)>& visit);
 
   // Each wedge of active points, in ascending row. All active points are known.

@@ -17,7 +17,7 @@
 
 namespace lacuna {
 
-// Of stars as they are found: as many as there are, up to kBatchSize. Zeros where a link is empty.
+// Returns the samplings of stars as they are found, up to kBatchSize at a time. Zeros where a link is empty.
 std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
                                               const TangentialConfig& config);
 
@@ -27,11 +27,11 @@ struct Surroundings {
   std::span<const LocalIndex> neighbours;
 };
 
-// With M the median of the circles of a point and its neighbours, S that of their spreads, each at most half
-// of the point's mean distance (`most_radius`), the fine bound is 1.5 M + S (`max_radius`) and the coarse one
-// twice that (`coarse_bound`). Points without a star, or with large balls only, do not count; where none
-// counts, M and S are that half. The bounds of a point without a star are 0.
-// A batch of points at once: keeps its memory.
+// M is the median circumradius of a point and its neighbours, and S that of their spreads. Each is at most
+// half of the point's mean distance (`most_radius`). The fine bound is 1.5 M + S (`max_radius`), and the
+// coarse one twice that (`coarse_bound`). Points without a star, or with large balls only, do not count;
+// where none counts, M and S are that half. The bounds of a point without a star are 0. A batch of points at
+// once: keeps its memory.
 class RadiusBounder {
  public:
   RadiusBounder(std::span<const Sampling> samplings, const TangentialConfig& config)

@@ -16,8 +16,8 @@
 
 namespace lacuna {
 
-// Of a star, the smallest circumradii that do not lie in a hole (`hole_radius`), in units of
-// `Sampling::distance`; infinity where there are fewer.
+// The smallest circumradii of a star that do not lie in a hole (`hole_radius`), in units of
+// `Sampling::distance`. They are infinite where there are fewer.
 struct StarCircles {
   static constexpr std::size_t kMost = 8;
   std::array<float, kMost> radii;
@@ -33,8 +33,8 @@ class SamplingRadius {
   void clear() { circles_.clear(); }
   // The circles of the point's star, or of a neighbour's.
   void add(const StarCircles& circles, double distance);
-  // What nine in ten of the circles within a bound do not exceed, rounded up to a 64th of the bound; the
-  // bound itself where there are none. Cost: linear.
+  // Nine in ten of the circumradii within a bound do not exceed this radius. It is rounded up to a 64th of
+  // the bound, and it is the bound where there are none. Cost: linear.
   double within(double bound);
 
  private:

@@ -20,8 +20,8 @@ struct View {
   V x, y;
 };
 
-// The weights make it a ball orthogonal to small balls around the points: any two views of four points on one
-// circle then agree on how it falls into triangles.
+// Owing to the weights, the sphere through a triangle is orthogonal to small spheres around the points. So
+// any two views of four points on one circle agree on its triangles.
 template <class V>
 HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
   const V power = dot(offset, offset) + weight;

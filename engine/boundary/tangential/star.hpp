@@ -67,9 +67,9 @@ struct Star {
 
   std::size_t size() const { return link.size(); }
   std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
-  // Of a measured star: the bound that the triangle beyond link vertex i keeps to.
+  // The bound that the triangle beyond link vertex i of a measured star keeps to.
   Scale scale_of(std::size_t i) const { return bound.scale_of(link[i].radius); }
-  // The same of the triangle with a and b; kNone if the star does not have it.
+  // The bound of the triangle with a and b; kNone if the star does not have it.
   Scale scale_of(Name a, Name b) const {
     for (std::size_t i = 0; i < link.size(); ++i) {
       if (link[i].point != a) continue;
@@ -102,8 +102,8 @@ inline bool is_in_belt(PointState state) {
   return state == PointState::kInner || state == PointState::kBorder;
 }
 
-// Of a triangle of a star: the bound within which the stars of all its active vertices have it. While it is
-// undecided, vertices in other tiles may still raise the scale.
+// The consistency of a triangle of a star. `scale` is the bound within which the stars of all its active
+// vertices have it. While it is undecided, vertices in other tiles may still raise the scale.
 struct Consistency {
   Scale scale = Scale::kNone;
   bool is_undecided = false;
@@ -111,8 +111,9 @@ struct Consistency {
   bool at(Scale bound) const { return scale <= bound; }
 };
 
-// visit(first, last, radius): each boundary wedge of a star's point at a scale, by its first and last link
-// vertex, with the largest radius between them. None where no triangle is consistent.
+// Calls visit(first, last, radius) for each boundary wedge of a star's point at a scale. A wedge is given by
+// its first and last link vertex, with the largest circumradius between them. None where no triangle is
+// consistent.
 template <class Name, class Visit>
 void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Scale scale,
                     Visit&& visit) {

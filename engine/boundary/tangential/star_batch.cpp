@@ -24,8 +24,8 @@ HWY_INLINE Count count(std::size_t number) {
   return hn::Set(kWhole, number);
 }
 
-// A view at most this far from an edge is on it, in units of the edge's |x| + |y| times the distance of
-// the farthest view: 500 times what rounding can do.
+// A view at most this far from an edge is on it. The unit is the edge's |x| + |y| times the distance of the
+// farthest view. That is 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 
 // What rounding can do at most, by a hundred times, in units of the square of that distance.
@@ -34,7 +34,7 @@ constexpr double kRounding = 1e-13;
 // Comparisons of rows depend on one another: as many at a time do not.
 constexpr std::size_t kChains = 4;
 
-// Of as many points as a vector holds, by row.
+// The views of as many points as a vector holds, by neighbour.
 struct Views {
   View<V> at[kMostNeighbours];
   std::size_t rows;  // an even number
@@ -60,7 +60,7 @@ HWY_INLINE Sites load_sites(const double* const (&sites)[kStep]) {
   return {{x, y, z}, {shift_x, shift_y, shift_z}, closeness, weight};
 }
 
-// Of points `first` and the next. A neighbour that a point has not is at an offset of 0.
+// Finds the views of points `first` and the next. A neighbour that a point has not is at an offset of 0.
 void find_views(const StarBatch& batch, std::size_t first, Views& views) {
   const double* points[kStep];
   double counts[kStep];

@@ -1,7 +1,7 @@
 // Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
-// consistent triangle. A boundary wedge is a point with the two such edges between which, around the point,
-// there is no consistent triangle; wedges chain to closed curves. That is done within a fine and a coarse
-// bound on the triangles at once, and the better of both curves stands.
+// consistent triangle. A boundary wedge is a point with two such edges, between which there is no consistent
+// triangle around the point. Wedges chain to closed curves. That is done within a fine and a coarse bound on
+// the triangles at once, and the better of both curves stands.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
