@@ -64,8 +64,8 @@ class OutputSet {
   explicit OutputSet(Overwrite overwrite) : overwrite_(overwrite) {}
 
   // Checks the name and opens the file. The reference is valid as long as the set. A library must make its
-  // file at the OutputFile's place before commit, and have closed it; where it makes none, the file that has
-  // the name goes.
+  // file at the OutputFile's place before commit, and have closed it. Where it makes none, the file that has
+  // the name is removed.
   OutputFile& add(const std::filesystem::path& file, const FileMark& mark, Writer writer = Writer::kThis);
 
   // An own file of this name, if there is one, goes with commit; any other stays.
