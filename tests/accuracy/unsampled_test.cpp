@@ -12,7 +12,7 @@
 namespace lacuna::accuracy {
 namespace {
 
-// Of a cloud the points between two distances from a vertical line, in order around it.
+// Returns the points of a cloud between two distances from a vertical line, in order around it.
 LoopIds ring(const Cloud& cloud, const Eigen::Vector2d& centre, double nearest, double farthest) {
   LoopIds ids;
   const auto from_centre = [&](std::uint64_t id) -> Eigen::Vector2d {

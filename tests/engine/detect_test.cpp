@@ -28,10 +28,10 @@ std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointI
   return loops;
 }
 
-// Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights
-// 1 - |n . n'| differ by rounding noise; where such edges disagree about the side, or a normal is at right
-// angles to the next, or lies level where it should point up, any of the results is as good as another. All
-// else has one result.
+// Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights 1 -
+// |n . n'| differ by rounding noise. Such edges may disagree about the side. A normal may be at right angles
+// to the next, or lie level where it should point up. Then any of the results is as good as another. All else
+// has one result.
 std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   constexpr double kNoise = 1e-12;
   struct Pair {
@@ -80,9 +80,9 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   return undecided;
 }
 
-// Points judged by rounding alone: with a neighbour at the cone exactly, or so near the normal line that
-// noise makes its direction, or with a turn at a crease that halves the angle probability exactly. Their
-// probabilities are not compared.
+// Points judged by rounding alone. They have a neighbour exactly at the cone, or so near the normal line that
+// noise makes its direction. Or a turn at a crease halves the angle probability exactly. Their probabilities
+// are not compared.
 std::vector<bool> judged_by_rounding(const reference::Detection& plain, const Cloud& cloud, double cone) {
   constexpr double kNoise = 1e-9;
   const double cos_cone = std::cos(cone * std::numbers::pi / 180);

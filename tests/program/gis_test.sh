@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: the coordinates, measures and the
-# coordinate reference system; the same bytes for every tiling; what is replaced, and what is refused.
+# The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: coordinates, measures and the coordinate
+# reference system. The bytes are equal for every tiling. Other cases: what is replaced, and what is refused.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 work=$(mktemp -d)

@@ -39,8 +39,8 @@ std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
                                             const GoldenSetting& setting);
 GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
 
-// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances
-// within 1e-12 of themselves. What the tested program does not tell, `found` takes from `golden`.
+// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances within
+// 1e-12 of themselves. What the tested program does not return, `found` takes from `golden`.
 void check_golden(const std::vector<GoldenPoint>& found, const std::vector<GoldenPoint>& golden);
 GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 

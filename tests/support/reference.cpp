@@ -205,7 +205,7 @@ Moments weighted_moments(const Offsets& offsets, double sigma) {
   double total = 0;
   Moments moments;
   for (const Vector3d& q : offsets) {
-    // The engine's exp (tests/engine/simd/maths_test compares it with the standard library's): where two
+    // The engine's exp (tests/engine/simd/maths_test compares it with the standard library's). Where two
     // eigenvalues are equal but for rounding, the last bits of the weights decide where the normal points.
     weights.push_back(exponential(squared_length(q) * (-1 / (sigma * sigma))));
     total += weights.back();
@@ -398,7 +398,7 @@ bool by_weight_then_ids(const Edge& a, const Edge& b) {
   return std::tie(a.weight, a.low, a.high) < std::tie(b.weight, b.low, b.high);
 }
 
-// Of a root: to +z; a horizontal one to +y, else to +x.
+// Whether the normal of a root points up: to +z; a horizontal one to +y, else to +x.
 bool points_up(const Vector3d& n) {
   if (n.z() != 0) return n.z() > 0;
   return n.y() != 0 ? n.y() > 0 : n.x() > 0;
@@ -526,8 +526,8 @@ Graph span(Detection& result) {
 
 // ---- 6. Loops ----------------------------------------------------------------------------------------
 
-// Takes off the trees that hang off the graph: no loop contains them, and the order in which a search meets
-// all other vertices stays the same. (Bridges stay; a search from one finds nothing.)
+// Takes off the trees that hang off the graph. No loop contains them, and the order in which a search reaches
+// all other vertices stays. (Bridges stay; a search from one finds nothing.)
 void strip_trees(Graph& graph) {
   std::vector<PointId> leaves;
   for (std::size_t i = 0; i < graph.size(); ++i) {
@@ -682,7 +682,7 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-// Stars of points and of their neighbours, found when they are first asked for.
+// Stars of points and of their neighbours, found when they are first needed.
 class Stars {
  public:
   Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
@@ -724,7 +724,7 @@ class Stars {
     for (const std::size_t scale : {0, 1}) star.sampling[scale] = sampling(around, star.radius[scale]);
   }
 
-  // Of the eight smallest balls of each star that do not lie in a hole; to a 64th.
+  // Takes the eight smallest circumradii of each star that do not lie in a hole, to a 64th.
   double sampling(const std::vector<PointId>& around, double most) {
     std::vector<double> balls;
     for (const PointId q : around) {
@@ -816,7 +816,7 @@ struct CurvePoint {
   Evidence evidence;
 };
 
-// Of all ways to write a closed curve, the one whose points come first.
+// Returns the way to write a closed curve whose points come first.
 std::vector<CurvePoint> first_way(std::vector<CurvePoint> rim) {
   const auto ids = [](const std::vector<CurvePoint>& way) {
     std::vector<PointId> ids;

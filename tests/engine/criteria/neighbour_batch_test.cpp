@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna {
-// The last position is the last there is: nothing is read beyond it (valgrind would tell).
+// The last position is the last there is: nothing is read beyond it (valgrind would report it).
 TEST_CASE("a row has the offsets of as many neighbours as there are points, and 0 where there are no more") {
   Random random(8);
   std::size_t wrong = 0;

@@ -19,7 +19,8 @@ std::vector<std::vector<PointId>> ids_of(const Rows& rows, const TilePoints& poi
   return ids;
 }
 
-// Of the tile's owned points; nothing after section 1 is computed beyond what it must.
+// Returns the neighbourhoods of the tile's owned points; nothing after section 1 is computed beyond what it
+// must.
 std::vector<std::vector<PointId>> plain(const Cloud& cloud, const TilePoints& points, std::size_t k,
                                         double eps) {
   Config config;

@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<Batch<double>>;
 
-// Of all columns, numbers that are not where the standard library puts them.
+// Counts the numbers of all columns that are not where the standard library puts them.
 std::size_t misplaced(const Rows& rows) {
   Rows sorted = rows;
   sort_rows(sorted.data(), rows.size());

@@ -52,7 +52,7 @@ TEST_CASE("circles of a star are those that do not lie in a hole, the eight smal
 
 TEST_CASE(
     "nine in ten circles within a bound are no larger than the sampling radius, to a 64th of the bound") {
-  // Of 1 to 100 the one after the first 90, which is 91.
+  // From 1 to 100, it is the one after the first 90, which is 91.
   for (const double scale : {1., 1e-9, 1e9}) {
     SamplingRadius around = counting_to(100, scale);
     CHECK(around.within(128 * scale) / scale == Approx(92).epsilon(1e-12));            // steps of 2
