@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 to the holes of a scan: installs, builds, makes a scan of about 400,000 points in demo/, finds
-# its holes, and compares them with the true ones. A build folder that exists keeps its options.
+# From a fresh Debian 12 to the holes of a scan. It installs, builds, generates a scan of about 400,000 points in demo/,
+# finds its holes, and compares them with the true ones. A build folder that exists keeps its options.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -9,7 +9,8 @@
 
 namespace lacuna {
 
-// Of the files that are read, in the order of usage.md. Others are read too: formats are known by content.
+// The endings of the files that are read, in the order of usage.md. Others are read too: formats are known by
+// content.
 inline constexpr std::array<std::string_view, 15> kScanEndings = {
     "ply", "las", "laz", "e57", "ptx", "pcd", "obj", "off", "stl", "xyz", "txt", "csv", "pts", "asc", "xyzn"};
 

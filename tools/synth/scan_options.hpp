@@ -1,4 +1,4 @@
-// What `lacuna synth scan` can be asked for.
+// The options of `lacuna synth scan`.
 #pragma once
 
 #include "io/results/output_set.hpp"

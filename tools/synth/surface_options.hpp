@@ -1,4 +1,4 @@
-// What `lacuna synth surface` can be asked for.
+// The options of `lacuna synth surface`.
 #pragma once
 
 #include "io/results/output_set.hpp"
