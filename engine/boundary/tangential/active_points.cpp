@@ -17,7 +17,7 @@ constexpr std::size_t kAhead = 8;
 // Finds the points and measures their stars.
 class TileStarFinder {
  public:
-  TileStarFinder(const TilePoints& points, const Rows& neighbourhoods,
+  TileStarFinder(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                  std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
                  const TangentialConfig& config)
       : points_(points),
@@ -237,7 +237,7 @@ class TileStarFinder {
   }
 
   const TilePoints& points_;
-  const Rows& neighbourhoods_;
+  const Neighbourhoods& neighbourhoods_;
   std::span<const Evaluation> evaluations_;
   const TangentialConfig& config_;
   std::unique_ptr<Site[]> sites_;
@@ -253,7 +253,7 @@ class TileStarFinder {
 
 }  // namespace
 
-TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
+TileStars find_stars(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                      std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
                      std::span<const std::uint8_t> is_border, const TangentialConfig& config) {
   return TileStarFinder(points, neighbourhoods, evaluations, is_border, config).find(seeds);

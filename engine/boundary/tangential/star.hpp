@@ -19,20 +19,20 @@ struct alignas(64) Site {
   double weight;     // decides ties among points on one circle, alike for all of them
 };
 
-// One vertex of a star's link, and the ball that rests on the star's point, this vertex and the next one
-// around.
+// One vertex of a star's link, and the circumradius of the triangle of the star's point, this vertex and the
+// next one around.
 template <class Name>
 struct LinkVertex {
   Name point;
-  float radius;  // of the ball, in units of `Sampling::distance`
+  float radius;  // in units of `Sampling::distance`
 };
 
 // How points lie around one.
 struct Sampling {
   double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from
                         // each other, count little); 0: the point has no star
-  double circle = 0;    // median radius of its balls that lie among points; 0: there are none
-  double spread = 0;    // and how far the smallest of these is below
+  double median_radius = 0;  // median circumradius of its triangles that lie among points; 0: there are none
+  double spread = 0;         // and how far the smallest of these is below
 };
 
 // The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.3 and C.6).
@@ -43,7 +43,7 @@ enum class Scale : std::uint8_t {
 };
 inline constexpr std::array kScales{Scale::kFine, Scale::kCoarse};
 
-// Which balls make a triangle, in units of `Sampling::distance`.
+// The largest circumradii of triangles, in units of `Sampling::distance`.
 struct RadiusBound {
   float fine = 0, coarse = 0;
 

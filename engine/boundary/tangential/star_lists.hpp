@@ -77,7 +77,7 @@ struct RemoteTriangle {
 // What the stars around one need of it.
 struct StarSample {
   Sampling sampling;
-  StarCircles circles;
+  StarRadii radii;
 };
 
 // Lists are by tile.

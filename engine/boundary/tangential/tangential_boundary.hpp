@@ -17,7 +17,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
   void take(const EvaluatedTile& tile) override;
-  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges by itself.
+  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges anyway.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes
   // through.

@@ -1,5 +1,5 @@
-// Stars found side by side are those of the exact fallback, from every instruction set and beside whatever
-// others.
+// Stars of a batch are those of the exact fallback, from every instruction set and with any others in the
+// batch.
 #include "engine/boundary/tangential/stars.hpp"
 
 #include "tests/support/clouds.hpp"
@@ -131,10 +131,12 @@ TEST_CASE(
   CHECK(star[1].radius == Approx(0.6 * std::sqrt(2.0)));
 }
 
-TEST_CASE("where all neighbours are on one side, the star is closed by an edge with the largest ball") {
+TEST_CASE(
+    "where all neighbours are on one side, the star is closed by an edge with the largest circumradius") {
   const Link star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
   CHECK(names(star).size() == 3);
-  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestBall; }) == 1);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestRadius; }) ==
+        1);
 }
 
 TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
