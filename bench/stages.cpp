@@ -62,8 +62,8 @@ const TilePoints& tile() {
   return points;
 }
 
-const Rows& neighbourhoods() {
-  static const Rows rows = lacuna::find_neighbourhoods(tile(), kNeighbours, 0);
+const Neighbourhoods& neighbourhoods() {
+  static const Neighbourhoods rows = lacuna::find_neighbourhoods(tile(), kNeighbours, 0);
   return rows;
 }
 
@@ -340,7 +340,7 @@ struct NoisySample {
   }
 
   TilePoints points;
-  Rows rows;
+  Neighbourhoods rows;
   std::vector<Evaluation> evaluations;
   std::vector<LocalIndex> seeds;
   std::vector<std::uint8_t> is_border;  // none

@@ -14,7 +14,7 @@ namespace lacuna {
 // zero or non-finite one is estimated. Degenerate points get the values of the method, section 3. `values`
 // takes the criteria of each owned point, those of a point next to each other, in the order of the table.
 // Empty: they are not wanted.
-std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
+std::vector<Evaluation> evaluate(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria, std::span<double> values = {});
 

@@ -47,7 +47,7 @@ struct Summary {
   double mean_neighbours = 0;       // K
   double mean_edge_length = 0;      // over the edges of G
   double eps = 0;                   // in effect
-  std::int64_t e = 0;               // in effect; 0: loops by stars
+  std::int64_t e = 0;               // in effect; 0: method tangential
   std::uint64_t tiles = 0;
   std::uint64_t tile_points = 0;   // in effect
   std::uint64_t threads = 0;       // in effect

@@ -37,20 +37,20 @@ double wanted_candidates(std::size_t neighbours) {
 BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
     : positions_(positions), ids_(ids), tree_(positions) {}
 
-void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Lists lists) {
   for (LocalIndex begin = first, end; begin < last; begin = end) {
     end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
-    find(begin, end, k, {rows[begin - first], rows.stride});
+    find(begin, end, k, {lists[begin - first], lists.stride});
   }
 }
 
 // Neighbours of the queries of a run.
-void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Lists lists) {
   prepare(neighbours_of(k));
   if (neighbours_ == 0) return;
   if (guess_ == 0) guess_ = distance_to_last(first);
   list_run(first, last, first);
-  rank(first, last, rows);
+  rank(first, last, lists);
 }
 
 void BlockSearch::prepare(std::size_t neighbours) {
@@ -110,7 +110,7 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
 // half of the squared radius holds half of the points.
 void BlockSearch::narrow(CandidateList& list) {
   const double wanted = 1.2 * wanted_candidates(neighbours_);
-  if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
+  if (list.count <= kBatchesInRegisters || wanted > kBatchesInRegisters) return;
   const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
   narrow_list(limit, neighbours_ + 1, list);
   set_distance_bound(list);
@@ -134,7 +134,7 @@ void BlockSearch::set_distance_bound(CandidateList& list) const {
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.
-void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
+void BlockSearch::rank(LocalIndex first, LocalIndex last, Lists lists) {
   // The query itself, its neighbours, and what comes after them, which must not be as near as the last.
   const std::size_t wanted = neighbours_ + 2;
   const bool can_rank = wanted <= kMostCandidates;
@@ -143,7 +143,7 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
     const std::size_t place = query - first;
     const CandidateList& list = lists_[place];
     const Ranking& ranking = rankings_[place / kQueries];
-    const std::span found(rows[place], neighbours_);
+    const std::span found(lists[place], neighbours_);
     if (!can_rank || list.count == 0 || ranking.is_ambiguous[place % kQueries]) {
       find_exactly(query, list, found);
     } else {

@@ -80,9 +80,9 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   return undecided;
 }
 
-// Points judged by rounding alone. They have a neighbour exactly at the cone, or so near the normal line that
-// noise makes its direction. Or a turn at a crease halves the angle probability exactly. Their probabilities
-// are not compared.
+// Points whose criteria rounding alone decides. They have a neighbour exactly at the cone, or so near the
+// normal line that noise makes its direction. Or a turn at a crease halves the angle probability exactly.
+// Their probabilities are not compared.
 std::vector<bool> judged_by_rounding(const reference::Detection& plain, const Cloud& cloud, double cone) {
   constexpr double kNoise = 1e-9;
   const double cos_cone = std::cos(cone * std::numbers::pi / 180);

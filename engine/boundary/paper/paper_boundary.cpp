@@ -15,7 +15,7 @@ namespace {
 // Measured: edges, vertices and graph of a component while it is spanned.
 constexpr std::uint64_t kBytesPerEdge = 120;
 
-// The same number for each vertex of a tile.
+// Measured as well, for each vertex of a tile.
 constexpr std::uint64_t kBytesPerVertex = 280;
 
 // Steps around the smallest hole that edges of neighbourhoods of K points do not cross.

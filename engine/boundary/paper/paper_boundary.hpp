@@ -11,7 +11,7 @@
 
 namespace lacuna {
 
-// An edge out of the tile, to be judged once Pi of its foreign end is known.
+// An edge out of the tile, to be decided once Pi of its foreign end is known.
 struct StoredCrossing {
   Vertex own, foreign;
   Strength strength;  // of its own end
