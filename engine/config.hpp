@@ -63,13 +63,13 @@ struct LoopsConfig {
 // The constants of the tangential method, all of them. Lengths are relative, so that none depends on the
 // scan's unit. Here d is the mean distance of a point to its neighbours. M is the median circumradius of the
 // triangles around it, and S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
-// Chosen on the made and real scans of bench/accuracy; its README has what happens when each is halved and
-// doubled.
+// Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
+// and doubled.
 struct TangentialConfig {
   // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing row.
   double max_radius = 1.5;
-  // A circle with a radius of more than `hole_radius` d lies in a hole: M and S leave it out. That is twice
-  // the grid's.
+  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is
+  // twice the grid's.
   double hole_radius = 0.85;
   // M and S are at most `most_radius` d each, a little more than the grid's M. Where half of the triangles
   // lie in holes, as on strips and islands, medians say nothing.
@@ -89,7 +89,7 @@ struct TangentialConfig {
   // Fitted by bench/accuracy/calibrate.py.
   double confidence_middle = 0.6;
   double confidence_slope = 25;
-  std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps by itself
+  std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
 
 struct SelectionConfig {
