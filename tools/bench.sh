@@ -157,9 +157,9 @@ run_once() {
 
 failures=()
 
-# Runs all programs on one case in turns, A A B B A A B B, so that a slow minute of the machine affects all. The first
-# run of a turn warms up. When a program of many gigabytes ends, a virtual machine gives them back to its host, and the
-# next program would wait for every page. What fails on a case is left out of the rest of it.
+# Runs all programs on one case in turns, A A B B A A B B. So a slow minute of the machine affects all. The first run of
+# a turn warms up. When a program of many gigabytes ends, a virtual machine gives them back to its host, and the next
+# program would wait for every page. What fails on a case is left out of the rest of it.
 run_case() {
   local with_peers=$1 run limit program turn
   local -a turns=()

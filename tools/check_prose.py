@@ -52,12 +52,13 @@ def marked_comments(text, mark):
 def python_comments(text):
     """Comments, and strings that are statements: docstrings."""
     lines = [""] * (text.count("\n") + 2)
-    before = tokenize.NEWLINE
+    before, last_comment = tokenize.NEWLINE, (0, 0)
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         row, column = token.start
-        if token.type == tokenize.COMMENT:
-            is_first = token.line[:column].strip() or not lines[row - 1]
-            lines[row] = ("\n" if is_first else "") + token.string[2:]
+        if token.type == tokenize.COMMENT and not token.string.startswith("#!"):
+            goes_on = (row - 1, column) == last_comment and not token.line[:column].strip()
+            lines[row] = ("" if goes_on else "\n") + token.string[2:]
+            last_comment = token.start
         elif token.type == tokenize.STRING and before in (tokenize.NEWLINE, tokenize.INDENT):
             for offset, line in enumerate(token.string.strip('"').splitlines()):
                 lines[row + offset] = line[column if offset and line[:column].isspace() else 0:]
@@ -106,7 +107,7 @@ def faults(path):
             words = [w for w in sentence.split() if re.search(r"\w", w)]
             if len(words) > MOST_WORDS:
                 yield number, f"{len(words)} words: {sentence}"
-            if WITHOUT_VERB.match(sentence):
+            if path.suffix != ".md" and WITHOUT_VERB.match(sentence):
                 yield number, f"no verb: {sentence}"
             for found in RETIRED.finditer(ALLOWED.sub("", sentence)):
                 yield number, f"retired word '{found.group(0).strip()}': {sentence}"

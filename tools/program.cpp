@@ -141,7 +141,7 @@ void prepare_process() {
 }  // namespace
 
 int run(int argc, char** argv) {
-  CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
+  CLI::App app("Lacuna finds holes in scanned surfaces, also in scans larger than memory.", "lacuna");
   app.set_version_flag("-V,--version", "lacuna " LACUNA_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);

@@ -44,8 +44,8 @@ status=0
 accuracy --colour || status=$?
 ((status == 2)) || fail "wrong usage has exit code $status"
 
-# A mesh of 30 x 30 squares in every encoding, with a vertex that no face uses. A ball cut out of it leaves its rim and
-# one hole.
+# A mesh of 30 x 30 squares in every encoding, with a vertex that no face uses. A ball cut out of it leaves its outer
+# edge and one hole.
 python3 - "$root/bench/accuracy" "$scratch" <<'END'
 import struct
 import sys
@@ -84,7 +84,7 @@ END
 grep -q '^found . of 2 true loops' "$scratch/told" || fail "the cut mesh has not two true loops: $(cat "$scratch/told")"
 grep -q '^found 2 of 2' "$scratch/told" || fail "the loops of the cut mesh are not found: $(cat "$scratch/told")"
 
-# Rays hit shapes where they should. A range map has rims that do not touch, and the wanted strays.
+# Rays hit shapes where they should. A range map has edges that do not touch, and the wanted strays.
 python3 - "$root/bench/accuracy" <<'END'
 import math
 import sys
@@ -131,7 +131,7 @@ assert len(clean.faces) == len(maps[0].faces) and len(clean.positions) < len(map
 assert set(range(len(clean.positions))) == {vertex for face in clean.faces for vertex in face}
 END
 
-# Two holes that share a vertex are two true loops, beside the rim. Degraded scans keep what is left of each true loop.
+# Two holes that share a vertex are two true loops, besides the outer edge. Degraded scans keep what is left of each true loop.
 python3 - "$root/bench/accuracy" <<'END'
 import math
 import random

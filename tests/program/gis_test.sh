@@ -120,7 +120,7 @@ done
 "$program" detect utm.las --out again --quiet
 [[ -z $(find again -name 'loops.*' ! -name loops.ply) ]]
 
-# The library is found beside the program, or where it is installed.
+# The library is found in the program's folder, or where it is installed.
 mkdir -p bin lib/lacuna
 cp "$program" bin/lacuna
 if bin/lacuna detect utm.las --out out --gpkg --quiet 2>missing.txt; then exit 1; fi

@@ -43,8 +43,8 @@ TEST_CASE("a run counts its loops in words") {
     run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
     return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
   };
-  CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve, 2 of them longer than 0.1\n"));
-  CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves, 1 of them longer than 0.1\n"));
+  CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve; 2 longer than 0.1\n"));
+  CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves; 1 longer than 0.1\n"));
 }
 
 TEST_CASE("help is for everything and version is one line") {
@@ -147,7 +147,7 @@ TEST_CASE("a printed config read again prints the same") {
   CHECK(run_program({"detect", "--print-config", "--config", file}).out == first.out);
 }
 
-TEST_CASE("the command line counts over the config file, the file over the defaults") {
+TEST_CASE("the command line overrides the config file, and the file the defaults") {
   const ScratchFolder scratch;
   const std::string file =
       scratch.write("c.toml", "[neighbourhood]\nk = 20\n[output]\npoints = true\n[spanning]\ne = 9\n");

@@ -24,7 +24,7 @@ struct PointAccuracy {
 };
 
 // Points at one place count once. The truth is the vertices of all loops given. Within the radius, it is
-// their edges, since a boundary is a curve: where few of its points were sampled, those between them are on
+// their edges, since a boundary is a curve. Where few of its points were sampled, those between them are on
 // it as well.
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
                            std::span<const Eigen::Vector3d> positions,

@@ -21,7 +21,7 @@ enum class ValueKind {
   kFile,
   kFolder,
   kScan,    // a file with one of kScanEndings, or a folder
-  kConfig,  // a TOML file, or the name of a config in share/lacuna/configs beside the program
+  kConfig,  // a TOML file, or the name of a config in share/lacuna/configs where the program is installed
 };
 ValueKind kind_of(const OptionEntry& option);
 

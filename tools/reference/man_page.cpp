@@ -182,7 +182,7 @@ finds by name.
 std::string print_man_page(const CommandEntry& program, const std::string& version, const std::string& date) {
   const std::vector<const CommandEntry*> commands = all_commands(program);
   std::string page = ".TH LACUNA 1 " + date + " \"lacuna " + version + "\" \"User Commands\"\n";
-  page += ".SH NAME\nlacuna \\- find every hole in a scan that is larger than memory\n.SH SYNOPSIS\n.nh\n";
+  page += ".SH NAME\nlacuna \\- find holes in scanned surfaces, also in scans larger than memory\n.SH SYNOPSIS\n.nh\n";
   for (const CommandEntry* command : commands) {
     if (command->commands.empty()) page += synopsis_of(*command);
   }

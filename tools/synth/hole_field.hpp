@@ -10,7 +10,7 @@
 namespace lacuna::synth {
 
 // Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it. So none
-// comes near another, the rim, a density step or the edge of a panel.
+// comes near another, the outer edge, a density step or the edge of a panel.
 //
 // On a jittered grid, the surface is the quads whose four nodes exist. A loop is the closed chain of edges
 // with exactly one such quad. A hole has exactly one loop, which visits no node twice, because the nodes that
