@@ -82,8 +82,8 @@ struct LasParts {
   std::string crs;                       // of files of other formats
 };
 
-// Throws `Error` where it is not possible. Reasons: coordinates that do not fit one scale, times of different
-// kinds, waveforms of several files, unequal arrays of extra bytes, records of more than 65535 bytes. The
+// Throws `Error` where it is not possible. Reasons: coordinates do not fit one scale, times are of different
+// kinds, waveforms come from several files, arrays of extra bytes differ, or records exceed 65535 bytes. The
 // error names the file and the way out.
 LasForm join_las(const LasParts& parts);
 

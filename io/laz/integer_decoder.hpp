@@ -9,8 +9,8 @@
 namespace lacuna::laz {
 
 // Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a
-// number k, in one model for each context, and then as its place in the k-th interval. That is 0 and 1 for k
-// = 0, else -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for
+// number k, in one model for each context. Then comes its place in the k-th interval. That is 0 and 1 for k =
+// 0, else -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for
 // each k, the lower ones none.
 template <unsigned kBits, unsigned kContexts = 1>
 class IntegerDecoder {

@@ -95,7 +95,7 @@ std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 // Decompresses the `points` records of a chunk, record_bytes() each, as they are in an uncompressed LAS file.
 // `records` holds exactly these. Thread-safe. Throws `Corrupt` where the chunk is cut or cannot be right;
 // never reads beyond `chunk`. Changed bytes inside a chunk are not always noticed: the format has no
-// checksum. Memory beside `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
+// checksum. Memory besides `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
                   std::span<std::byte> records);
 

@@ -16,8 +16,8 @@ bool looks_like_pcd(const FileStart& start);
 // place of rays without return; coordinates are as they stand. Points that are NaN are rows like any others.
 // A file too short for its header, or with more data behind it (zeros behind the rows of a binary file
 // apart), is an `Error`. A compressed file stores each field for all points, one field after the other. It is
-// unpacked twice, by one stream for each field, at most 256 of them. Memory beside the batch: 70 KiB a field,
-// whatever the number of points.
+// unpacked twice, by one stream for each field, at most 256 of them. Memory besides the batch: 70 KiB a
+// field, whatever the number of points.
 std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna

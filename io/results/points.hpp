@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// As config.points_format says. With `input`, it is the format of the files where all have the same and it
-// can be written: PLY, LAS (LAZ too), PCD, and CSV for text. Else it is PLY. Never kInput.
+// As config.points_format says. With `input`, it is the format of the files, if all have the same and it can
+// be written. That holds for PLY, LAS (LAZ too), PCD, and CSV for text. Else it is PLY. Never kInput.
 PointsFormat points_format(const FileScan& scan, const OutputConfig& config);
 std::string points_file(const FileScan& scan, const OutputConfig& config);  // "points.ply" and so on
 

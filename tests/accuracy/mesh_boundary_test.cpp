@@ -16,7 +16,7 @@ namespace {
 using Ids = std::vector<std::uint64_t>;
 
 // A disc of n triangles around its centre. With `torn`, every triangle brings points of its own, so that the
-// disc hangs together by coordinates only. Returns the ids of its rim.
+// disc hangs together by coordinates only. Returns the ids of its edge.
 Ids add_disc(Drawing& drawing, std::vector<Triangle>& triangles, std::uint64_t n, double x, bool torn) {
   const LoopIds rim = drawing.ring(n, x, 0);
   const std::uint64_t centre = drawing.point(x, -0.0);

@@ -66,7 +66,8 @@ Cloud plane(int n);
 Cloud lattice(int n);
 // n points of a Fibonacci spiral on the unit sphere: even, no ties.
 Cloud sphere(int n);
-// nu points around, nv rings a unit apart about the z axis; neighbours on a ring a unit apart too. Two rims.
+// nu points around, nv rings a unit apart about the z axis; neighbours on a ring a unit apart too. Two outer
+// edges.
 Cloud open_cylinder(int nu, int nv);
 // Two n x n half planes of the unit grid that join along the y axis.
 Cloud crease(int n, double degrees = 90);

@@ -1,5 +1,5 @@
-// Golden results of real scans, made by another program. They lie beside the checkout, in the shared folder;
-// tests are skipped where that is absent. Those of made clouds: made_golden.hpp.
+// Golden results of real scans, made by another program. They lie next to the checkout, in the shared folder;
+// tests are skipped where that is absent. Those of synthetic clouds: made_golden.hpp.
 #pragma once
 
 #include "engine/config.hpp"
@@ -14,8 +14,8 @@
 
 namespace lacuna {
 
-// $LACUNA_SHARED, else `shared` beside the source folder. Where that is no folder: none, and the running test
-// case is skipped.
+// $LACUNA_SHARED, else `shared` next to the source folder. Where that is no folder: none, and the running
+// test case is skipped.
 std::optional<std::filesystem::path> shared_folder();
 
 // A point in the golden results: ids and counts as written, -1 for no gap neighbour.

@@ -601,7 +601,7 @@ void find_loops(Graph graph, Detection& result) {
 
 // ---- Stars -------------------------------------------------------------------------------------------
 
-// In the order around the point; ball: the radius of the one on this corner and the next.
+// In the order around the point; ball: the circumradius with this corner and the next.
 struct Corner {
   PointId point;
   double ball;
@@ -610,8 +610,8 @@ struct Corner {
 struct Star {
   std::vector<Corner> corners;
   double distance = 0;               // harmonic mean of r over the point and its neighbours
-  std::array<double, 2> radius{};    // that a ball may have to make a triangle, by scale: fine, coarse
-  std::array<double, 2> sampling{};  // nine in ten of the balls around within these are no larger
+  std::array<double, 2> radius{};    // the bounds on a triangle's circumradius, by scale: fine, coarse
+  std::array<double, 2> sampling{};  // nine in ten of the circumradii around within these are no larger
 };
 
 // What confidence needs of a gap.
@@ -688,7 +688,7 @@ class Stars {
   Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
       : positions_(positions), config_(config), result_(result) {}
 
-  // Measured by the balls of its own and its neighbours' stars.
+  // Measured by the circumradii of its own and its neighbours' stars.
   const Star& operator[](PointId p) {
     const auto [at, is_new] = measured_.try_emplace(p, found(p));
     if (is_new && !at->second.corners.empty()) measure(p, at->second);
@@ -908,7 +908,7 @@ Loops find_curves(const Positions& positions, const TangentialConfig& config, co
                   std::size_t scale, Stars& stars, std::size_t& edges) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   std::vector<Gap> gaps;
-  std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
+  std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the curve)
   for (const PointId p : rough) {
     for (const Gap& gap : gaps_of(p, rough, stars, scale, positions, config)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
@@ -927,7 +927,7 @@ Loops find_curves(const Positions& positions, const TangentialConfig& config, co
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back({gaps[g].point, gaps[g].evidence});
-      g = at.at({next, rim.back().point});  // rims are closed
+      g = at.at({next, rim.back().point});  // curves are closed
     } while (g != start);
     if (rim.size() < least) continue;
     for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {

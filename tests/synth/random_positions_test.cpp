@@ -126,7 +126,7 @@ TEST_CASE(
     auto loops = loops_of(options.truth);
     REQUIRE(loops.size() == 61);
     std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    loops.pop_back();  // the rim
+    loops.pop_back();  // the outer edge
     for (const auto& loop : loops) {
       const std::vector<Position> corners = on_loop(loop, points);
       const double extent = area(corners);

@@ -165,7 +165,7 @@ TEST_CASE("past the density step there is the promised part of the points, and t
       for (const auto& loop : loops)
         past += std::any_of(loop.begin(), loop.end(),
                             [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
-      CHECK(past == 1);  // the rim
+      CHECK(past == 1);  // the outer edge
     }
 }
 
