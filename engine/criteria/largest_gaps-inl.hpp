@@ -119,7 +119,7 @@ void find_between(const Projection* projections, std::size_t ranks, float square
   const auto is_near = hn::Not(load(projections[0].squared_distance) > all<Single>(kNearestSquared));
   auto is_ambiguous = hn::Or(hn::RebindMask(kWhole, hn::Or(ambiguous, is_near)), used < whole(2));
 
-  sort_columns(kFloats, directions, ranks, first);
+  sort_lanes(kFloats, directions, ranks, first);
   const auto direction_at = [&](std::size_t rank)
                                 HWY_ATTR { return hn::BitCast(kWhole, load(directions[rank])); };
   const auto start = direction_at(0);

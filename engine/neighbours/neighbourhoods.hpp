@@ -5,10 +5,10 @@
 
 namespace lacuna {
 
-// List p: N_p of owned point p, nearest first, ties by id: N_p = { q : q in N_p^{k,eps} or p in N_q^{k,eps}
-// }. `points` must hold the owned points and every foreign point that a neighbourhood needs. These are among
-// the k nearest of an owned one, or have an owned one among theirs (listed in `linked`), or lie within eps of
-// one. Others do no harm. `eps` is a length; 0: off. Cost: one search per owned point, and one more with eps.
+// List p holds N_p of owned point p, nearest first, ties by id. N_p = { q : q in N_p^{k,eps} or p in
+// N_q^{k,eps} }. `points` must hold the owned points and every foreign point that a neighbourhood needs. Some are
+// among the k nearest of an owned one, others have an owned one among theirs (listed in `linked`), or lie
+// within eps. Others do no harm. `eps` is a length; 0: off. Cost: one search per owned point, and one more with eps.
 Neighbourhoods find_neighbourhoods(const TilePoints& points, std::size_t k, double eps);
 
 }  // namespace lacuna

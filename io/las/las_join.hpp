@@ -82,9 +82,9 @@ struct LasParts {
   std::string crs;                       // of files of other formats
 };
 
-// Throws `Error` where it is not possible. Reasons: coordinates do not fit one scale, times are of different
-// kinds, waveforms come from several files, arrays of extra bytes differ, or records exceed 65535 bytes. The
-// error names the file and the way out.
+// Throws `Error` where it is not possible. Coordinates may not fit one scale, and times may be of different
+// kinds. Waveforms may come from several files. Arrays of extra bytes may differ, or records exceed 65535
+// bytes. The error names the file and the way out.
 LasForm join_las(const LasParts& parts);
 
 }  // namespace lacuna

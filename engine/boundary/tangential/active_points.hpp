@@ -1,4 +1,4 @@
-// active_points: which points of a tile are active, and their stars (method.md, C.1).
+// active_points: which points of a tile are active, and their stars (method.md, C.4).
 //
 // A surface ends where triangles are missing. The search starts at the seeds, which are the paper's
 // candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. The vertices of

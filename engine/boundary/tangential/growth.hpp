@@ -15,7 +15,7 @@ namespace lacuna {
 // Whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point);
 
-// Grows the active points of a tile along inconsistent triangles (method.md, C.1). The open stars are those
+// Grows the active points of a tile along inconsistent triangles (method.md, C.4). The open stars are those
 // of all points that may become active; `remote_triangles` are sorted. A foreign star that is not measured
 // yet makes no triangle inconsistent: `is_measured`, by tile, are those whose stars sent their triangles.
 class Growth {

@@ -1,5 +1,5 @@
 // radius_bound: the largest circumradius of a triangle, from how points lie around the star's point
-// (method.md, C.3).
+// (method.md, C.2).
 //
 // The circumradii of a star show how large the empty circles of the sampling are, and how much they differ.
 // On a grid all are 0.71 spacings; among points at random there are small and large ones. At a hole some are

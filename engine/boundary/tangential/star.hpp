@@ -1,4 +1,4 @@
-// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.2).
+// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.1).
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -35,7 +35,7 @@ struct Sampling {
   double spread = 0;         // and how far the smallest of these is below
 };
 
-// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.3 and C.6).
+// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.2 and C.6).
 enum class Scale : std::uint8_t {
   kFine,
   kCoarse,  // not to the fine one
