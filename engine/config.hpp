@@ -66,7 +66,7 @@ struct LoopsConfig {
 // Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
 // and doubled.
 struct TangentialConfig {
-  // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing row.
+  // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing line.
   double max_radius = 1.5;
   // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is
   // twice the grid's.

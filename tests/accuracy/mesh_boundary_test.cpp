@@ -95,7 +95,7 @@ TEST_CASE("the boundary of two discs is two loops, also where their triangles sh
   }
 }
 
-TEST_CASE("holes are loops beside the rim, also where they touch at a vertex") {
+TEST_CASE("holes are loops apart from the outer edge, also where they touch at a vertex") {
   const auto one = sheet_without({{2, 2}});
   REQUIRE(one.size() == 2);
   CHECK(one[0].vertices.size() == 20);
@@ -120,7 +120,8 @@ TEST_CASE("holes that touch at several vertices stay apart, whatever lies betwee
   }
 }
 
-TEST_CASE("a hole that touches the rim is a loop of its own, and so is a part that hangs at a vertex") {
+TEST_CASE(
+    "a hole that touches the outer edge is a loop of its own, and so is a part that hangs at a vertex") {
   const auto hole = sheet_without({{1, 1}, {2, 1}, {0, 0}});
   REQUIRE(hole.size() == 2);
   CHECK(hole[0].vertices.size() == 20);

@@ -152,7 +152,7 @@ void check_seed(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a punched plane has its hole and its rim, as in the plain method") {
+TEST_CASE("a punched plane has its hole and its outer curve, as in the plain method") {
   const Cloud cloud = plane(40).punched({20, 20}, 5).jittered(0.2, 7);
   const reference::Detection plain = reference::detect(cloud.positions, {}, Config{});
   const Detected engine = run_engine(cloud, tiled({}, 300));
@@ -338,7 +338,8 @@ TEST_CASE("an open cylinder has two loops, one at each end") {
   CHECK(heights[1] == Approx(29).margin(0.5));
 }
 
-TEST_CASE("a step of the density to a quarter has no loop along it, only the rim") {  // the paper's figure 11
+TEST_CASE("a step of the density to a quarter has no loop along it, only the outer curve") {  // the paper's
+                                                                                              // figure 11
   const int n = 60;
   Cloud cloud;
   Random random(11);

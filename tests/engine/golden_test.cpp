@@ -108,7 +108,9 @@ TEST_CASE("the stages give the golden neighbour counts, mean distances and gap n
   }
 }
 
-TEST_CASE("the engine finds the paper's figures: the bunny's five holes, the range map's rim of 844 points") {
+TEST_CASE(
+    "the engine finds the paper's figures: the bunny's five holes, the range map's outer curve of 844 "
+    "points") {
   const auto shared = shared_folder();
   if (!shared) return;
   const Detected bunny = run_engine(read_cloud(*shared / "data/bun_zipper.ply"), with_paper_loops({}));

@@ -56,7 +56,7 @@ bool cross(const Position& a, const Position& b, const Position& c, const Positi
 
 }  // namespace
 
-TEST_CASE("random positions have the number of points asked for, give or take its square root") {
+TEST_CASE("random positions have the wanted number of points, give or take its square root") {
   for (const SurfaceKind kind : kAllKinds) {
     const ScratchFolder folder;
     SurfaceOptions options = random_surface(folder, kind);

@@ -9,7 +9,7 @@
 using namespace lacuna;
 using namespace lacuna::synth;
 
-TEST_CASE("every planted hole and every rim is one closed true loop in canonical form") {
+TEST_CASE("every planted hole and every outer edge is one closed true loop in canonical form") {
   const auto check = [](SurfaceKind kind, Order order, PositionKind positions) {
     const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder, kind);

@@ -79,7 +79,7 @@ void check_links(const Cloud& cloud, const Config& config) {
   check_links(cloud, config, {ids.begin(), ids.end()});
 }
 
-TEST_CASE("every edge to a nearest neighbour in another tile is told to both tiles, once") {
+TEST_CASE("every edge to a nearest neighbour in another tile is sent to both tiles, once") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Cloud cloud = random_cloud(9000 + seed);
     for (const std::int64_t tile_points : {1, 20, 300}) {
@@ -91,7 +91,7 @@ TEST_CASE("every edge to a nearest neighbour in another tile is told to both til
   }
 }
 
-TEST_CASE("ties, steps of density and lone outliers are told to both tiles, once") {
+TEST_CASE("ties, steps of density and lone outliers are sent to both tiles, once") {
   for (const std::int64_t tile_points : {1, 100, 1500}) check_links(hard_cloud(4), tiled({}, tile_points));
 }
 

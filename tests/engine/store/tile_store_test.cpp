@@ -56,7 +56,7 @@ StoredPoint numbered(std::uint64_t id) {
   return {double(id), 0, 0, PointId{id}};
 }
 
-TEST_CASE("points that come from several threads are in their tile once each, beside their normals") {
+TEST_CASE("points that come from several threads are in their tile once each, with their normals") {
   const ScratchFolder folder;
   TileStore store(folder / "", two_tiles(), 2, Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
