@@ -168,6 +168,15 @@ The loops, with their measures, point ids and coordinates.
 .IR DIR/holes.csv ,\  DIR/loops.ply ,\  DIR/boundary.ply
 The loops as a table, the loops as lines, and the boundary points.
 .TP
+.I DIR/sample.ply
+Points spread evenly over the scan, up to a million, for reports and pictures.
+It can be larger than a small scan.
+.TP
+.I DIR/report.html
+With
+.BR \-\-report :
+the scan and its holes in 3D, for a browser.
+.TP
 .I DIR/run.json
 Threads, tiles, times and memory of the run.
 .TP
