@@ -17,7 +17,7 @@
 namespace lacuna {
 
 struct Counts {
-  std::uint64_t points = 0;           // rows of the input
+  std::uint64_t points = 0;           // input rows
   std::uint64_t dropped = 0;          // with a non-finite coordinate
   std::uint64_t thinned_out = 0;      // represented by another point of their cell; 0 without a resolution
   std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id

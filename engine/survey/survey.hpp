@@ -19,7 +19,7 @@ struct SurveyedScan {
   std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
   Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis of the first points
-  std::uint64_t points = 0;                          // rows of the input
+  std::uint64_t points = 0;                          // input rows
   std::uint64_t dropped = 0;                         // with a non-finite coordinate
   std::uint64_t ids = 0;                             // all ids are below
   bool is_single = true;  // every finite coordinate is a number of single precision

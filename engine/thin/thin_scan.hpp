@@ -34,7 +34,7 @@ struct ThinnedScan {
   double resolution = 0;
   bool has_normals = false;
   Eigen::AlignedBox3d bounds;  // of all finite points; empty without any
-  std::uint64_t points = 0;    // rows of the input
+  std::uint64_t points = 0;    // input rows
   std::uint64_t dropped = 0;   // with a non-finite coordinate
   // By block of the representative's id: all finite points of the input. Only with output.points.
   std::optional<AppendLists<Represented>> represented;

@@ -12,7 +12,7 @@
 
 namespace lacuna {
 
-// Vertices are numbered in any way (near in number, near in memory); row v lists the neighbours of v in
+// Vertices are numbered in any way (near in number, near in memory); list v holds the neighbours of v in
 // ascending order of their ids.
 struct SpanningGraph {
   std::span<const PointId> ids;            // of each vertex
