@@ -30,8 +30,8 @@ bool in_hole(std::uint32_t row, std::uint32_t column) {
   return across * across + down * down < radius * radius;
 }
 
-// Nodes (u, v) in the unit square go to exp(ln 2 (u + i v)): angles stay, and the spacing grows with u from
-// 1 to 2 times the smallest.
+// Nodes (u, v) in the unit square go to exp(ln 2 (u + i v)). Angles stay, and the spacing grows with u from 1
+// to 2 times the smallest.
 Eigen::Vector3d place(double u, double v) {
   const double distance = std::exp2(u), angle = std::numbers::ln2 * v;
   const double x = distance * std::cos(angle), y = distance * std::sin(angle);

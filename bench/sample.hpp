@@ -10,8 +10,8 @@ namespace lacuna {
 
 enum class SampleOrder { kScanline, kRandom };
 
-// Exactly `points` points on a jittered grid, its rows along arcs whose spacing grows by a factor of 2, so
-// that the density falls by a factor of 4, with a round hole of 4 to 12 spacings in every 64 x 64 nodes.
+// Returns exactly `points` points on a jittered grid whose lines follow arcs. Their spacing grows by a factor
+// of 2, so the density falls by a factor of 4. Every 64 x 64 nodes have a round hole of 4 to 12 spacings.
 // Coordinates are those of 32-bit floats, as in most scans. Same arguments, same points; the order of the
 // batch changes only ids.
 PointBatch sample_surface(std::uint32_t points, SampleOrder order);

@@ -1,6 +1,6 @@
 // What each stage costs per point, alone, on one thread, on one tile of 65,536 points: 15 neighbours, every
-// other parameter at its default. Counter `per_point`: time per point of the tile, comparable between
-// stages and with a whole run; counters of other names: per thing that the stage goes through.
+// other parameter at its default. Counter `per_point` is the time per point of the tile, comparable between
+// stages and with a whole run. Counters of other names are per thing that the stage goes through.
 #include "bench/sample.hpp"
 #include "engine/boundary/coherence.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
@@ -62,8 +62,8 @@ const TilePoints& tile() {
   return points;
 }
 
-const Rows& neighbourhoods() {
-  static const Rows rows = lacuna::find_neighbourhoods(tile(), kNeighbours, 0);
+const Neighbourhoods& neighbourhoods() {
+  static const Neighbourhoods rows = lacuna::find_neighbourhoods(tile(), kNeighbours, 0);
   return rows;
 }
 
@@ -340,7 +340,7 @@ struct NoisySample {
   }
 
   TilePoints points;
-  Rows rows;
+  Neighbourhoods rows;
   std::vector<Evaluation> evaluations;
   std::vector<LocalIndex> seeds;
   std::vector<std::uint8_t> is_border;  // none

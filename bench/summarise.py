@@ -24,8 +24,8 @@ class Configuration:
 
 
 def read(files):
-    """Of every configuration, in the order of the files: by phase, the values of all runs as (seconds, peak bytes
-    or None)."""
+    """The values of every configuration, in the order of the files. By phase, they are those of all runs as (seconds,
+    peak bytes or None)."""
     configurations = {}
     for file in files:
         with open(file, encoding="utf-8", newline="") as lines:
@@ -107,7 +107,7 @@ def print_phases(configurations):
 
 
 def print_readme(configurations):
-    """A row for each scan, order, number of threads and limit; made scans by size, then real ones as they come."""
+    """A row for each scan, order, number of threads and limit; synthetic scans by size, then real ones as they come."""
     print("| scan | points | order | memory limit | seconds | M points/s | peak MiB | times as fast as PCL |")
     print("|---|---|---|---|---|---|---|---|")
     ours = [key for key in configurations if key.program == "lacuna" and key.points >= LEAST_POINTS]

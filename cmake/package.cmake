@@ -2,7 +2,7 @@
 set(CPACK_PACKAGE_NAME lacuna)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Lacuna maintainers <maintainers@lacuna.invalid>" CACHE STRING "Name <address> of the package's maintainer")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "find every hole in a laser scan larger than memory")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "find holes in scanned surfaces, also in scans larger than memory")
 set(CPACK_PACKAGE_DESCRIPTION
     "Lacuna reads a registered laser scan, finds the loops around its holes and
 its outer boundaries, and writes them with their measures. The scan may be

@@ -1,6 +1,6 @@
-// Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own
-// struct as const; `parameters()` lists them all once, and the config file, the command line, the errors
-// and the printed config come from that list.
+// Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own struct
+// as const. `parameters()` lists them all once: the config file, the command line, the errors and the printed
+// config come from that list.
 #pragma once
 
 #include "engine/criteria/criteria.hpp"
@@ -61,26 +61,27 @@ struct LoopsConfig {
 };
 
 // The constants of the tangential method, all of them. Lengths are relative, so that none depends on the
-// scan's unit: d is the mean distance of a point to its neighbours, M the median circumradius of triangles
-// around it, S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0. Chosen on the made
-// and real scans of bench/accuracy; its README has what happens when each is halved and doubled.
+// scan's unit. Here d is the mean distance of a point to its neighbours. M is the median circumradius of the
+// triangles around it, and S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
+// Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
+// and doubled.
 struct TangentialConfig {
-  // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing row.
+  // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing line.
   double max_radius = 1.5;
-  // A circle with a radius of more than `hole_radius` d lies in a hole: M and S leave it out. That is twice
-  // the grid's.
+  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is
+  // twice the grid's.
   double hole_radius = 0.85;
-  // M and S are at most `most_radius` d each, a little more than the grid's M: where half of the circles lie
-  // in holes, as on strips and islands, medians say nothing.
+  // M and S are at most `most_radius` d each, a little more than the grid's M. Where half of the triangles
+  // lie in holes, as on strips and islands, medians say nothing.
   double most_radius = 0.5;
   // Curves are found within this bound and again within `coarse_bound` times it, where sparse places next to
   // dense ones are surface, too.
   double coarse_bound = 2;
-  // A loop within the first bound stands where those within the second one, on it, are together this share
-  // of its length, and where none of them is surer.
+  // A loop within the first bound stands where those within the second one, on it, are together this share of
+  // its length. It also stands where none of them is surer.
   double same_hole = 0.8;
-  // A point counts fully for a curve's confidence where the empty ball is this many times as large as the
-  // sampling radius: nine in ten of the circles around are no larger than that.
+  // A point counts fully for a curve's confidence where the empty circle is this many times as large as the
+  // sampling radius. Nine in ten of the circumradii around are no larger than that.
   double clear_radius = 2.5;
   // Sampling radii of length that confidence adds to each curve: short curves say little.
   double added_length = 4;
@@ -88,7 +89,7 @@ struct TangentialConfig {
   // Fitted by bench/accuracy/calibrate.py.
   double confidence_middle = 0.6;
   double confidence_slope = 25;
-  std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps by itself
+  std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
 
 struct SelectionConfig {

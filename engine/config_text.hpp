@@ -13,9 +13,9 @@ struct TextFault {
   std::string reason;    // and what is allowed
 };
 
-// The first line that toml++ 3.3 may not be given, none if all is well: on characters outside of ASCII it
-// runs into __builtin_unreachable unless they are in a comment or a string of one line, and on a section
-// without a name into an assertion.
+// Returns the first line that toml++ 3.3 may not be given, or none. It runs into __builtin_unreachable on
+// characters outside of ASCII, unless they are in a comment or a string of one line. A section without a name
+// is an assertion there.
 std::optional<TextFault> find_fault(std::string_view config_text);
 
 }  // namespace lacuna

@@ -34,27 +34,27 @@ struct Holes {
   Summary summary;                  // counts, bounds, and the parameters in effect
 };
 
-// Finds the loops around every hole of the surface that `points` sample, in any unit of length; all lengths
-// of the results are in the same unit. Non-finite points are dropped and counted. Empty input, and fewer
-// points than a hole needs, give no loops.
+// Finds the loops around the holes of the surface that `points` sample, in any unit of length. All lengths of
+// the results are in the same unit. Non-finite points are dropped and counted. Empty input, and fewer points
+// than a hole needs, give no loops.
 //
 // `config`: `input` is for files and has no effect; of `output`, `points` alone counts.
 // Throws `Error` for parameters that contradict each other, for a coordinate beyond `kFarthest`, and where
 // the workspace cannot be made or written to. The folder `run.workspace`, else that for temporary files,
 // holds the workspace, which is gone at the end.
 //
-// Cost: O(n log n) time; in memory the input, the results, and what `run.memory_limit` allows; on disk some
-// 100 bytes per point (`estimate` in engine/pipeline.hpp measures it). Calls from several threads are
-// independent of each other.
+// Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
+// `run.memory_limit` allows. The disk takes some 100 bytes per point (`estimate` in engine/pipeline.hpp
+// measures it). Calls from several threads are independent of each other.
 Holes find_holes(std::span<const Eigen::Vector3d> points, const Config& config = {});
 
-// The same with known normals, one per point, of any length; NaN or zero where one is not known. Throws
-// `Error` too where their number is not that of the points.
+// Finds the loops with known normals, one per point, of any length; NaN or zero where one is not known.
+// Throws `Error` too where their number is not that of the points.
 Holes find_holes(std::span<const Eigen::Vector3d> points, std::span<const Eigen::Vector3d> normals,
                  const Config& config = {});
 
-// The same for any source, which may be larger than memory where its loops are not, and where `output.points`
-// is off.
+// Finds the loops of any source. It may be larger than memory where its loops are not, and where
+// `output.points` is off.
 Holes find_holes(PointSource& scan, const Config& config = {});
 
 }  // namespace lacuna

@@ -42,7 +42,7 @@ std::vector<Parameter> parameters(Config& config) {
   const double below_90 = std::nextafter(90.0, 0.0);
   std::vector<Parameter> all = {
       {"scale", "resolution", &scale.resolution, 0, 1e100, "a length of 0 (automatic) or more",
-       "Edge of the cells of an absolute lattice, in units of the scan: one point represents each cell; 0: "
+       "Edge of the cells of an absolute lattice, in units of the scan: one point represents each cell. 0: "
        "chosen where "
        "noise or scan lines are coarser than the points.",
        kNothing},
@@ -58,7 +58,7 @@ std::vector<Parameter> parameters(Config& config) {
       {"neighbourhood", "eps", &neighbourhood.eps, 0, 1e150, "a length of 0 (off) or more",
        "Radius, in units of the scan, within which every point is a neighbour too.", kNothing},
       {"neighbourhood", "eps_fraction", &neighbourhood.eps_fraction, 0, 1, "a number from 0 (off) to 1",
-       "The same radius as a fraction of the bounding box's diagonal; set at most one of the two.", kNothing},
+       "That radius as a fraction of the bounding box's diagonal; set at most one of the two.", kNothing},
 
       {"normals", "crease_threshold", &normals.crease_threshold, 0, 1, "a number from 0 to 1",
        "Angle probability above which an estimated normal is turned at a crease.", kNothing},
@@ -99,7 +99,8 @@ std::vector<Parameter> parameters(Config& config) {
        "Largest circumradius of a triangle, in medians of those around it; their spread is added.",
        kTangential},
       {"tangential", "hole_radius", &tangential.hole_radius, 0.1, 4, "a number from 0.1 to 4",
-       "Circumradius above which a circle lies in a hole, in mean distances to neighbours; medians leave it "
+       "Circumradius above which a triangle lies in a hole, in mean distances to neighbours; medians leave "
+       "it "
        "out.",
        kTangential},
       {"tangential", "most_radius", &tangential.most_radius, 0.1, 1, "a number from 0.1 to 1",
@@ -112,7 +113,7 @@ std::vector<Parameter> parameters(Config& config) {
        "sure.",
        kTangential},
       {"tangential", "clear_radius", &tangential.clear_radius, 1.001, 100, "a number from 1.001 to 100",
-       "Empty circles that many times as large as those of the sampling count fully for a loop's confidence.",
+       "Circumradii that many times as large as the sampling radius count fully for a loop's confidence.",
        kTangential},
       {"tangential", "added_length", &tangential.added_length, 0, 1000, "a number from 0 to 1000",
        "Length without evidence that confidence adds to each boundary curve, in circumradii of the sampling.",

@@ -58,7 +58,7 @@ std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Jo
   return std::make_unique<TangentialBoundary>(store, job);
 }
 
-// Of the workspace, for a clean scan.
+// The bytes of a point in the workspace, for a clean scan.
 std::uint64_t bytes_per_point(const PointSource& scan, const Config& config, Precision precision,
                               std::uint64_t tile_points) {
   const std::uint64_t stored = precision == Precision::kSingle ? 16 : sizeof(StoredPoint);
@@ -106,7 +106,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   const double eps = eps_length(config.neighbourhood, extent);
   Summary summary = summarise(bucketed, job);
 
-  // Halo and evaluate: every point judged from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
+  // Halo and evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
   // keeps what it needs of an evaluated tile.
   refuse_balls(store.tiling(), eps, job);
   AppendLists<HaloEdge> halo = exchange_halo(store, job);

@@ -20,7 +20,7 @@ bool is_section(const std::vector<Parameter>& all, std::string_view name);
 // The error, with what is allowed and with the key that may be meant.
 std::string unknown_key(const std::vector<Parameter>& all, std::string_view section, std::string_view key);
 
-// Likewise. `is_table`: false for a key outside of all sections.
+// Returns the message for an unknown section. `is_table`: false for a key outside of all sections.
 std::string unknown_section(const std::vector<Parameter>& all, std::string_view name, bool is_table);
 
 }  // namespace lacuna

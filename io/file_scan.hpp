@@ -30,8 +30,8 @@ struct ScanInput {
 // position. A file that changes after the first opening is an `Error` when it is opened again.
 class FileScan : public PointSource {
  public:
-  // Opens every file once, so that a missing or broken one, or one that lacks what a filter needs, is an
-  // `Error` before any work is done.
+  // Opens every file once. So a missing or broken file, or one that lacks what a filter needs, is an `Error`
+  // before any work is done.
   FileScan(std::vector<ScanInput> inputs, InputConfig config);
 
   void rewind() override;
@@ -45,22 +45,22 @@ class FileScan : public PointSource {
   const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
   // Rows that each file's header declares; text files declare none.
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
-  // Of each file, as ScanReader::format says.
+  // The format of each file, as ScanReader::format says.
   const std::vector<std::string>& formats() const { return formats_; }
-  // Of each file; empty where it names none, or has a pose.
+  // The CRS of each file; empty where it names none, or has a pose.
   const std::vector<std::string>& crs() const { return crs_; }
   // The one that all files share; empty: they differ, or name none.
   std::string common_crs() const;
-  // Of lengths: the one that all files share; empty: they differ, or name none.
+  // The unit of length that all files share; empty: they differ, or name none.
   std::string length_unit() const;
-  // Of a file: as its header declares, else as many as the last pass has read of it.
+  // The rows of a file: as its header declares, else as many as the last pass has read of it.
   std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   // From its first row on, moved by its pose, without filters.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
-  // Of the points read since the last rewind.
+  // Counts the points read since the last rewind.
   const FilteredOut& filtered_out() const { return filtered_out_; }
-  // Throws `Error` if a file is no longer what it was when it was opened first: what was read last from it
-  // may not fit what was read before.
+  // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
+  // an earlier one.
   void check_unchanged() const;
   bool single_precision() const;  // x, y and z are 32-bit floats in every file
 

@@ -40,9 +40,9 @@ class InputFile {
   // The next line without its end (LF or CR LF), valid until the next call; none at the end of the file.
   std::optional<std::string_view> next_line();
 
-  // Rows of words, however long the row. next_row passes blank lines, false at the end of the file; next_word
-  // is valid until the next call, none at the end of the line; end_row passes the line's end, false when a
-  // word is left before it.
+  // Words of lines, however long the line. `next_row` passes blank lines, and returns false at the end of the
+  // file. `next_word` is valid until the next call, and returns none at the end of the line. `end_row` passes
+  // the line's end, and returns false when a word is left before it.
   bool next_row();
   std::optional<std::string_view> next_word();
   bool end_row();

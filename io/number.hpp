@@ -14,8 +14,8 @@ namespace lacuna {
 float parse_extreme(std::string_view text, float);
 double parse_extreme(std::string_view text, double);
 
-// False unless all of `text` is one number that fits the type. Rounded once, to the type asked for. "nan"
-// and "inf" are floating point numbers; a leading + is allowed.
+// False unless all of `text` is one number that fits the type. It is rounded once, to the type of `value`.
+// "nan" and "inf" are floating point numbers; a leading + is allowed.
 template <class T>
 bool parse_number(std::string_view text, T& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -29,8 +29,8 @@ bool parse_number(std::string_view text, T& value) {
   return status == std::errc{};
 }
 
-// The same of numbers as other languages write them: a decimal comma, an exponent of Fortran ("1.0D+02"), and
-// what Microsoft's library prints for NaN and infinity ("-1.#IND", "1.#QNAN", "1.#INF").
+// Reads numbers as other languages write them, too: a decimal comma, an exponent of Fortran ("1.0D+02"), and
+// Microsoft's NaN and infinity ("-1.#IND", "1.#QNAN", "1.#INF").
 bool parse_foreign_number(std::string_view text, double& value);
 
 // What `parse_number<T>` takes, for error messages.
@@ -41,9 +41,9 @@ std::string describe_number() {
          std::to_string(std::numeric_limits<T>::max());
 }
 
-// Takes the next field off `rest`. Separator ' ': fields are divided by any run of blanks; any other: by
-// that character, with blanks around it not part of the field, and nothing expected after a last separator.
-// False when there is none left.
+// Takes the next field off `rest`. With the separator ' ', any run of blanks divides fields. Any other
+// character divides fields itself: blanks around it are not part of the field, and nothing is expected after
+// a last separator. False when there is none left.
 inline bool next_field(std::string_view& rest, char separator, std::string_view& field) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
   std::size_t begin = 0;

@@ -10,12 +10,12 @@ namespace lacuna {
 
 using Pose = Eigen::Affine3d;  // of the scan's own coordinates: p -> A p + t
 
-// Numbers divided by blanks or commas: 16 of a 4 x 4 matrix, row by row; 12 of its first three rows; or 7,
+// Numbers divided by blanks or commas. 16 are a 4 x 4 matrix, row by row, and 12 its first three rows. 7 are
 // the translation x y z and the unit quaternion x y z w. Throws `Error` unless the matrix turns, scales
 // evenly and moves, nothing else (to 1 part in 1000).
 Pose parse_pose(std::string_view numbers);
 
-// The same from a text file, over any number of lines. Throws `Error`.
+// Reads the numbers from a text file, over any number of lines. Throws `Error`.
 Pose read_pose(const std::filesystem::path& file);
 
 }  // namespace lacuna

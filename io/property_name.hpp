@@ -6,10 +6,11 @@
 
 namespace lacuna {
 
-// Of X Y Z and NX NY NZ, in any mix of cases, the names of position and normal; others as they are.
+// Returns the names of position and normal for X Y Z and NX NY NZ, in any mix of cases, and others as they
+// are.
 std::string known_name(std::string_view given);
 
-// The same as a name that can stand in a PLY header: blanks and control characters become '_'.
+// Returns the name as it can be written in a PLY header: blanks and control characters become '_'.
 std::string property_name(std::string_view given);
 
 // Names of the properties that the colour of a point is made of.

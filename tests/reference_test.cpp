@@ -137,7 +137,7 @@ TEST_CASE("a sphere has no loop and no boundary point") {
   CHECK(std::none_of(result.points.begin(), result.points.end(), [](const Point& p) { return p.boundary; }));
 }
 
-TEST_CASE("an open cylinder has two loops, its rims") {
+TEST_CASE("an open cylinder has two loops, its edges") {
   const Cloud cloud = open_cylinder(60, 30);
   const Detection result = detect(cloud);
   REQUIRE(result.loops.size() == 2);
@@ -149,7 +149,7 @@ TEST_CASE("an open cylinder has two loops, its rims") {
   }
 }
 
-TEST_CASE("a punched plane has two loops, the hole and the rim") {
+TEST_CASE("a punched plane has two loops, the hole and the outer curve") {
   const Cloud cloud = plane(40).punched({20, 20}, 5).jittered(0.05, 1);
   const Detection result = detect(cloud);
   REQUIRE(result.loops.size() == 2);
@@ -162,7 +162,8 @@ TEST_CASE("a punched plane has two loops, the hole and the rim") {
   CHECK(lies_on(hole, cloud, 1.5, [](const Vector3d& p) { return std::hypot(p.x() - 20, p.y() - 20) - 5; }));
 }
 
-TEST_CASE("a density step of one to four has no loop along it, only the rim") {  // the paper's figure 11
+TEST_CASE(
+    "a density step of one to four has no loop along it, only the outer curve") {  // the paper's figure 11
   const Cloud cloud = density_step(60).jittered(0.25, 3);
   const Detection result = detect(cloud);
   REQUIRE(result.loops.size() == 1);

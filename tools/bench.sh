@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures `lacuna detect` from scan file to results, beside other tools where asked for. See bench/README.md.
+# Measures `lacuna detect` from scan file to results, next to other tools where wanted. See bench/README.md.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/options.sh"
 
@@ -32,7 +32,7 @@ DETECT_OPTIONS go to every `lacuna detect`: tools/bench.sh -- --eps 0.03
 END
 }
 
-# ---- what was asked for
+# ---- what the options request
 
 points=(1 4)
 positions=(jittered random)
@@ -125,7 +125,7 @@ at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
 cleanup() { rm -rf "$work/out" "$work/printed" "$work/time" "$work/plot.dat"; }
 trap cleanup EXIT
 
-# One program on the current case (scan, case, kind, order) with the current number of threads: its rows go to the
+# Runs one program on the current case (scan, case, kind, order) with the current number of threads. Its lines go to the
 # csv, but not those of run "warm-up".
 run_once() {
   local program=$1 limit=$2 run=$3 command begin end status=0
@@ -157,9 +157,9 @@ run_once() {
 
 failures=()
 
-# All programs on one case in turns, A A B B A A B B, so that a slow minute of the machine is one of all. The
-# first run of a turn warms up: when a program of many gigabytes ends, a virtual machine gives them back to its
-# host, and whoever comes next would wait for every page. What fails on a case is left out of the rest of it.
+# Runs all programs on one case in turns, A A B B A A B B. So a slow minute of the machine affects all. The first run of
+# a turn warms up. When a program of many gigabytes ends, a virtual machine gives them back to its host, and the next
+# program would wait for every page. What fails on a case is left out of the rest of it.
 run_case() {
   local with_peers=$1 run limit program turn
   local -a turns=()

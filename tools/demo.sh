@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh Debian 12 to the holes of a scan: installs, builds, makes a scan of about 400,000 points in demo/, finds
-# its holes, and compares them with the true ones. A build folder that exists keeps its options.
+# From a fresh Debian 12 to the holes of a scan. It installs, builds, generates a scan of about 400,000 points in demo/,
+# finds its holes, and compares them with the true ones. A build folder that exists keeps its options.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -20,12 +20,12 @@ run build/lacuna evaluate demo/holes demo/scan.loops.txt
 
 cat <<END
 
-The scan is made: one scanner in a room with two windows and a door, a table with a screen, a sofa, a cupboard, a
+The scan is synthetic: one scanner in a room with two windows and a door, a table with a screen, a sofa, a cupboard, a
 column, a lamp and a ball. So every place that the scanner could not sample is known, and the table above compares.
-With another --seed the scanner stands elsewhere, and some shadows that touch each other are found as one:
+With another --seed the scanner is elsewhere, and some shadows that touch each other are found as one:
 docs/evaluate.md has the numbers.
 
-Look at it in a browser, by a double click:
+Open it in a browser, by a double click:
   $PWD/demo/holes/report.html   the scan and its holes in 3D
 or in CloudCompare or MeshLab:
   $PWD/demo/holes/points.ply    every point, with its boundary probability

@@ -134,7 +134,7 @@ void add_detect_command(CLI::App& app) {
       ->add_option("SCAN", arguments->scans,
                    "Scan files, folders of them, or @LIST of their names; several are one registered scan")
       ->type_name("SCAN");
-  command->add_option("--out", arguments->out, "Folder for the results; made if missing")->type_name("DIR");
+  command->add_option("--out", arguments->out, "Folder for the results; created if missing")->type_name("DIR");
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,

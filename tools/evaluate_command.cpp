@@ -59,7 +59,7 @@ void run_evaluate(const EvaluateArguments& arguments) {
 }  // namespace
 
 void add_evaluate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("evaluate", "Hold found loops against the true ones");
+  CLI::App* command = app.add_subcommand("evaluate", "Compare the loops found with the true loops");
   const auto arguments = std::make_shared<EvaluateArguments>();
   command
       ->add_option("RESULT", arguments->result,
@@ -74,7 +74,7 @@ void add_evaluate_command(CLI::App& app) {
   command
       ->add_option(
           "--scan", arguments->scans,
-          "Scan files that the ids of loops as text count; default: X.ply beside X.loops.txt, else the "
+          "Scan files that the ids of loops as text count; default: X.ply next to X.loops.txt, else the "
           "input of the run")
       ->type_name("FILE");
   command

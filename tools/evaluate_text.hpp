@@ -16,8 +16,8 @@ struct EvaluationText {
   accuracy::EvaluationRule rule;
 };
 
-// What counts: one sentence with what is found and false, then a line for each true loop, the largest first,
-// with its name, size and place, and who found it; then a line for each loop that matches none.
+// Prints one sentence with what is found and false. Then comes a line for each true loop, the largest first,
+// with its name, size, place, and what found it. Then it prints a line for each loop that matches none.
 std::string print_verdict(const EvaluationText& text);
 
 // All scores, and every number behind them, by loop.

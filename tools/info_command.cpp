@@ -119,7 +119,7 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
-              << " points represent the others";
+              << " points are used, one per cell";
   }
   std::cout << "\n  bounds        ";
   if (summary.bounds.isEmpty()) {

@@ -50,7 +50,7 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
     if (is_scan(file, options)) {
       files.emplace_back(file);
     } else {
-      spdlog::warn("{}: passed over, since it is no scan", visible(file.string()));
+      spdlog::warn("{}: skipped, because it is not a scan", visible(file.string()));
     }
   }
   if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");

@@ -1,5 +1,5 @@
-// The log of runs in a file, for --log-file: what the log on stderr says, the times of stages and errors,
-// each line with its time. Runs are appended.
+// The log of runs in a file, for --log-file. It has what the log on stderr says, the times of stages and
+// errors, each line with its time. Runs are appended.
 #pragma once
 
 #include <filesystem>

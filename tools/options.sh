@@ -12,8 +12,8 @@ fail() {
 
 from_caller() { [[ $1 == /* ]] && echo "$1" || echo "$invoked_from/$1"; }
 
-# Every option has a line of `usage`, "  --peer-points N   ...", and sets the variable peer_points to what follows it;
-# without a word in capitals it sets it to 1. A LIST becomes an array, a DIR, FILE or PROGRAM is sought from where the
+# Every option has a line of `usage`, "  --peer-points N   ...", and sets the variable peer_points to what follows it.
+# Without a word in capitals it sets it to 1. A LIST becomes an array, a DIR, FILE or PROGRAM is sought from where the
 # caller is. What stands behind -- becomes detect_options.
 parse_options() {
   local line name

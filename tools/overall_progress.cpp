@@ -75,7 +75,7 @@ void OverallProgress::end() {
   behind_ += std::exchange(current_, 0);
 }
 
-// Of a stage without a total: as much time as the pace so far gives it is half of it, and no time is all.
+// For a stage without a total: as much time as the pace so far gives it is half of it, and no time is all.
 double OverallProgress::share_of_stage(double seconds, std::uint64_t done, std::uint64_t total) const {
   if (total > 0) return std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
   const double spent = std::max(seconds - begin_, 0.0);

@@ -36,7 +36,7 @@ std::string type_name(const Parameter& parameter) {
 ParameterOptions::ParameterOptions(CLI::App& command) {
   command
       .add_option("--config", config_file_,
-                  "Config file (TOML), or the name of one that is installed; the command line counts over it")
+                  "Config file (TOML), or the name of one that is installed; options of the command line override it")
       ->type_name("CONFIG");
   Config defaults;
   for (const Parameter& parameter : parameters(defaults)) {

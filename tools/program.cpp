@@ -38,7 +38,7 @@ namespace {
 enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
 
 int fail(const std::string& reason, ExitCode code) {
-  wait_if_interrupted();  // the signal tells how the program ends
+  wait_if_interrupted();  // the signal says how the program ends
   print_error(reason);
   return code;
 }
@@ -72,7 +72,7 @@ void check_option_names(const CLI::App& command, std::span<const std::string> ar
   }
 }
 
-// Without it a misspelt command is told as a missing one.
+// Without it, a misspelt command is reported as a missing one.
 void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   const std::vector<const CLI::App*> commands = app.get_subcommands({});
   if (commands.empty()) return check_option_names(app, arguments);
@@ -141,7 +141,7 @@ void prepare_process() {
 }  // namespace
 
 int run(int argc, char** argv) {
-  CLI::App app("Lacuna finds every hole in a scan that is larger than memory.", "lacuna");
+  CLI::App app("Lacuna finds holes in scanned surfaces, also in scans larger than memory.", "lacuna");
   app.set_version_flag("-V,--version", "lacuna " LACUNA_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);

@@ -74,8 +74,8 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
   if (points <= static_cast<std::uint64_t>(config.neighbourhood.k)) {
-    warnings.push_back(print_count(points) + " different points; each of them has fewer than k = " +
-                       std::to_string(config.neighbourhood.k) + " neighbours");
+    warnings.push_back(print_count(points) + " distinct " + (points == 1 ? "point" : "points") +
+                       "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
   }
   if (scan.single_precision() && !summary.bounds.isEmpty()) {
     const double step = coarsest_step(summary.bounds);

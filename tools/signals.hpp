@@ -7,9 +7,9 @@ namespace lacuna {
 
 // From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
 // empty folders that were made for the run (tools/workspace.hpp). They print one line, if stderr takes it at
-// once, and end the program with exit code 128 + signal. Call before any other thread starts: the signals are
-// blocked in all threads and waited for in one of its own, where, unlike in a signal handler, removing files
-// is safe. Throws `Error` if that thread cannot be started.
+// once, and end the program with exit code 128 + signal. Call before any other thread starts. The signals are
+// blocked in all threads and awaited in one of its own, where, unlike in a signal handler, removing files is
+// safe. Throws `Error` if that thread cannot be started.
 void handle_signals();
 
 // The run replaces results in `folder`, all or none; `report` is one of them, and shows by its identity

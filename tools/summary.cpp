@@ -38,8 +38,8 @@ std::string print_input(const Counts& counts, const FileScan& scan) {
   text += scan.files().size() == 1 ? " in " + visible(scan.files().front().string())
                                    : " in " + std::to_string(scan.files().size()) + " files, as one scan";
   text += print_left_out(counts, scan.filtered_out());
-  if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " represented by another";
-  if (counts.duplicates > 0) text += "; " + print_count(counts.duplicates) + " at the place of another";
+  if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " thinned out";
+  if (counts.duplicates > 0) text += "; " + counted(counts.duplicates, "duplicate", "duplicates");
   return text;
 }
 
@@ -105,7 +105,7 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
   if (summary.resolution > 0) {
     const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
     facts.emplace_back("resolution", print_length(summary.resolution, unit) + ": " +
-                                         print_count(representatives) + " points represent the others");
+                                         print_count(representatives) + " points are used, one per cell");
   }
   facts.emplace_back("neighbours", print_number(summary.mean_neighbours) + " of a point on average, " +
                                        print_length(summary.mean_edge_length, unit) + " away");
@@ -191,7 +191,7 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
 
   std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
                      counted(outer.loops.size(), "outer curve", "outer curves");
-  if (!loops.empty()) text += ", " + print_count(holes.long_ones + outer.long_ones) + " of them" + longer;
+  if (!loops.empty()) text += "; " + print_count(holes.long_ones + outer.long_ones) + longer;
   text += "\n" + print_largest(loops, holes, extent, unit) + "\n";
   if (!outer.loops.empty()) {
     text += "  " + counted(outer.loops.size(), "outer curve", "outer curves") + ", " +

@@ -100,7 +100,7 @@ void add_surface(CLI::App& synth) {
 
 void add_scan(CLI::App& synth) {
   CLI::App& app = *synth.add_subcommand(
-      "scan", "A scene as terrestrial laser scanners see it, in metres, and its true loops");
+      "scan", "A scene as terrestrial laser scanners measure it, in metres, and its true loops");
   const auto options = std::make_shared<ScanOptions>();
   ScanOptions& o = *options;
   add_common(app, o);
@@ -134,7 +134,7 @@ void add_scan(CLI::App& synth) {
 }  // namespace
 
 void add_synth_command(CLI::App& app) {
-  CLI::App& synth = *app.add_subcommand("synth", "Make a scan to try Lacuna on");
+  CLI::App& synth = *app.add_subcommand("synth", "Generate a synthetic scan to try Lacuna on");
   synth.require_subcommand(1);
   add_surface(synth);
   add_scan(synth);

@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-// Control characters (C0 with line ends, DEL, C1) as \u001b, which JSON and TOML read back as the same
-// character; bytes that are not UTF-8 as \xff. All else stays as it is.
+// Control characters (C0 with line ends, DEL, C1) become \u001b, which JSON and TOML read back as the same
+// character. Bytes that are not UTF-8 become \xff. All else stays as it is.
 std::string visible(std::string_view text);
 
 // Everything that std::cout gets goes to `file` from now on, each line visible. A name that may hold a line

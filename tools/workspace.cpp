@@ -51,7 +51,7 @@ MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)
   }
   fs::create_directories(folder_, error);
   if (error && !fs::is_directory(folder_)) {
-    throw Error(folder_.string() + ": cannot make the folder: " + error.message());
+    throw Error(folder_.string() + ": cannot create the folder: " + error.message());
   }
   if (access(folder_.c_str(), W_OK | X_OK) != 0) {
     throw Error(folder_.string() + ": cannot write to the folder: " + std::strerror(errno));

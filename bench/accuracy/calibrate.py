@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the confidence of the method `tangential`, so that it is a probability: of the loops said to be 0.7 sure, 7 in
+"""Fits the confidence of the method `tangential`, so that it is a probability. Of the loops said to be 0.7 sure, 7 in
 10 are true. Prints the two constants, and how well they hold on the scans of the fit and on those of run.py (see
 bench/accuracy/README.md).
 
@@ -59,7 +59,7 @@ TREATMENTS = {"half": halved, "tenth": falling_by_ten, "varying15": varying(15),
 
 
 def with_treatments(arguments, source, seed):
-    """This set, and others made of it."""
+    """This set, and others derived from it."""
     yield source
     for place, (ending, treatment) in enumerate(TREATMENTS.items()):
         yield degraded(arguments, source, f"uneven {source.group}", f"{source.name}-{ending}", treatment, 8,

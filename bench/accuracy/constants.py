@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""How the results change when each constant of the method `tangential` is halved and doubled: one line for each value,
-one column for each group of sets (see bench/accuracy/README.md). Values are set by a config file, so that a new
-constant needs no change here: the constants are the section [tangential] of `lacuna detect --print-config`."""
+"""How the results change when each constant of the method `tangential` is halved and doubled. The table has one line for
+each value, and one column for each group of sets (see bench/accuracy/README.md). Values are set by a config file, so
+that a new constant needs no change here. The constants are the section [tangential] of `lacuna detect --print-config`."""
 
 import argparse
 import os
@@ -18,7 +18,7 @@ DEFAULT_SETS = "noise50|closed-uneven|^meshes|range/|range-made"
 
 
 def constants(lacuna):
-    """Of each constant its name and its value as text."""
+    """The name of each constant, and its value as text."""
     section = ""
     for line in run([lacuna, "detect", "--print-config"]).splitlines():
         if line.startswith("["):

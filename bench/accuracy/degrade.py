@@ -23,7 +23,7 @@ def read_scan(scan, truth, spacing):
 
 
 def box_of(points):
-    """Of each axis the lowest and the highest coordinate."""
+    """The lowest and the highest coordinate along each axis."""
     return [(min(axis), max(axis)) for axis in zip(*points)]
 
 
@@ -72,7 +72,7 @@ def twin(point, cells, spacing, draw):
 
 
 def with_outliers(scan, draw):
-    """One more point in a hundred, anywhere in the box of the scan, which reaches farther on each side by a twentieth
+    """One more point in a hundred, anywhere in the box of the scan. The box is enlarged on each side by a twentieth
     of its longest edge. They follow the others."""
     box = box_of(scan.points)
     farther = max(high - low for low, high in box) / 20

@@ -15,7 +15,7 @@ CGAL_FEWEST = 8  # points of a border loop: what Lacuna's curves have at least
 
 
 def known_methods(lacuna):
-    """Of every method its name and its options of `lacuna detect`."""
+    """The name of every method, and its options of `lacuna detect`."""
     config = subprocess.run([str(lacuna), "detect", "--print-config", "--method", "paper"], capture_output=True,
                             check=False)
     return {"default": []} | ({"paper": ["--method", "paper"]} if config.returncode == 0 else {})

@@ -1,8 +1,8 @@
-"""Range maps for the accuracy sets: a scene seen from one place along a grid of rays, and the mesh of that grid, whose
-boundary is known. Plain Python, no packages.
+"""Range maps for the accuracy sets: a scene sampled from one place along a grid of rays, and the mesh of that grid. The
+boundary of the mesh is known. Plain Python, no packages.
 
-A shape is a function of a ray, its origin and unit direction: how far along the ray they meet first, and the cosine
-between the ray and the normal there."""
+A shape is a function of a ray, its origin and unit direction. It returns how far along the ray the first hit is, and
+the cosine between the ray and the normal there."""
 
 import math
 import random
@@ -197,7 +197,7 @@ def lost_rays(rays, draw):
 
 
 def scan(shape, perspective, rays, noise, draw):
-    """Row by row where each ray meets the shape; None where it is lost."""
+    """Row by row the point in which each ray hits the shape; None where it is lost."""
     lost = lost_rays(rays, draw)
     step = WIDTH / rays
     seen = []
@@ -230,7 +230,7 @@ def median_step(seen, rays):
 
 
 def grid_triangles(seen, rays):
-    """Of each square of neighbouring rays two triangles along the shorter diagonal, or one where a ray is lost, but
+    """Two triangles for each square of neighbouring rays, along the shorter diagonal; or one where a ray is lost, but
     none with a long edge."""
     limit = LONGEST_EDGE * median_step(seen, rays)
     triangles = []
@@ -251,14 +251,14 @@ def grid_triangles(seen, rays):
 
 
 def touched_twice(triangles):
-    """The rays where the boundary meets itself."""
+    """The rays where the boundary touches itself."""
     edges = {(t[i - 1], t[i]) for t in triangles for i in range(3)}
     leaving = Counter(a for a, b in edges if (b, a) not in edges)
     return [ray for ray, count in leaving.items() if count > 1]
 
 
 def range_map(scene, perspective, noise, strays, seed):
-    """What a scanner sees of one of the SCENES, with noise along its rays, in steps of the grid; with `strays` the
+    """What a scanner samples of one of the SCENES, with noise along its rays, in steps of the grid. With `strays`, the
     points that no triangle uses are there too. Loops do not touch: points where they would are lost as well."""
     rays, shape = SCENES[scene]
     seen = scan(shape, perspective, rays, noise, random.Random(seed))

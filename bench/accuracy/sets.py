@@ -96,7 +96,7 @@ def synth_sets(arguments):
                 "noise25-random": ["--points", 40_000, "--noise", 0.25, "--order", "random"],
                 "noise50": ["--points", 40_000, "--noise", 0.5],
                 "factor4": ["--points", 40_000, "--density-factor", 4],
-                # The holes keep to the dense half, which must have room for them.
+                # The holes keep to the dense half, which must be large enough for them.
                 "step4": ["--points", 48_000, "--density-step", 4]}
     for seed, kind in enumerate(SYNTH_KINDS, start=1):
         for variant, options in variants.items():
@@ -142,7 +142,7 @@ def made_mesh(arguments, group, name, make):
 
 
 def spacing_of(arguments, truth):
-    """Of the scan whose truth this is."""
+    """The accuracy on the scan whose truth this is."""
     none = arguments.work / "none.loops.txt"
     none.write_text("# no loops\n", encoding="utf-8")
     return json.loads(run([arguments.lacuna, "evaluate", none, truth, "--json"]))["spacing"]

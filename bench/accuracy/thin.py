@@ -1,4 +1,4 @@
-"""Uneven scans, made of a surface that `lacuna synth surface` has made."""
+"""Uneven scans, thinned from a surface of `lacuna synth surface`."""
 
 import os
 import random
@@ -9,15 +9,15 @@ ROW = struct.Struct("<fff")
 
 
 def thin(scan, truth, one_in, seed, out):
-    """Writes a random one in so many points to `out`, and their true loops beside it."""
+    """Writes a random one in so many points to `out`, and their true loops next to it."""
     draw = random.Random(seed)
     rows = read_rows(scan)
     write_part(rows, [vertex for vertex in range(len(rows)) if draw.random() < 1 / one_in], truth, out)
 
 
 def overlap(scan, truth, one_in, seed, error, out):
-    """Two scans of one surface as one file: a random one in so many points of the lower 60 % in x, then as many of
-    the upper 60 %, `error` higher in z than they should be."""
+    """Two scans of one surface as one file. The first has a random one in so many points of the lower 60 % in x. The
+    second has as many of the upper 60 %, `error` higher in z than they should be."""
     draw = random.Random(seed)
     rows = read_rows(scan)
     low, high = min(row[0] for row in rows), max(row[0] for row in rows)
@@ -54,7 +54,7 @@ def write_part(rows, kept, truth, out):
 
 
 def write_points(rows, loops, out):
-    """A PLY file of points, and their true loops beside it."""
+    """A PLY file of points, and their true loops next to it."""
     header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n"
               "property float x\nproperty float y\nproperty float z\nend_header\n")
     partial = Path(f"{out}.partial")

@@ -1,7 +1,7 @@
-// Boundary points as Open3D finds them (its tensor interface, on the CPU): normals from the nearest
-// neighbours, then ComputeBoundaryPoints, which wants a radius too and looks at the nearest neighbours
-// within it. The radius is the median distance of the last of those neighbours, so that half of the points
-// have them all; finding it is not timed.
+// Boundary points as Open3D finds them, by its tensor interface on the CPU. Normals come from the nearest
+// neighbours. ComputeBoundaryPoints then takes a radius, and uses the nearest neighbours within it. The
+// radius is the median distance of the last of those neighbours, so that half of the points have them all.
+// Finding it is not timed.
 #include "bench/peers/peer.hpp"
 #include "bench/peers/read_ply.hpp"
 

@@ -1,4 +1,4 @@
-// What both peers share: their command line and how they tell what they took.
+// What both peers share: their command line, and how they report what they took.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares the loops of the program, and their confidence, with those of the plain method in this folder, on made
-scans, for both methods. So what docs/method.md states, what the figures show and what the program does are the same.
+"""Compares the loops of the program, and their confidence, with those of the plain method in this folder. It takes
+synthetic scans and both methods. So what docs/method.md states, what the figures show and what the program does are the same.
 
     docs/figures/compare.py build/lacuna
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the figures of docs/method.md, as SVG, into this folder. Each is computed from a small made scan with the method
+"""Draws the figures of docs/method.md, as SVG, into this folder. Each is computed from a small synthetic scan with the method
 itself, so that a figure cannot contradict the text. Needs Python 3 and no package.
 
     docs/figures/make.py                # all

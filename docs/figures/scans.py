@@ -1,4 +1,4 @@
-"""Small made scans: same seed, same points."""
+"""Small synthetic scans: same seed, same points."""
 
 import math
 import random

@@ -130,7 +130,7 @@ def sampling_radius(circles, bound):
 
 
 def normalised(curve):
-    """Of all ways to write a closed curve, the one whose ids come first."""
+    """The way to write a closed curve whose ids come first."""
     least = min(w.point for w in curve)
     ways = [way[i:] + way[:i] for way in (curve, curve[::-1]) for i, w in enumerate(way) if w.point == least]
     return min(ways, key=points_of)

@@ -19,15 +19,16 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits | bits << 2) & 0x249249;
 }
 
-// Of a coordinate within its cell, to 1/256 of the edge; 255 far from the origin, where that is not a number.
+// Returns where a coordinate lies within its cell, to 1/256 of the edge. It is 255 far from the origin, where
+// that is not a number.
 std::uint32_t fraction(double x, double scale, double origin) {
   const double cells = x * scale - origin;
   const double within = (cells - std::floor(cells)) * 256;
   return within < 255 ? static_cast<std::uint32_t>(static_cast<std::int32_t>(within)) : 255;
 }
 
-// Of each point: its place along a Z curve through its cell, in the high half, and its index. Equal
-// coordinates have equal places.
+// Makes the key of each point: its place along a Z curve through its cell, in the high half, and its index.
+// Equal coordinates have equal places.
 LACUNA_VECTORISED
 void make_keys(const StoredPoint* points, std::size_t count, double scale, double origin_x, double origin_y,
                double origin_z, std::uint64_t* keys) {

@@ -19,8 +19,8 @@ struct OrderedTile {
 
 // `cells`: the counted cell of each point, from the tile's first; `cell_count`: of the tile. Points come by
 // counted cell, then along a Z curve through it. A counted cell with more than four times `cell_points`
-// points becomes several cells of at most `cell_points`, however its points are spread. Of points at the same
-// coordinates the lowest id is kept for all. Cost: n log(points per counted cell).
+// points becomes several cells of at most `cell_points`, however its points are spread. Where points have the
+// same coordinates, the lowest id is kept for all. Cost: n log(points per counted cell).
 OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std::uint32_t> cells,
                        std::size_t cell_count, const CellGrid& grid, std::uint64_t cell_points);
 

@@ -1,5 +1,5 @@
-// Points of cells that hold more than a tile may, and of cells without end: far denser, or far farther away,
-// than the survey's cells are made for.
+// Points of cells that hold more points than a tile may, and of cells without end. They are far denser, or
+// far farther away, than the survey's cells are made for.
 #pragma once
 
 #include "engine/bucket/split.hpp"
@@ -13,9 +13,9 @@
 
 namespace lacuna {
 
-// They are sorted on disk, group by group and along a Z curve through each group, which takes any density and
-// any extent in one pass. Copies of a point follow each other, so they merge as they stream. Runs of the
-// curve become tiles and cells. Memory: that of the sort, and one tile.
+// They are sorted on disk, group by group and along a Z curve through each group. One pass takes any density
+// and any extent. Copies of a point follow each other, so they merge as they stream. Runs of the curve become
+// tiles and cells. Memory: that of the sort, and one tile.
 class SetAside {
  public:
   // `bounds`: of all points. The plan must outlive this.

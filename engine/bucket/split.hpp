@@ -16,8 +16,8 @@ struct TilePlan {
   CellGrid grid;
   std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
   std::vector<Tile> tiles;         // of these cells; their rows begin where all copies would fit
-  // Cells in no tile, since their points are set aside: first those with more points than a
-  // tile may hold, each by itself, then those far from all others, together.
+  // Cells in no tile, since their points are set aside. First come those with more points than a tile may
+  // hold, one by one, then those far from all others, together.
   std::vector<CountedCell> aside;
   std::size_t heavy = 0;          // how many of the first kind
   std::uint64_t points = 0;       // finite ones of the scan

@@ -15,7 +15,7 @@ namespace lacuna {
 using ZPlace = std::array<std::uint64_t, 3>;
 
 // The Z curve (Morton 1966) through a box. The order of two places follows from the highest bit in which any
-// of their coordinates differ, so no interleaved key is needed (Chan, "Closest-point problems simplified on
+// of their coordinates differ. So no interleaved key is needed (Chan, "Closest-point problems simplified on
 // the RAM", SODA 2002).
 class ZCurve {
  public:
@@ -34,8 +34,8 @@ class ZCurve {
 bool comes_before(const ZPlace& a, const ZPlace& b);
 
 // Cuts places in ascending order into runs of at most `most`, where the curve leaves one half of a box for
-// the other: boxes of the runs are small. Returns the end of each run. Cost: linear, times the depth of the
-// cuts.
+// the other. So the boxes of the runs are small. Returns the end of each run. Cost: linear, times the depth
+// of the cuts.
 std::vector<std::uint32_t> cut_runs(std::span<const ZPlace> places, std::size_t most);
 
 }  // namespace lacuna

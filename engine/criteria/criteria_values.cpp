@@ -25,8 +25,8 @@ HWY_INLINE Vector<V> vectors(double value) {
 
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
-// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz; and whether the weight of
-// the nearest neighbour is larger than nothing.
+// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz. Also whether the weight of
+// the nearest neighbour is more than nothing.
 struct Covariance {
   Vector<V> diagonal, off_diagonal;
   Mask counts_for_something;
@@ -39,7 +39,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
   Covariance c{vectors(0), vectors(0), slice.get(batch.squared_distance[0]) * falloff > all<V>(kTiny)};
   V total = all<V>(0);
   Vector<V> mean = vectors(0);
-  for (std::size_t i = 0; i < batch.rows; ++i) {
+  for (std::size_t i = 0; i < batch.ranks; ++i) {
     const V kernel = exponential(slice.get(batch.squared_distance[i]) * falloff);
     const V weight = hn::IfThenElseZero(counts > all<V>(static_cast<double>(i)), kernel);
     slice.set(batch.weight[i], weight);
@@ -48,7 +48,7 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
   }
   mean = select(total > all<V>(0), mean / total, vectors(0));
   surface.mean_offset = mean;
-  for (std::size_t i = 0; i < batch.rows; ++i) {
+  for (std::size_t i = 0; i < batch.ranks; ++i) {
     const Vector<V> d = mean - slice.offset(i), weighted = d * slice.get(batch.weight[i]);
     c.diagonal = c.diagonal + Vector<V>{weighted.x * d.x, weighted.y * d.y, weighted.z * d.z};
     c.off_diagonal = c.off_diagonal + Vector<V>{weighted.y * d.x, weighted.z * d.x, weighted.z * d.y};
@@ -161,7 +161,7 @@ Crease find_crease(const Slice& slice, double threshold, Mask estimated, const S
                 vectors(0)};
   if (!any<V>(crease.is_there)) return crease;
   const auto offset = [&](V rank) HWY_ATTR {
-    return slice.offset_in_rows(hn::DemoteTo(Slice::Rows(), hn::Max(rank, all<V>(0))));
+    return slice.offset_at(hn::DemoteTo(Slice::Ranks(), hn::Max(rank, all<V>(0))));
   };
   const Vector<V> near = offset(gap.near), far = offset(gap.far);
   crease.direction = in_plane(far, surface.normal) - in_plane(near, surface.normal);
@@ -208,10 +208,10 @@ HWY_INLINE V round_to_step(V probability) {
   return (probability + shift) - shift;
 }
 
-template <std::size_t... kRow>
+template <std::size_t... kIndex>
 void combine(const Slice& slice, const CriteriaParameters& parameters, const Surface<V>& surface,
-             CriteriaValues& values, std::index_sequence<kRow...>) {
-  const V criteria[] = {kTable[kRow].formula(surface)...};
+             CriteriaValues& values, std::index_sequence<kIndex...>) {
+  const V criteria[] = {kTable[kIndex].formula(surface)...};
   V sum = all<V>(0);
   for (std::size_t i = 0; i < kCriteria; ++i) {
     sum = sum + all<V>(parameters.shares[i]) * criteria[i];
@@ -268,9 +268,10 @@ static_assert(HWY_NAMESPACE::kCriteria <= kMostCriteria);
 const std::vector<Criterion>& criteria() {
   static const std::vector<Criterion> all = [] {
     std::vector<Criterion> criteria;
-    for (const HWY_NAMESPACE::CriterionRow& row : HWY_NAMESPACE::kTable) {
-      const std::string name = row.name;
-      criteria.push_back({name, "weight_" + name, "scalar_" + name, row.default_weight, row.help});
+    for (const HWY_NAMESPACE::CriterionEntry& criterion : HWY_NAMESPACE::kTable) {
+      const std::string name = criterion.name;
+      criteria.push_back(
+          {name, "weight_" + name, "scalar_" + name, criterion.default_weight, criterion.help});
     }
     return criteria;
   }();

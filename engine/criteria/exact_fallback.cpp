@@ -41,7 +41,7 @@ struct Direction {
   }
 };
 
-// Of the neighbours that have a stable one, sorted.
+// Returns the directions of the neighbours that have a stable one, sorted.
 std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, const Vector3d& normal,
                                          double cos_cone) {
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -100,7 +100,8 @@ LargestGap find_largest_gap_exactly(const NeighbourBatch& batch, std::size_t poi
   const std::vector<Direction> directions = unite_directions(sorted);
   for_each_turn(directions, [&](double turn, std::size_t) { gap.size = std::max(gap.size, turn); });
 
-  // Of gaps as large as the largest, the one whose pair, nearer neighbour first, comes first.
+  // Where several gaps are as large as the largest, the one whose pair comes first counts, nearer neighbour
+  // first.
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::pair<std::uint32_t, std::uint32_t> first{kNone, kNone};
   for_each_turn(directions, [&](double turn, std::size_t i) {

@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-// Directions nearer than this, in radians, are one direction (that of its nearest neighbour), gaps
-// nearer than this are equally large: exact symmetries of the points must not be decided by rounding.
+// Directions nearer than this, in radians, are one direction, that of its nearest neighbour. Gaps that differ
+// by less are equally large. So rounding does not decide exact symmetries of the points.
 inline constexpr double kSameDirection = 1e-9;
 
 // A neighbour whose projection is shorter than this share of its distance projects onto p.
@@ -21,8 +21,8 @@ struct LargestGap {
   double near = -1, far = -1;  // as in `Gap`
 };
 
-// The directions are sorted by their angles, with equal ones united: the kernel sorts angles of 24 bits with
-// the neighbours' ranks in the lowest ones, which leaves no bits for angles in double precision.
+// The directions are sorted by their angles, with equal ones united. The kernel sorts angles of 24 bits with
+// the neighbours' ranks in the lowest ones. That leaves no bits for angles in double precision.
 LargestGap find_largest_gap_exactly(const NeighbourBatch& batch, std::size_t point, const double normal[3],
                                     double cos_cone);
 
@@ -32,8 +32,8 @@ struct PlaneFit {
   bool has_normal;
 };
 
-// Of a covariance xx, yy, zz, xy, xz, yz. By an iterative eigensolver: the kernel's closed form takes the
-// difference of nearly equal numbers where two eigenvalues are nearly equal.
+// Fits a plane to a covariance xx, yy, zz, xy, xz, yz. By an iterative eigensolver: the kernel's closed form
+// takes the difference of nearly equal numbers where two eigenvalues are nearly equal.
 PlaneFit fit_plane_exactly(const double covariance[6]);
 
 }  // namespace lacuna

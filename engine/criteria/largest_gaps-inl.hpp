@@ -1,8 +1,8 @@
 // The largest gaps between the directions of a batch's neighbours in their tangent planes (paper, 4.2).
 //
-// Directions are sorted in single precision. Where the largest gap is larger than any other by more than that
-// can be wrong, its size is taken in double; elsewhere the point is ambiguous, and the exact fallback finds
-// its gap. Which way is taken depends on the point alone.
+// Directions are sorted in single precision. Where the largest gap exceeds all others by more than the
+// possible error, its size is taken in double precision. Elsewhere the point is ambiguous, and the exact
+// fallback finds its gap. Which way is taken depends on the point alone.
 #if defined(LACUNA_CRITERIA_LARGEST_GAPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_LARGEST_GAPS_INL
 #undef LACUNA_CRITERIA_LARGEST_GAPS_INL
@@ -35,19 +35,20 @@ using Whole = hn::RebindToSigned<Floats>;
 constexpr Floats kFloats;
 constexpr Whole kWhole;
 
-// A direction as one whole number: its angle in parts of a turn above the neighbour's row, above kNoTurn.
+// A direction as one whole number: its angle in parts of a turn above the neighbour's rank, above kNoTurn.
 // As a number of single precision it is sorted; without a direction: infinite.
-constexpr std::int32_t kRows = 64;
+constexpr std::int32_t kRanks = 64;
 constexpr std::int32_t kTurn = 1 << 30;
 constexpr std::int32_t kNoTurn = 1 << 29;  // nothing below is a normal number
 constexpr std::int32_t kInfinite = 0x7f800000;
 
-// Two turns are ambiguous if they differ by no more. A direction is wrong by no more than 1e-6 of a radian
-// (angle and its quotient in single precision, 4e-7; cut to 2^-24 turns, 4e-7; the row below, as much), a
-// turn by twice, a difference of two by four times that: 4e-6, and this is 1.2e-5.
+// Two turns are ambiguous if they differ by no more. A direction is wrong by at most 1e-6 of a radian. Its
+// angle and quotient in single precision give 4e-7, the cut to 2^-24 turns 4e-7, and the number below as
+// much. A turn is wrong by twice that, a difference of two by four times: 4e-6. This is 1.2e-5.
 constexpr std::int32_t kAmbiguousTurn = 2048;
 
-// Likewise, in units of the squared distance, whether a neighbour is within the cone around the normal.
+// In units of the squared distance: below this difference, it is ambiguous whether a neighbour is within the
+// cone around the normal.
 constexpr float kAmbiguousCone = 1e-5F;
 
 // A point with a neighbour nearer than 1e-10 of the mean distance is ambiguous: nothing underflows here.
@@ -58,8 +59,8 @@ struct Projection {
   Batch<float> x, y, squared_distance;
 };
 
-// Of the first `rows` neighbours.
-void project(const Slice& slice, const Frame<V>& frame, std::size_t rows, Projection* projections) {
+// Projects the first `ranks` neighbours.
+void project(const Slice& slice, const Frame<V>& frame, std::size_t ranks, Projection* projections) {
   const hn::Rebind<float, Doubles> single;
   const NeighbourBatch& batch = slice.batch;
   const V unit = all<V>(1) / slice.get(batch.mean_distance);
@@ -67,7 +68,7 @@ void project(const Slice& slice, const Frame<V>& frame, std::size_t rows, Projec
   const auto store = [&](Batch<float>& numbers, V values) HWY_ATTR {
     hn::Store(hn::DemoteTo(single, values), single, numbers.at + slice.first);
   };
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = 0; i < ranks; ++i) {
     const Vector<V> offset = slice.offset(i);
     store(projections[i].x, dot(u, offset));
     store(projections[i].y, dot(v, offset));
@@ -89,19 +90,19 @@ HWY_INLINE Single turn_of(Single y, Single x) {
   return hn::IfThenElse(y < zero, all<Single>(1) - turn, turn);
 }
 
-// Which neighbours the largest gap lies between, by row, in the order of turning.
+// Which neighbours the largest gap lies between, by rank, in the order of turning.
 struct Between {
   Batch<std::int32_t> from, to, used, is_ambiguous;
 };
 
-void find_between(const Projection* projections, std::size_t rows, float squared_sine, std::size_t first,
+void find_between(const Projection* projections, std::size_t ranks, float squared_sine, std::size_t first,
                   Batch<float>* directions, Between& between) {
   const auto whole = [](std::int32_t number) HWY_ATTR { return hn::Set(kWhole, number); };
   const auto load = [&](const Batch<float>& numbers)
                         HWY_ATTR { return hn::Load(kFloats, numbers.at + first); };
   auto used = hn::Zero(kWhole);
   auto ambiguous = hn::FirstN(kFloats, 0);
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = 0; i < ranks; ++i) {
     const Single x = load(projections[i].x), y = load(projections[i].y),
                  squared_distance = load(projections[i].squared_distance);
     const Single outside = (x * x + y * y) - all<Single>(squared_sine) * squared_distance;
@@ -109,8 +110,8 @@ void find_between(const Projection* projections, std::size_t rows, float squared
     ambiguous = hn::Or(ambiguous, hn::Abs(outside) < all<Single>(kAmbiguousCone) * squared_distance);
     used = used - hn::VecFromMask(kWhole, is_used);
     const Single turn = hn::IfThenElseZero(hn::RebindMask(kFloats, is_used), turn_of(y, x));
-    const auto step = hn::ConvertTo(kWhole, turn * all<Single>(kTurn / kRows));
-    static_assert(kRows == 1 << 6);
+    const auto step = hn::ConvertTo(kWhole, turn * all<Single>(kTurn / kRanks));
+    static_assert(kRanks == 1 << 6);
     const auto direction = hn::ShiftLeft<6>(step) + whole(kNoTurn + static_cast<std::int32_t>(i));
     hn::Store(hn::BitCast(kFloats, hn::IfThenElse(is_used, direction, whole(kInfinite))), kFloats,
               directions[i].at + first);
@@ -118,9 +119,9 @@ void find_between(const Projection* projections, std::size_t rows, float squared
   const auto is_near = hn::Not(load(projections[0].squared_distance) > all<Single>(kNearestSquared));
   auto is_ambiguous = hn::Or(hn::RebindMask(kWhole, hn::Or(ambiguous, is_near)), used < whole(2));
 
-  sort_columns(kFloats, directions, rows, first);
-  const auto direction_at = [&](std::size_t row)
-                                HWY_ATTR { return hn::BitCast(kWhole, load(directions[row])); };
+  sort_lanes(kFloats, directions, ranks, first);
+  const auto direction_at = [&](std::size_t rank)
+                                HWY_ATTR { return hn::BitCast(kWhole, load(directions[rank])); };
   const auto start = direction_at(0);
   auto here = start, from = hn::Zero(kWhole), to = from, largest = from, second = from,
        smallest = whole(kTurn);
@@ -131,7 +132,7 @@ void find_between(const Projection* projections, std::size_t rows, float squared
     second = hn::Max(second, hn::Min(turn, largest));
     largest = hn::Max(largest, turn);
   };
-  for (std::size_t i = 1; i < rows; ++i) {
+  for (std::size_t i = 1; i < ranks; ++i) {
     const auto next = direction_at(i), turn = next - here;
     const auto is_there = next != whole(kInfinite);
     compare(next, hn::IfThenElseZero(is_there, turn));
@@ -146,15 +147,15 @@ void find_between(const Projection* projections, std::size_t rows, float squared
 
   const auto store = [&](Batch<std::int32_t>& numbers, hn::Vec<Whole> values)
                          HWY_ATTR { hn::Store(values, kWhole, numbers.at + first); };
-  store(between.from, hn::And(from, whole(kRows - 1)));
-  store(between.to, hn::And(to, whole(kRows - 1)));
+  store(between.from, hn::And(from, whole(kRanks - 1)));
+  store(between.to, hn::And(to, whole(kRanks - 1)));
   store(between.used, used);
   store(between.is_ambiguous, hn::VecFromMask(kWhole, is_ambiguous));
 }
 
 void measure_gaps(const Slice& slice, const Frame<V>& frame, const Between& between, BatchGaps& gaps) {
-  const auto offset = [&](const Batch<std::int32_t>& rows) HWY_ATTR {
-    return slice.offset_in_rows(hn::Load(Slice::Rows(), rows.at + slice.first));
+  const auto offset = [&](const Batch<std::int32_t>& ranks) HWY_ATTR {
+    return slice.offset_at(hn::Load(Slice::Ranks(), ranks.at + slice.first));
   };
   const Vector<V> from = offset(between.from), to = offset(between.to);
   const V x = dot(frame.u, from), y = dot(frame.v, from);
@@ -164,8 +165,8 @@ void measure_gaps(const Slice& slice, const Frame<V>& frame, const Between& betw
 }
 
 void find_largest_gaps(const NeighbourBatch& batch, const TangentPlanes& planes, BatchGaps& gaps) {
-  constexpr auto kMost = static_cast<std::size_t>(kRows);
-  const std::size_t rows = batch.rows < kMost ? batch.rows : kMost;
+  constexpr auto kMost = static_cast<std::size_t>(kRanks);
+  const std::size_t ranks = batch.ranks < kMost ? batch.ranks : kMost;
   Projection projections[kMost];
   Batch<float> directions[kMost];
   Between between;
@@ -173,11 +174,11 @@ void find_largest_gaps(const NeighbourBatch& batch, const TangentPlanes& planes,
   for (std::size_t i = 0; i < kSlices; ++i) {
     const Slice slice{batch, i * kLanes<Doubles>};
     frames[i] = frame_of(slice.get(planes.normals));
-    project(slice, frames[i], rows, projections);
+    project(slice, frames[i], ranks, projections);
   }
   const double cosine = planes.cos_cone, squared_sine = cosine < 1 ? 1 - cosine * cosine : 0;
   for (std::size_t first = 0; first < kBatchSize; first += kLanes<Floats>)
-    find_between(projections, rows, static_cast<float>(squared_sine), first, directions, between);
+    find_between(projections, ranks, static_cast<float>(squared_sine), first, directions, between);
   for (std::size_t i = 0; i < kSlices; ++i)
     measure_gaps({batch, i * kLanes<Doubles>}, frames[i], between, gaps);
 

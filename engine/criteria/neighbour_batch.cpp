@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::size_t kStep = kLanes<Doubles>;
 
-// Of as many points as a vector holds, from `first` on. What is read again and again is named first: for all
-// that the compiler knows, a row that is written might hold it.
+// Gathers as many points as a vector holds, from `first` on. What is read again and again is named first: for
+// all that the compiler knows, an offset that is written might hold it.
 void gather_from(const NeighbourLists& lists, std::size_t first, NeighbourBatch& batch) {
   const Doubles d;
   const double* const positions = lists.positions;
   const auto position = [=](LocalIndex point) HWY_ATTR { return positions + std::size_t{3} * point; };
-  const std::size_t rows = batch.rows;
+  const std::size_t ranks = batch.ranks;
   Batch<double>*const xs = batch.x, *const ys = batch.y, *const zs = batch.z,
                       *const squares = batch.squared_distance;
   const double* points[kStep];
   const LocalIndex* neighbours[kStep];
-  std::size_t counts[kStep], common = rows;
+  std::size_t counts[kStep], common = ranks;
   for (std::size_t i = 0; i < kStep; ++i) {
     points[i] = position(lists.points[first + i]);
     neighbours[i] = lists.neighbours[first + i];
@@ -34,26 +34,26 @@ void gather_from(const NeighbourLists& lists, std::size_t first, NeighbourBatch&
   }
   const auto at = load_vectors(d, points);
   auto sum = hn::Zero(d);
-  const double* row_of[kStep];
-  const auto store_row = [&](std::size_t row) HWY_ATTR {
-    const auto offset = load_vectors(d, row_of) - at;
+  const double* sources[kStep];
+  const auto store_rank = [&](std::size_t rank) HWY_ATTR {
+    const auto offset = load_vectors(d, sources) - at;
     const auto squared = dot(offset, offset);
-    hn::Store(offset.x, d, xs[row].at + first);
-    hn::Store(offset.y, d, ys[row].at + first);
-    hn::Store(offset.z, d, zs[row].at + first);
-    hn::Store(squared, d, squares[row].at + first);
+    hn::Store(offset.x, d, xs[rank].at + first);
+    hn::Store(offset.y, d, ys[rank].at + first);
+    hn::Store(offset.z, d, zs[rank].at + first);
+    hn::Store(squared, d, squares[rank].at + first);
     sum = sum + hn::Sqrt(squared);
   };
-  std::size_t row = 0;
-  for (; row < common; ++row) {
-    for (std::size_t i = 0; i < kStep; ++i) row_of[i] = position(neighbours[i][row]);
-    store_row(row);
+  std::size_t rank = 0;
+  for (; rank < common; ++rank) {
+    for (std::size_t i = 0; i < kStep; ++i) sources[i] = position(neighbours[i][rank]);
+    store_rank(rank);
   }
-  for (; row < rows; ++row) {
+  for (; rank < ranks; ++rank) {
     // Beyond the last neighbour the point itself: an offset of 0.
     for (std::size_t i = 0; i < kStep; ++i)
-      row_of[i] = row < counts[i] ? position(neighbours[i][row]) : points[i];
-    store_row(row);
+      sources[i] = rank < counts[i] ? position(neighbours[i][rank]) : points[i];
+    store_rank(rank);
   }
   hn::Store(sum / hn::Load(d, batch.counts.at + first), d, batch.mean_distance.at + first);
 }

@@ -9,11 +9,11 @@
 
 namespace lacuna {
 
-// Row i holds the i-th neighbour of each point. Beyond a point's count its offsets are 0.
+// Rank i holds the i-th neighbour of each point. Beyond a point's count its offsets are 0.
 struct NeighbourBatch {
-  std::size_t rows = 0;        // the largest count
+  std::size_t ranks = 0;       // the largest count
   Batch<double> counts;        // neighbours of each point, from 1 on
-  Batch<double>* x = nullptr;  // offsets q - p, by row
+  Batch<double>* x = nullptr;  // offsets q - p, by rank
   Batch<double>* y = nullptr;
   Batch<double>* z = nullptr;
   Batch<double>* squared_distance = nullptr;
@@ -30,7 +30,7 @@ struct NeighbourLists {
   std::uint32_t counts[kBatchSize];
 };
 
-// Sets offsets and distances in each of the batch's rows, and their mean.
+// Sets offsets and distances at each of the batch's ranks, and their mean.
 void gather_neighbours(const NeighbourLists& lists, NeighbourBatch& batch);
 
 }  // namespace lacuna

@@ -38,15 +38,15 @@ struct Slice {
     set(numbers[2], values.z);
   }
 
-  HWY_INLINE Vector<V> offset(std::size_t row) const {
-    return {get(batch.x[row]), get(batch.y[row]), get(batch.z[row])};
+  HWY_INLINE Vector<V> offset(std::size_t rank) const {
+    return {get(batch.x[rank]), get(batch.y[rank]), get(batch.z[rank])};
   }
-  // Of another row for each point; `rows`: from 0 on.
-  using Rows = hn::Rebind<std::int32_t, Doubles>;
-  HWY_INLINE Vector<V> offset_in_rows(hn::Vec<Rows> rows) const {
+  // Returns the offset of another neighbour for each point; `ranks` count from 0.
+  using Ranks = hn::Rebind<std::int32_t, Doubles>;
+  HWY_INLINE Vector<V> offset_at(hn::Vec<Ranks> ranks) const {
     const hn::RebindToSigned<Doubles> wide;
     const auto at =
-        hn::ShiftLeft<3>(hn::PromoteTo(wide, rows)) + hn::Iota(wide, static_cast<std::int64_t>(first));
+        hn::ShiftLeft<3>(hn::PromoteTo(wide, ranks)) + hn::Iota(wide, static_cast<std::int64_t>(first));
     static_assert(kBatchSize == 1 << 3);
     return {hn::GatherIndex(Doubles(), batch.x->at, at), hn::GatherIndex(Doubles(), batch.y->at, at),
             hn::GatherIndex(Doubles(), batch.z->at, at)};

@@ -15,14 +15,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-struct CriterionRow {
+struct CriterionEntry {
   V (*formula)(const Surface<V>&);  // from 0 to 1
   const char* name;
   double default_weight;
   const char* help;
 };
 
-constexpr CriterionRow kTable[] = {
+constexpr CriterionEntry kTable[] = {
     {angle_probability<V>, "angle", 1, "Share of the angle criterion; weights are divided by their sum."},
     {halfdisc_probability<V>, "halfdisc", 1, "Share of the halfdisc criterion."},
     {shape_probability<V>, "shape", 1, "Share of the shape criterion; more of it for noisy scans."},

@@ -31,12 +31,12 @@ CriteriaParameters criteria_parameters(const NormalsConfig& normals, const Crite
 // Batches of points with nearly as many neighbours each: a batch takes as long as its largest neighbourhood.
 class Batches {
  public:
-  Batches(const TilePoints& points, const Rows& neighbourhoods,
+  Batches(const TilePoints& points, const Neighbourhoods& neighbourhoods,
           std::span<const Eigen::Vector3d> given_normals)
       : points_(points), neighbourhoods_(neighbourhoods), given_normals_(given_normals) {}
 
-  // Of the points [first, last) that have neighbours. visit(batch, points): the points of the batch; a
-  // last one that is not full repeats a point.
+  // Goes through the points [first, last) that have neighbours. It calls visit(batch, points) with the points
+  // of the batch; a last batch that is not full repeats a point.
   template <class Visit>
   void for_each(LocalIndex first, LocalIndex last, Visit&& visit) {
     order_by_count(first, last);
@@ -65,9 +65,9 @@ class Batches {
   }
 
   const NeighbourBatch& gather() {
-    const std::size_t rows = count(lanes_.back());
-    if (rows > capacity_) grow(rows);
-    batch_.rows = rows;
+    const std::size_t ranks = count(lanes_.back());
+    if (ranks > capacity_) grow(ranks);
+    batch_.ranks = ranks;
     NeighbourLists lists{.positions = points_.positions.front().data()};
     for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
       const LocalIndex p = lanes_[lane];
@@ -81,8 +81,8 @@ class Batches {
     return batch_;
   }
 
-  void grow(std::size_t rows) {
-    capacity_ = std::max(rows, 2 * capacity_);
+  void grow(std::size_t ranks) {
+    capacity_ = std::max(ranks, 2 * capacity_);
     Batch<double>** const columns[] = {&batch_.x, &batch_.y, &batch_.z, &batch_.squared_distance,
                                        &batch_.weight};
     memory_.resize(capacity_ * std::size(columns));
@@ -101,7 +101,7 @@ class Batches {
   }
 
   const TilePoints& points_;
-  const Rows& neighbourhoods_;
+  const Neighbourhoods& neighbourhoods_;
   std::span<const Eigen::Vector3d> given_normals_;
   std::vector<std::uint32_t> ends_;  // by count
   std::vector<LocalIndex> order_;
@@ -133,7 +133,7 @@ double round_to_step(double value) {
   return std::nearbyint(value / kProbabilityStep) * kProbabilityStep;
 }
 
-std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
+std::vector<Evaluation> evaluate(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria, std::span<double> values) {
   const CriteriaParameters parameters = criteria_parameters(normals, criteria);

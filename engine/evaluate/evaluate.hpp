@@ -10,11 +10,11 @@
 
 namespace lacuna {
 
-// One evaluation per owned point, from its neighbourhood. `given_normals`: one per owned point, or empty;
-// a zero or non-finite one is estimated. Degenerate points get the values of the method, section 3.
-// `values`: takes each criterion of each owned point, those of a point side by side, in the order of the
-// table; empty: they are not wanted.
-std::vector<Evaluation> evaluate(const TilePoints& points, const Rows& neighbourhoods,
+// One evaluation per owned point, from its neighbourhood. `given_normals`: one per owned point, or empty; a
+// zero or non-finite one is estimated. Degenerate points get the values of the method, section 3. `values`
+// takes the criteria of each owned point, those of a point next to each other, in the order of the table.
+// Empty: they are not wanted.
+std::vector<Evaluation> evaluate(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria, std::span<double> values = {});
 

@@ -106,8 +106,8 @@ LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
   return largest;
 }
 
-// Of each owned point whether it has foreign neighbours. Few do, and these lie near each other.
-std::vector<std::uint8_t> border_of(const TilePoints& points, const Rows& neighbourhoods) {
+// Returns for each owned point whether it has foreign neighbours. Few do, and these lie near each other.
+std::vector<std::uint8_t> border_of(const TilePoints& points, const Neighbourhoods& neighbourhoods) {
   constexpr std::size_t kRun = 64;
   std::vector<std::uint8_t> is_border(points.owned);
   const auto leaves = [&](std::size_t first, std::size_t last) {
@@ -139,7 +139,7 @@ void operator+=(Totals& totals, const Totals& more) {
 }
 
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
-Totals sum_up(std::span<const Evaluation> evaluations, const Rows& neighbourhoods, double threshold,
+Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
               double unit, std::vector<LocalIndex>& candidates) {
   Totals totals{.points = evaluations.size(), .neighbours = neighbourhoods.indices.size()};
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
@@ -189,7 +189,7 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
     halo.drop(t);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
-    const Rows neighbourhoods =
+    const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
     std::vector<double> values(job.config.output.points ? points.owned * criteria().size() : 0);
     const std::vector<Evaluation> evaluations = evaluate(points, neighbourhoods, store.normals(index),

@@ -20,7 +20,7 @@ struct EvaluatedTile {
   TileIndex index;
   const Tile& tile;
   const TilePoints& points;
-  const Rows& neighbourhoods;               // of owned points
+  const Neighbourhoods& neighbourhoods;     // of owned points
   std::span<const Evaluation> evaluations;  // likewise
   std::span<const double> criteria;  // likewise, side by side in the order of the table; empty: not wanted
   std::span<const LocalIndex> candidates;   // owned points with Pi above the threshold, ascending

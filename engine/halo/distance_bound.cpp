@@ -22,9 +22,8 @@ struct Far {
   friend bool operator<(const Far& a, const Far& b) { return a.squared_distance < b.squared_distance; }
 };
 
-// Whether the children of a node would hardly give a nearer bound than the node itself. Without this, the
-// cell of an outlier would go through all cells of a surface that lies far below it, or in the midst of its
-// own box.
+// Whether the children of a node would hardly give a nearer bound than the node itself. Otherwise the cell of
+// an outlier would go through all cells of a surface far below it, or in the midst of its own box.
 bool is_small(const Eigen::AlignedBox3d& node, double farthest) {
   constexpr double kTimes = 8;
   return kTimes * kTimes * max_squared_distance(node, node) <= farthest;

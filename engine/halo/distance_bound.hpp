@@ -9,13 +9,13 @@
 
 namespace lacuna {
 
-// Squared upper bound of the distance from any point of the cell to its k-th nearest neighbour: the cells
-// that lie wholly within it hold more than k points. Infinite where the scan has no more than k points.
+// Returns a squared upper bound of the distance from any point of the cell to its k-th nearest neighbour. The
+// cells that lie wholly within it hold more than k points. Infinite where the scan has no more than k points.
 // Cost: the cells near by, logarithmic in the number of all.
 double squared_distance_bound(const Tiling& tiling, std::uint32_t cell, std::size_t k);
 
-// visit(cell) for every cell that may hold a point within `squared_radius` of a point of `box`, in store
-// order, but none of cells [skip_first, skip_last); stops when visit returns false.
+// Calls visit(cell) for every cell that may hold a point within `squared_radius` of a point of `box`, in
+// store order. It passes over cells [skip_first, skip_last), and stops when visit returns false.
 void for_each_cell_near(const Tiling& tiling, const Eigen::AlignedBox3d& box, double squared_radius,
                         std::uint32_t skip_first, std::uint32_t skip_last,
                         const std::function<bool(std::uint32_t)>& visit);

@@ -15,8 +15,8 @@ struct HaloEdge {
   std::uint32_t incoming;  // 1: the foreign point has the owned one among its k nearest; 0: the other way
 };
 
-// Each tile's inbox. With it a tile knows every foreign point that is among the k nearest of its own or has
-// one of its own among its k nearest, without reading a halo.
+// Each tile's inbox. With it, a tile knows every foreign point that is among the k nearest of its own, or the
+// reverse. It need not read a halo for this.
 //
 // Only points whose neighbourhood may leave their tile take part: those of cells whose distance bound touches
 // a foreign cell. Their exact neighbours are searched among all cells within that bound, so that the halo is

@@ -28,18 +28,18 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
 // If the area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer
 // boundary. A cap of less than about half a sphere has an outer boundary, a larger one a hole.
 //
-// normal: of the area vector of the polygon (Newell), by the right hand rule about the written direction.
-// area: its length, that of the loop seen along the normal. planarity: 1 - sqrt(smallest / largest
-// eigenvalue of the points' covariance). tiles: cubes of a fixed lattice, of edge `lattice_edge`, that hold
-// a point of the loop, so that the number does not depend on the tiling of the run.
-// `scratch` holds the loop and what measuring it needs. Precondition: three points or more. Cost: linear, but
-// for the diameter (see `diameter`).
+// `normal` is that of the polygon's area vector (Newell), by the right hand rule about the written direction.
+// `area` is its length, that of the loop seen along the normal. `planarity` is 1 - sqrt(smallest / largest
+// eigenvalue of the points' covariance). `tiles` counts cubes of a fixed lattice, of edge `lattice_edge`,
+// that hold a point of the loop. So the number does not depend on the tiling of the run. `scratch` holds the
+// loop and what measuring it needs. Precondition: three points or more. Cost: linear, but for the diameter
+// (see `diameter`).
 LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
 
 // Largest distance between two points, exactly, by branch and bound over runs of the loop.
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch);
 
-// The same of a loop in memory.
+// These take a loop in memory.
 LoopMeasures measure_loop(const Loop& loop, double lattice_edge);
 double diameter(const Loop& loop);
 

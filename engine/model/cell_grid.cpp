@@ -17,7 +17,8 @@ double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-// Of the coordinates of points one after the other. In rows of four points, which fill whole registers.
+// Rounds down the coordinates of points one after the other. In rows of four points, which fill whole
+// registers.
 LACUNA_VECTORISED
 void round_down(const double* coordinates, std::size_t count, double scale, const double* origin, int shift,
                 std::int32_t* cells) {

@@ -18,9 +18,9 @@ inline bool same_cell(const CellCoord& a, const CellCoord& b) {
 
 // Cells are cubes of edge 2^(finest + shift): `shift` doublings of the size that a survey began with. They
 // are counted from an origin near the points, so a scan may lie anywhere on Earth with millimetre spacing.
-// The origin is a whole number of finest cells along each axis, and cells are found by rounding down before
-// it is subtracted: both steps are exact. Points more than `kLast` finest cells away belong to the last cell
-// on that side, which therefore has no end. A point keeps its cell's ancestor however often cells are merged.
+// The origin is a whole number of finest cells along each axis. Cells are found by rounding down before it is
+// subtracted. Both steps are exact. Points more than `kLast` finest cells away belong to the last cell on
+// that side, which therefore has no end. A point keeps its cell's ancestor however often cells are merged.
 struct CellGrid {
   static constexpr std::int32_t kLast = 1 << 30;
   static constexpr int kMaxShift = 30;
@@ -31,7 +31,7 @@ struct CellGrid {
 
   double edge() const;
   CellCoord cell_of(const Eigen::Vector3d& position) const;
-  // The same for many, several at a time; some cell where a coordinate is not a number.
+  // Finds the cells of many points, several at a time; some cell where a coordinate is not a number.
   void cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const;
   // Whether the cell is the last along an axis.
   bool is_endless(const CellCoord& cell) const;

@@ -17,7 +17,7 @@
 namespace lacuna {
 
 struct Counts {
-  std::uint64_t points = 0;           // rows of the input
+  std::uint64_t points = 0;           // input rows
   std::uint64_t dropped = 0;          // with a non-finite coordinate
   std::uint64_t thinned_out = 0;      // represented by another point of their cell; 0 without a resolution
   std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id
@@ -47,7 +47,7 @@ struct Summary {
   double mean_neighbours = 0;       // K
   double mean_edge_length = 0;      // over the edges of G
   double eps = 0;                   // in effect
-  std::int64_t e = 0;               // in effect; 0: loops by stars
+  std::int64_t e = 0;               // in effect; 0: method tangential
   std::uint64_t tiles = 0;
   std::uint64_t tile_points = 0;   // in effect
   std::uint64_t threads = 0;       // in effect
@@ -57,8 +57,8 @@ struct Summary {
 
 inline constexpr std::size_t kMostCriteria = 8;
 
-// Result of one point of the input; a duplicate has those of the point that it is a copy of, a point that was
-// thinned out those of its representative.
+// The result of one point of the input. A duplicate has that of the point that it is a copy of. A point that
+// was thinned out has that of its representative.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table

@@ -12,14 +12,14 @@
 
 namespace lacuna {
 
-// Rows of indices, one after the other: row i is indices[offsets[i], offsets[i + 1]).
-struct Rows {
+// Lists of neighbours, flat: list i is indices[offsets[i], offsets[i + 1]).
+struct Neighbourhoods {
   std::vector<std::uint32_t> offsets{0};
   std::vector<LocalIndex> indices;
 
   std::size_t size() const { return offsets.size() - 1; }
-  std::span<const LocalIndex> operator[](std::size_t row) const {
-    return {indices.data() + offsets[row], indices.data() + offsets[row + 1]};
+  std::span<const LocalIndex> operator[](std::size_t list) const {
+    return {indices.data() + offsets[list], indices.data() + offsets[list + 1]};
   }
 };
 
@@ -29,8 +29,8 @@ struct TilePoints {
   std::vector<Eigen::Vector3d> positions;
   std::vector<PointId> ids;
   std::vector<Row> rows;
-  // The foreign points q that have the owned point p among their k nearest: one row per owned point.
-  Rows linked;
+  // The foreign points q that have the owned point p among their k nearest: one list per owned point.
+  Neighbourhoods linked;
 
   std::size_t size() const { return positions.size(); }
   bool is_owned(LocalIndex point) const { return point < owned; }

@@ -29,9 +29,9 @@ struct PointBatch {
   PointId id(std::size_t i) const { return ids.empty() ? PointId{value(first) + i} : ids[i]; }
 };
 
-// One registered scan, in any unit of length, read in bounded batches, from the first point to the last and
-// as often as wanted; ids ascend. Asked from one thread at a time, not always the same; several batches
-// are in memory at once. Throws `Error` naming file and place.
+// One registered scan, in any unit of length. It is read in bounded batches, from the first point to the last
+// and as often as wanted. Ids ascend. It is called from one thread at a time, not always the same. Several
+// batches are in memory at once. Throws `Error` naming file and place.
 class PointSource {
  public:
   virtual ~PointSource() = default;

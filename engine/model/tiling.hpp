@@ -65,7 +65,7 @@ struct Tiling {
   std::uint64_t row_count() const;                                   // rows up to the last used one
   std::uint64_t points() const;                                      // distinct ones
 
-  // Whether tiles hold every cell once and in order, their rows apart from each other, rows of cells in
+  // Whether tiles hold every cell once and in order, and their rows do not overlap. Rows of cells lie in
   // their tiles, and the nodes halve all cells. For asserts and tests.
   bool check() const;
 

@@ -37,20 +37,20 @@ double wanted_candidates(std::size_t neighbours) {
 BlockSearch::BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
     : positions_(positions), ids_(ids), tree_(positions) {}
 
-void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, Lists lists) {
   for (LocalIndex begin = first, end; begin < last; begin = end) {
     end = std::min<LocalIndex>(last, (begin / kRun + 1) * kRun);
-    find(begin, end, k, {rows[begin - first], rows.stride});
+    find(begin, end, k, {lists[begin - first], lists.stride});
   }
 }
 
 // Neighbours of the queries of a run.
-void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows) {
+void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Lists lists) {
   prepare(neighbours_of(k));
   if (neighbours_ == 0) return;
   if (guess_ == 0) guess_ = distance_to_last(first);
   list_run(first, last, first);
-  rank(first, last, rows);
+  rank(first, last, lists);
 }
 
 void BlockSearch::prepare(std::size_t neighbours) {
@@ -110,7 +110,7 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
 // half of the squared radius holds half of the points.
 void BlockSearch::narrow(CandidateList& list) {
   const double wanted = 1.2 * wanted_candidates(neighbours_);
-  if (list.count <= kRowsInRegisters || wanted > kRowsInRegisters) return;
+  if (list.count <= kBatchesInRegisters || wanted > kBatchesInRegisters) return;
   const auto limit = static_cast<float>(list.limit * wanted / static_cast<double>(list.count));
   narrow_list(limit, neighbours_ + 1, list);
   set_distance_bound(list);
@@ -134,7 +134,7 @@ void BlockSearch::set_distance_bound(CandidateList& list) const {
 }
 
 // The neighbours of the queries of a run, whose candidates are listed.
-void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
+void BlockSearch::rank(LocalIndex first, LocalIndex last, Lists lists) {
   // The query itself, its neighbours, and what comes after them, which must not be as near as the last.
   const std::size_t wanted = neighbours_ + 2;
   const bool can_rank = wanted <= kMostCandidates;
@@ -143,7 +143,7 @@ void BlockSearch::rank(LocalIndex first, LocalIndex last, Rows rows) {
     const std::size_t place = query - first;
     const CandidateList& list = lists_[place];
     const Ranking& ranking = rankings_[place / kQueries];
-    const std::span found(rows[place], neighbours_);
+    const std::span found(lists[place], neighbours_);
     if (!can_rank || list.count == 0 || ranking.is_ambiguous[place % kQueries]) {
       find_exactly(query, list, found);
     } else {
@@ -267,9 +267,10 @@ bool BlockSearch::set_origin(const BlockBox& run, double radius) {
     extent = std::max({extent, (run.high[axis] - surroundings_.origin[axis]) * surroundings_.scale,
                        (surroundings_.origin[axis] - run.low[axis]) * surroundings_.scale});
   }
-  // Rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
-  // point at d from it: 2 u (extent + d) of each difference of coordinates, so 4 u (sqrt(3) extent d + d^2)
-  // of the squares' sum, and 3 u d^2 of squaring and adding. That is below 7 u d (extent + d).
+  // The rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
+  // point at distance d. Each difference of coordinates has an error of 2 u (extent + d). So the sum of
+  // squares has one of 4 u (sqrt(3) extent d + d^2). Squaring and adding add 3 u d^2. That is below 7 u d
+  // (extent + d).
   constexpr double kRounding = 0x1p-24;
   surroundings_.margin = 8 * kRounding * scaled * (extent + scaled);
   return extent <= kLargestRun * scaled;

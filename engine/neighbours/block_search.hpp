@@ -39,14 +39,14 @@ class BlockSearch {
     }
   }
 
-  // The same, to rows that begin so far apart.
-  struct Rows {
+  // Lists that begin so far apart.
+  struct Lists {
     LocalIndex* first;
     std::size_t stride;
 
-    LocalIndex* operator[](std::size_t row) const { return first + row * stride; }
+    LocalIndex* operator[](std::size_t list) const { return first + list * stride; }
   };
-  void nearest(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
+  void nearest(LocalIndex first, LocalIndex last, std::size_t k, Lists lists);
 
   // How many neighbours each query has.
   std::size_t neighbours_of(std::size_t k) const { return std::min(k, positions_.size() - 1); }
@@ -67,14 +67,14 @@ class BlockSearch {
 
  private:
   static constexpr std::size_t kRun = 2 * kQueries;  // queries that share surroundings
-  void find(LocalIndex first, LocalIndex last, std::size_t k, Rows rows);
+  void find(LocalIndex first, LocalIndex last, std::size_t k, Lists lists);
   void prepare(std::size_t neighbours);
   void list_run(LocalIndex first, LocalIndex last, LocalIndex run);
   void list_candidates(LocalIndex query, LocalIndex last, CandidateList& list);
   void narrow(CandidateList& list);
   void set_distance_bound(CandidateList& list) const;
   void list_within(LocalIndex query, double radius, double more, CandidateList& list);
-  void rank(LocalIndex first, LocalIndex last, Rows rows);
+  void rank(LocalIndex first, LocalIndex last, Lists lists);
   void rank_lists(std::size_t count, std::size_t wanted, bool ends_at_limit);
   void find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found);
   double distance_to_last(LocalIndex query);

@@ -37,8 +37,8 @@ HWY_INLINE hn::Vec<D> squared_gaps(D d, const Number* low, const Number* high, c
   return sum;
 }
 
-// Of the surroundings, the blocks whose boxes are within the limit: rounding keeps the order of box and
-// points. Returns how many.
+// Collects the blocks of the surroundings whose boxes are within the limit: rounding keeps the order of box
+// and points. Returns how many.
 HWY_INLINE std::size_t near_blocks(const Surroundings& surroundings, const float* query, float limit,
                                    std::uint32_t* near) {
   const hn::Vec<Singles> all_limit = hn::Set(kSingles, limit);
@@ -67,14 +67,14 @@ HWY_INLINE std::size_t append(hn::Vec<Singles> squared_distances, hn::Vec<Whole>
 
 // The squared distances of candidates side by side, by their numbers in the lists; beyond the last: the
 // largest number there is.
-void list_side_by_side(const CandidateList* lists, std::size_t count, std::size_t rows, Ranking& ranking) {
+void list_side_by_side(const CandidateList* lists, std::size_t count, std::size_t ranks, Ranking& ranking) {
   for (std::size_t query = 0; query < kQueries; ++query) {
-    std::size_t row = 0;
+    std::size_t rank = 0;
     if (query < count && lists[query].count <= kMostCandidates) {
-      for (; row < lists[query].count; ++row)
-        ranking.keys[row].at[query] = lists[query].squared_distances[row];
+      for (; rank < lists[query].count; ++rank)
+        ranking.keys[rank].at[query] = lists[query].squared_distances[rank];
     }
-    for (; row < rows; ++row) ranking.keys[row].at[query] = kLargest;
+    for (; rank < ranks; ++rank) ranking.keys[rank].at[query] = kLargest;
   }
 }
 
@@ -82,20 +82,20 @@ HWY_INLINE hn::Vec<Whole> bits_in(hn::Vec<Singles> numbers) {
   return hn::BitCast(kWhole, numbers);
 }
 
-void put_numbers(std::size_t rows, Ranking& ranking) {
+void put_numbers(std::size_t ranks, Ranking& ranking) {
   const auto number_bits = hn::Set(kWhole, ranking.number_bits);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const auto number = hn::Set(kWhole, static_cast<std::uint32_t>(row));
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    const auto number = hn::Set(kWhole, static_cast<std::uint32_t>(rank));
     for (std::size_t first = 0; first < kQueries; first += kStep) {
-      float* const at = ranking.keys[row].at + first;
+      float* const at = ranking.keys[rank].at + first;
       const auto key = hn::Or(hn::AndNot(number_bits, bits_in(hn::Load(kSingles, at))), number);
       hn::Store(hn::BitCast(kSingles, key), kSingles, at);
     }
   }
 }
 
-// Of successive keys, as near to each other as the numbers in them allow. `ends`: what is in no list is no
-// nearer.
+// Finds successive keys that are as near to each other as the numbers in them allow. `ends`: what is in no
+// list is no nearer.
 void find_ambiguous(const float* ends, const float* margins, std::size_t wanted, Ranking& ranking) {
   const auto number_bits = hn::Set(kWhole, ranking.number_bits);
   const auto least_of = [&](hn::Vec<Whole> key)
@@ -229,19 +229,19 @@ void narrow_list(float limit, std::size_t least, CandidateList& list) {
 void rank_candidates(const CandidateList* lists, std::size_t count, std::size_t wanted, bool ends_at_limit,
                      Ranking& ranking) {
   alignas(64) float ends[kQueries], margins[kQueries];
-  std::size_t rows = wanted;
+  std::size_t ranks = wanted;
   for (std::size_t query = 0; query < kQueries; ++query) {
     const CandidateList& list = lists[query < count ? query : 0];
     ends[query] = ends_at_limit && list.count > 0 ? list.limit : kLargest;
     margins[query] = list.margin;
-    if (list.count <= kMostCandidates && list.count > rows) rows = list.count;
+    if (list.count <= kMostCandidates && list.count > ranks) ranks = list.count;
   }
   ranking.number_bits = 1;
-  while (ranking.number_bits + 1 < rows) ranking.number_bits = 2 * ranking.number_bits + 1;
-  list_side_by_side(lists, count, rows, ranking);
-  put_numbers(rows, ranking);
+  while (ranking.number_bits + 1 < ranks) ranking.number_bits = 2 * ranking.number_bits + 1;
+  list_side_by_side(lists, count, ranks, ranking);
+  put_numbers(ranks, ranking);
   for (std::size_t first = 0; first < kQueries; first += kStep)
-    sort_columns(kSingles, ranking.keys, rows, first);
+    sort_lanes(kSingles, ranking.keys, ranks, first);
   find_ambiguous(ends, margins, wanted, ranking);
 }
 

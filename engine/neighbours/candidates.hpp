@@ -1,5 +1,6 @@
-// What the search in blocks does most: distances from one query to the points of many blocks, and the
-// nearest of sixteen queries ranked side by side. Plain arrays, compiled for each instruction set.
+// The search in blocks spends most of its time here. It computes distances from one query to the points of
+// many blocks, and ranks the nearest of sixteen queries at once. Plain arrays, compiled for each instruction
+// set.
 //
 // Single precision takes half of the time. Results are exact all the same: distances differ from the true
 // ones by less than a margin. What the margin could reverse is marked as ambiguous, and left to the caller.
@@ -77,7 +78,7 @@ void narrow_list(float limit, std::size_t least, CandidateList& list);
 inline constexpr std::size_t kQueries = 16;  // ranked side by side
 
 // Candidates of some queries by rank, nearest first. A key is a squared distance whose lowest bits are
-// replaced by the candidate's number in its list, so that it can be sorted as one number.
+// replaced by the candidate's number in its list. So it can be sorted as one number.
 struct Ranking {
   Batch<float, kQueries> keys[kMostCandidates];
   std::uint32_t number_bits;

@@ -44,7 +44,8 @@ HWY_INLINE void find_mutual_in(const NearestLists& lists, std::size_t stride, st
           lists.mutual[other] |= static_cast<std::uint16_t>(at);
           some |= at;
         }
-        mutual |= left & -left & -std::uint32_t{some != 0};  // without a branch: nobody can foretell it
+        mutual |=
+            left & -left & -std::uint32_t{some != 0};  // without a branch, which no processor could predict
       }
       lists.mutual[own] = static_cast<std::uint16_t>(mutual);
     }

@@ -31,7 +31,7 @@ struct EdgeList {
 };
 
 // Sets `edges` to those from points [first, last) to neighbours below `owned` that are not mutual, once this
-// is known of all points; returns how many.
+// is known of all points. Returns how many.
 std::size_t find_one_sided(const NearestLists& lists, std::uint32_t first, std::uint32_t last,
                            std::uint32_t owned, const EdgeList& edges);
 

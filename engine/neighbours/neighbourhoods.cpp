@@ -23,10 +23,10 @@ class Nearest {
     lists_ = {lines_.get(), stride, count, mutual_.get()};
     for (LocalIndex first = 0; first < points.owned; first += kTogether) {
       const LocalIndex last = std::min(first + kTogether, points.owned);
-      const BlockSearch::Rows rows{lines_[first * stride].points, stride * kListLine};
-      search.nearest(first, last, k, rows);
+      const BlockSearch::Lists lists{lines_[first * stride].points, stride * kListLine};
+      search.nearest(first, last, k, lists);
       for (LocalIndex p = first; p < last; ++p)
-        std::fill(rows[p - first] + count, rows[p - first] + rows.stride, kNoIndex);
+        std::fill(lists[p - first] + count, lists[p - first] + lists.stride, kNoIndex);
       // Now: those before are still in the cache.
       find_mutual(lists_, first, last);
     }
@@ -36,15 +36,15 @@ class Nearest {
   std::span<const LocalIndex> operator[](LocalIndex p) const {
     return {lists_.lines[p * lists_.stride].points, lists_.count};
   }
-  // Copies the row of p, in whole lines; returns where the next one goes.
+  // Copies the list of p, in whole lines; returns where the next one goes.
   LocalIndex* copy(LocalIndex p, LocalIndex* to) const {
     for (std::size_t line = 0; line < lists_.stride; ++line)
       std::copy_n(lists_.lines[p * lists_.stride + line].points, kListLine, to + line * kListLine);
     return to + lists_.count;
   }
   bool holds(LocalIndex p, LocalIndex q) const {
-    const auto row = (*this)[p];
-    return std::find(row.begin(), row.end(), q) != row.end();
+    const auto list = (*this)[p];
+    return std::find(list.begin(), list.end(), q) != list.end();
   }
 
  private:
@@ -53,8 +53,8 @@ class Nearest {
   NearestLists lists_{};
 };
 
-// Row q: the owned points p with q in N_p^k but p not in N_q^k.
-Rows one_sided(const TilePoints& points, const Nearest& nearest) {
+// List q: the owned points p with q in N_p^k but p not in N_q^k.
+Neighbourhoods one_sided(const TilePoints& points, const Nearest& nearest) {
   const std::size_t most = kTogether * nearest.lists().count + kListLine;
   std::vector<std::uint32_t> q, p;
   std::size_t count = 0;
@@ -66,14 +66,14 @@ Rows one_sided(const TilePoints& points, const Nearest& nearest) {
     const LocalIndex last = std::min(first + kTogether, points.owned);
     count += find_one_sided(nearest.lists(), first, last, points.owned, {q.data() + count, p.data() + count});
   }
-  Rows rows;
-  rows.offsets.assign(points.owned + 1, 0);
-  for (std::size_t i = 0; i < count; ++i) ++rows.offsets[q[i] + 1];
-  for (LocalIndex row = 0; row < points.owned; ++row) rows.offsets[row + 1] += rows.offsets[row];
-  rows.indices.resize(count);
-  std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (std::size_t i = 0; i < count; ++i) rows.indices[next[q[i]]++] = p[i];
-  return rows;
+  Neighbourhoods lists;
+  lists.offsets.assign(points.owned + 1, 0);
+  for (std::size_t i = 0; i < count; ++i) ++lists.offsets[q[i] + 1];
+  for (LocalIndex q = 0; q < points.owned; ++q) lists.offsets[q + 1] += lists.offsets[q];
+  lists.indices.resize(count);
+  std::vector<std::uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) lists.indices[next[q[i]]++] = p[i];
+  return lists;
 }
 
 // Places in a tile's neighbourhoods are 32 bit numbers.
@@ -84,30 +84,30 @@ void check_count(std::uint64_t neighbours) {
 }
 
 // The points within eps of every owned point, in neighbour order.
-Rows balls(BlockSearch& search, const TilePoints& points, double eps) {
-  Rows rows;
+Neighbourhoods balls(BlockSearch& search, const TilePoints& points, double eps) {
+  Neighbourhoods lists;
   if (eps == 0) {
-    rows.offsets.resize(points.owned + 1);
-    return rows;
+    lists.offsets.resize(points.owned + 1);
+    return lists;
   }
   search.within(0, points.owned, eps, [&](LocalIndex, std::span<const LocalIndex> found) {
-    check_count(rows.indices.size() + found.size());
-    rows.indices.insert(rows.indices.end(), found.begin(), found.end());
-    rows.offsets.push_back(static_cast<std::uint32_t>(rows.indices.size()));
+    check_count(lists.indices.size() + found.size());
+    lists.indices.insert(lists.indices.end(), found.begin(), found.end());
+    lists.offsets.push_back(static_cast<std::uint32_t>(lists.indices.size()));
   });
-  return rows;
+  return lists;
 }
 
 }  // namespace
 
-Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
+Neighbourhoods find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
   BlockSearch search(points.positions, points.ids);
   const Nearest nearest(search, points, k);
-  const Rows others = one_sided(points, nearest);
-  const Rows near = balls(search, points, eps);
+  const Neighbourhoods others = one_sided(points, nearest);
+  const Neighbourhoods near = balls(search, points, eps);
   const double squared_eps = eps * eps;
 
-  Rows neighbourhoods;
+  Neighbourhoods neighbourhoods;
   neighbourhoods.offsets.reserve(points.owned + 1);
   std::vector<LocalIndex>& indices = neighbourhoods.indices;
   const std::uint64_t most = points.owned * nearest.lists().count + others.indices.size() +
@@ -119,7 +119,7 @@ Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps) {
   for (LocalIndex p = 0; p < points.owned; ++p) {
     end = nearest.copy(p, end);
 
-    // Of the k nearest and the points within eps, one holds the other: both begin alike.
+    // One of the k nearest and the points within eps holds the other: both begin alike.
     const auto beyond = near[p].subspan(std::min(nearest.lists().count, near[p].size()));
     end = std::copy(beyond.begin(), beyond.end(), end);
 

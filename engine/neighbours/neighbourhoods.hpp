@@ -5,11 +5,10 @@
 
 namespace lacuna {
 
-// Row p: N_p of owned point p, nearest first, ties by id:
-//   N_p = { q : q in N_p^{k,eps} or p in N_q^{k,eps} }.
-// `points` must hold, besides the owned ones, every foreign point that is among the k nearest of an owned
-// one, has an owned one among its own k nearest (those are listed in `linked` too), or lies within eps of
-// one; any others do no harm. eps: a length; 0: off. Cost: one search per owned point, and one more with eps.
-Rows find_neighbourhoods(const TilePoints& points, std::size_t k, double eps);
+// List p holds N_p of owned point p, nearest first, ties by id. N_p = { q : q in N_p^{k,eps} or p in
+// N_q^{k,eps} }. `points` must hold the owned points and every foreign point that a neighbourhood needs. Some are
+// among the k nearest of an owned one, others have an owned one among theirs (listed in `linked`), or lie
+// within eps. Others do no harm. `eps` is a length; 0: off. Cost: one search per owned point, and one more with eps.
+Neighbourhoods find_neighbourhoods(const TilePoints& points, std::size_t k, double eps);
 
 }  // namespace lacuna

@@ -129,7 +129,7 @@ RowSet OrientationGraph::opposed_normals(Job& job) {
   SignedUnionFind trees(rows, scratch);
   edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });
 
-  // Of each tree: its topmost point, and whether the root's normal has to be turned for that one to point up.
+  // The topmost point of a tree, and whether the root's normal has to be turned for that one to point up.
   struct Top {
     double z;
     std::uint64_t id;

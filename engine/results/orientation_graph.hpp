@@ -26,8 +26,8 @@ class OrientationGraph final : public TileConsumer {
   void take(const EvaluatedTile& tile) override;
 
   // All tiles are taken. Rows whose normal has to be turned round. The minimum spanning tree of G is built
-  // from the tiles' forests and the edges between tiles, sorted on disk, by a union-find that carries the
-  // sign. In every component the topmost point (largest z, then lowest id) gets a normal that points up: its
+  // from the tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries
+  // the sign. In every component, the normal of the topmost point (largest z, then lowest id) points up. Its
   // first coordinate of z, y, x that is not 0 is positive. Memory: the global budget. Consumes the edges: to
   // be called once.
   RowSet opposed_normals(Job& job);

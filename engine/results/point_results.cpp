@@ -15,7 +15,7 @@ void PointResults::take(const EvaluatedTile& tile) {
   constexpr std::size_t kTogether = 1 << 14;
   std::vector<Duplicate> results;  // each point of the tile, as a copy of itself, and its copies
   for (LocalIndex p = 0; p < tile.points.owned; ++p) results.push_back({tile.points.ids[p], p});
-  // Of copies there may be more than fit in memory.
+  // There may be more copies than fit in memory.
   store_.for_each_duplicate(tile.index, [&](const Duplicate& d) {
     if (results.size() >= kTogether) append(tile, results);
     results.push_back(d);

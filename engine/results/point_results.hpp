@@ -14,7 +14,7 @@
 
 namespace lacuna {
 
-// Of one point of the input. On disk, its criteria follow, in the order of the table.
+// The result of one point of the input. On disk, its criteria follow, in the order of the table.
 struct StoredResult {
   PointId id;
   Row row;  // of the distinct point

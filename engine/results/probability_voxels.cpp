@@ -32,11 +32,11 @@ struct AlongZ {
 // Voxels in any order of equal ones have the same largest probability and the same number of points.
 using VoxelSort = SortedRuns<TileVoxel, AlongZ>;
 
-// The middle is at this coordinate along each axis. Its bits alternate, so that its distance to the nearest
-// border of a node of OpenVDB's tree is a third of the node's size, however often voxels double.
+// The middle is at this coordinate along each axis. Its bits alternate. So its distance to the nearest border
+// of a node of OpenVDB's tree is a third of the node's size, however often voxels double.
 constexpr std::int32_t kMiddle = 0x2aaaaaa;
 
-// Of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
+// Returns the shift of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
 std::int32_t shift_of(int doublings) {
   return (kMiddle >> doublings) / 4096 * 4096;
 }
@@ -123,7 +123,7 @@ void ProbabilityVoxels::take(const EvaluatedTile& tile) {
   for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
 }
 
-// Of the median; 0 without any.
+// Returns the exponent of the median; 0 without any.
 int ProbabilityVoxels::typical_exponent() const {
   std::uint64_t all = 0, before = 0;
   for (const auto& [exponent, points] : exponents_) all += points;

@@ -24,11 +24,11 @@ class ProbabilityVoxels final : public TileConsumer {
 
   void take(const EvaluatedTile& tile) override;
 
-  // Once every tile was taken. The edge of a voxel is the largest power of two that is no more than the
-  // median, over the points, of the mean distance to the neighbours. Outliers hardly change it. It doubles
-  // until OpenVDB's tree takes no more than 128 MiB and the job's memory for the global stage. The grid does
-  // not depend on that memory if it is at least 128 MiB. `middle`: a place near the points. Voxels are sorted
-  // on disk.
+  // Once every tile was taken. The edge of a voxel is the largest power of two that does not exceed the
+  // typical neighbour distance. That is the median, over the points, of the mean distance to the neighbours.
+  // Outliers hardly change it. It doubles until OpenVDB's tree takes no more than 128 MiB and the job's
+  // memory for the global stage. The grid does not depend on that memory if it is at least 128 MiB. `middle`:
+  // a place near the points. Voxels are sorted on disk.
   ProbabilityGrid finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const;
 
  private:

@@ -30,10 +30,10 @@ struct KeyedSample {
   }
 };
 
-// Sequential Poisson sampling (Ohlsson, 1998): a point has the key u / w, with u drawn from its id, uniform
-// in (0, 1), and w its weight; those with the smallest keys are the sample. A weight is the area that the
-// point stands for, the square of its mean distance to its neighbours; up to four times that near a boundary,
-// by its probability. The sample depends on the points alone, not on tiles or threads.
+// Sequential Poisson sampling (Ohlsson, 1998): a point of weight w has the key u / w, with u drawn from its
+// id, uniform in (0, 1). The points with the smallest keys are the sample. A weight is the area that the
+// point stands for: the square of its mean distance to its neighbours. Near a boundary it is up to four times
+// that, by its probability. The sample depends on the points alone, not on tiles or threads.
 class ScanSample final : public TileConsumer {
  public:
   ScanSample(std::uint64_t most_points, const Job& job);

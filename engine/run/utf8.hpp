@@ -26,7 +26,7 @@ inline std::size_t utf8_length(std::string_view text) {
   return is_valid && follows(2) && follows(3) ? 4 : 0;
 }
 
-// Of one character: C0, DEL or C1, which is U+0080 to U+009F, C2 80 to C2 9F.
+// Whether a character is a control character: C0, DEL or C1, which is U+0080 to U+009F, C2 80 to C2 9F.
 inline bool is_control(std::string_view character) {
   const auto last = static_cast<unsigned char>(character.back());
   if (character.size() == 1) return last < 0x20 || last == 0x7f;

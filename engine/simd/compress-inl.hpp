@@ -1,8 +1,7 @@
 // The numbers of chosen lanes, one after the other.
 //
-// The one thing that Highway 1.0.3 does badly with GCC: without AVX-512, each call of its Compress copies the
-// table of shuffles (1 KiB) to the stack, which makes the search eight times slower. Here the table is
-// static.
+// Highway 1.0.3 does one thing badly with GCC. Without AVX-512, each call of its Compress copies the table of
+// shuffles (1 KiB) to the stack, which makes the search eight times slower. Here the table is static.
 #if defined(LACUNA_SIMD_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_COMPRESS_INL
 #undef LACUNA_SIMD_COMPRESS_INL

@@ -41,7 +41,7 @@ HWY_INLINE Pair<hn::Vec<D>> load_pair(D d, const double* const* points, std::siz
 }
 #endif
 
-// Of points of three numbers each, and none beyond the last one's.
+// Loads points of three numbers each, and nothing beyond the last one's.
 template <class D>
 HWY_INLINE Vector<hn::Vec<D>> load_vectors(D d, const double* const* points) {
   const auto [x, y] = load_pair(d, points, 0);

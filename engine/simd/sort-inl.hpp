@@ -1,4 +1,4 @@
-// Sorting rows of numbers column by column, without a branch: the same comparisons whatever the numbers.
+// Sorting batches of numbers lane by lane, without a branch: the same comparisons whatever the numbers.
 #if defined(LACUNA_SIMD_SORT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_SORT_INL
 #undef LACUNA_SIMD_SORT_INL
@@ -16,17 +16,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// visit(low, high): the comparisons after which `rows` rows are in ascending order, if each puts the smaller
-// number into row `low`. Batcher's odd-even merge exchange (Knuth, The Art of Computer Programming 3, 5.2.2,
-// algorithm M).
+// visit(low, high): the comparisons after which `batches` batches are in ascending order, if each puts the
+// smaller number into batch `low`. Batcher's odd-even merge exchange (Knuth, The Art of Computer Programming
+// 3, 5.2.2, algorithm M).
 template <class Visit>
-constexpr HWY_INLINE void for_each_comparison(std::size_t rows, Visit&& visit) {
-  std::size_t top = 1;  // half of the rows, rounded up to a power of two
-  while (2 * top < rows) top *= 2;
+constexpr HWY_INLINE void for_each_comparison(std::size_t batches, Visit&& visit) {
+  std::size_t top = 1;  // half of the batches, rounded up to a power of two
+  while (2 * top < batches) top *= 2;
   for (std::size_t p = top; p > 0; p /= 2) {
     std::size_t q = top, r = 0, d = p;
     for (;;) {
-      for (std::size_t i = 0; i + d < rows; ++i) {
+      for (std::size_t i = 0; i + d < batches; ++i) {
         if ((i & p) == r) visit(i, i + d);
       }
       if (q == p) break;
@@ -37,21 +37,21 @@ constexpr HWY_INLINE void for_each_comparison(std::size_t rows, Visit&& visit) {
   }
 }
 
-consteval std::size_t count_comparisons(std::size_t rows) {
+consteval std::size_t count_comparisons(std::size_t batches) {
   std::size_t count = 0;
-  for_each_comparison(rows, [&](std::size_t, std::size_t) { ++count; });
+  for_each_comparison(batches, [&](std::size_t, std::size_t) { ++count; });
   return count;
 }
 
-template <std::size_t kRows>
+template <std::size_t kBatches>
 struct Comparisons {
   struct {
     std::size_t low, high;
-  } at[count_comparisons(kRows)];
+  } at[count_comparisons(kBatches)];
 
   consteval Comparisons() : at{} {
     std::size_t count = 0;
-    for_each_comparison(kRows, [&](std::size_t low, std::size_t high) { at[count++] = {low, high}; });
+    for_each_comparison(kBatches, [&](std::size_t low, std::size_t high) { at[count++] = {low, high}; });
   }
 };
 
@@ -62,57 +62,57 @@ HWY_INLINE void put_in_order(V& low, V& high) {
   high = hn::Max(a, b);
 }
 
-// kRows rows, or one less, of as many columns as a vector holds. All comparisons are written out, so that the
-// rows stay in registers.
-template <std::size_t kRows, class D, class Row>
-void sort_in_registers(D d, Row* rows, std::size_t count, std::size_t column) {
-  static constexpr Comparisons<kRows> kAll;
-  constexpr std::size_t kLast = kRows - 1;
+// kBatches batches, or one less, of as many lanes as a vector holds. All comparisons are written out, so that
+// the batches stay in registers.
+template <std::size_t kBatches, class D, class Batch>
+void sort_in_registers(D d, Batch* batches, std::size_t count, std::size_t lane) {
+  static constexpr Comparisons<kBatches> kAll;
+  constexpr std::size_t kLast = kBatches - 1;
   using V = hn::Vec<D>;
-  V row[kRows];
+  V batch[kBatches];
   [&]<std::size_t... i>(std::index_sequence<i...>) HWY_ATTR {
-    ((row[i] = hn::Load(d, rows[i].at + column)), ...);
+    ((batch[i] = hn::Load(d, batches[i].at + lane)), ...);
   }
   (std::make_index_sequence<kLast>{});
-  row[kLast] =
-      count == kRows ? hn::Load(d, rows[kLast].at + column) : all<V>(std::numeric_limits<double>::infinity());
+  batch[kLast] = count == kBatches ? hn::Load(d, batches[kLast].at + lane)
+                                   : all<V>(std::numeric_limits<double>::infinity());
   [&]<std::size_t... i>(std::index_sequence<i...>) HWY_ATTR {
-    (put_in_order(row[kAll.at[i].low], row[kAll.at[i].high]), ...);
+    (put_in_order(batch[kAll.at[i].low], batch[kAll.at[i].high]), ...);
   }
-  (std::make_index_sequence<count_comparisons(kRows)>{});
+  (std::make_index_sequence<count_comparisons(kBatches)>{});
   [&]<std::size_t... i>(std::index_sequence<i...>) HWY_ATTR {
-    (hn::Store(row[i], d, rows[i].at + column), ...);
+    (hn::Store(batch[i], d, batches[i].at + lane), ...);
   }
   (std::make_index_sequence<kLast>{});
-  if (count == kRows) hn::Store(row[kLast], d, rows[kLast].at + column);
+  if (count == kBatches) hn::Store(batch[kLast], d, batches[kLast].at + lane);
 }
 
-template <class D, class Row, std::size_t... i>
-HWY_INLINE void sort_in_registers(D d, Row* rows, std::size_t count, std::size_t column,
+template <class D, class Batch, std::size_t... i>
+HWY_INLINE void sort_in_registers(D d, Batch* batches, std::size_t count, std::size_t lane,
                                   std::index_sequence<i...>) {
-  using Sort = void(D, Row*, std::size_t, std::size_t);
-  static constexpr Sort* kSorts[] = {sort_in_registers<2 * i + 2, D, Row>...};
-  kSorts[(count - 1) / 2](d, rows, count, column);
+  using Sort = void(D, Batch*, std::size_t, std::size_t);
+  static constexpr Sort* kSorts[] = {sort_in_registers<2 * i + 2, D, Batch>...};
+  kSorts[(count - 1) / 2](d, batches, count, lane);
 }
 
-template <class D, class Row>
-void sort_in_memory(D d, Row* rows, std::size_t count, std::size_t column) {
+template <class D, class Batch>
+void sort_in_memory(D d, Batch* batches, std::size_t count, std::size_t lane) {
   for_each_comparison(count, [&](std::size_t i, std::size_t k) HWY_ATTR {
-    auto low = hn::Load(d, rows[i].at + column), high = hn::Load(d, rows[k].at + column);
+    auto low = hn::Load(d, batches[i].at + lane), high = hn::Load(d, batches[k].at + lane);
     put_in_order(low, high);
-    hn::Store(low, d, rows[i].at + column);
-    hn::Store(high, d, rows[k].at + column);
+    hn::Store(low, d, batches[i].at + lane);
+    hn::Store(high, d, batches[k].at + lane);
   });
 }
 
-// As many columns as a vector holds. Not for NaN.
-template <class D, class Row>
-HWY_INLINE void sort_columns(D d, Row* rows, std::size_t count, std::size_t column) {
+// As many lanes as a vector holds. Not for NaN.
+template <class D, class Batch>
+HWY_INLINE void sort_lanes(D d, Batch* batches, std::size_t count, std::size_t lane) {
   if (count < 2) return;
-  if (count <= kRowsInRegisters) {
-    sort_in_registers(d, rows, count, column, std::make_index_sequence<kRowsInRegisters / 2>{});
+  if (count <= kBatchesInRegisters) {
+    sort_in_registers(d, batches, count, lane, std::make_index_sequence<kBatchesInRegisters / 2>{});
   } else {
-    sort_in_memory(d, rows, count, column);
+    sort_in_memory(d, batches, count, lane);
   }
 }
 

@@ -11,8 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-void sort_rows(Batch<double>* rows, std::size_t count) {
-  for (std::size_t i = 0; i < kBatchSize; i += kLanes<Doubles>) sort_columns(Doubles(), rows, count, i);
+void sort_batches(Batch<double>* batches, std::size_t count) {
+  for (std::size_t i = 0; i < kBatchSize; i += kLanes<Doubles>) sort_lanes(Doubles(), batches, count, i);
 }
 
 }  // namespace lacuna::HWY_NAMESPACE
@@ -21,9 +21,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lacuna {
 
-HWY_EXPORT(sort_rows);
-void sort_rows(Batch<double>* rows, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(sort_rows)(rows, count);
+HWY_EXPORT(sort_batches);
+void sort_batches(Batch<double>* batches, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(sort_batches)(batches, count);
 }
 
 }  // namespace lacuna

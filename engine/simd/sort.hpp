@@ -1,4 +1,4 @@
-// Sorting rows of numbers column by column.
+// Sorting batches of numbers lane by lane.
 #pragma once
 
 #include "engine/simd/batch.hpp"
@@ -7,9 +7,9 @@
 
 namespace lacuna {
 
-inline constexpr std::size_t kRowsInRegisters = 32;  // more of them take much longer
+inline constexpr std::size_t kBatchesInRegisters = 32;  // more of them take much longer
 
-// The numbers of each column in ascending order. Not for NaN.
-void sort_rows(Batch<double>* rows, std::size_t count);
+// The numbers of each lane in ascending order. Not for NaN.
+void sort_batches(Batch<double>* batches, std::size_t count);
 
 }  // namespace lacuna

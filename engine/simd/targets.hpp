@@ -2,9 +2,9 @@
 //
 // A kernel is a source that includes itself once for each target (HWY_TARGET_INCLUDE, foreach_target.h); the
 // headers *-inl.hpp belong to the target that includes them. The program chooses the best target that the
-// machine has when it first calls a kernel (HWY_DYNAMIC_DISPATCH). Every target computes the same bytes:
-// there is no fused multiply-add (no MulAdd, and -ffp-contract=off), no approximation
-// (ApproximateReciprocal), and Min and Max never decide between numbers that are not ordered.
+// machine has when it first calls a kernel (HWY_DYNAMIC_DISPATCH). Every target computes the same bytes.
+// There is no fused multiply-add (no MulAdd, and -ffp-contract=off) and no approximation
+// (ApproximateReciprocal). Min and Max never decide between numbers that are not ordered.
 #pragma once
 
 // Left out: what adds little to a neighbour in the list, and vectors whose size is not known at compile time.

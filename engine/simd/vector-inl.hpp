@@ -28,7 +28,7 @@ using TagOf = hn::DFromV<V>;
 template <class V>
 using MaskOf = hn::Mask<TagOf<V>>;
 
-// The same number in each lane.
+// Returns a vector with this number in each lane.
 template <class V>
 HWY_INLINE V all(double value) {
   return hn::Set(TagOf<V>(), static_cast<hn::TFromV<V>>(value));

@@ -45,8 +45,8 @@ class Components {
                            std::span<const CrossingEdge> crossings, bool single_vertices_count);
   void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
 
-  // All tiles are added: joins open parts to components, and groups these to batches of at most
-  // `most_records` each; a component of more has a batch of its own.
+  // All tiles are added. Joins open parts to components, and groups these to batches of at most
+  // `most_records` each. A component with more has a batch of its own.
   struct Batches {
     std::vector<std::uint64_t> records;        // of each batch
     std::span<const std::uint32_t> batch_of;   // by component

@@ -1,9 +1,9 @@
 // stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
 //
-// A tile adds its part of the graph. Loops that lie wholly inside are its own affair; of the open components,
-// those that leave the tile, it passes on records: boundary edges, in whatever form the method needs to find
-// loops. The records are grouped by component, in batches that fit in memory; a component larger than that is
-// handed out from disk.
+// A tile adds its part of the graph. Loops that lie wholly inside are finished in the tile. For the open
+// components, those that leave the tile, it passes on records: boundary edges, in whatever form the method
+// needs to find loops. The records are grouped by component, in batches that fit in memory; a component
+// larger than that is handed out from disk.
 #pragma once
 
 #include "engine/run/error.hpp"
@@ -61,8 +61,9 @@ class Stitch {
   // visit(record) for each record of a component, as often as wanted.
   using ForEachRecord = std::function<void(const std::function<void(const Record&)>&)>;
 
-  // All tiles are added. in_memory(records): of one component, in any order; several components at a time.
-  // on_disk(for_each, count): of one component whose records do not fit in memory; one at a time.
+  // All tiles are added. `in_memory(records)` gets those of one component, in any order, and is called for
+  // several components at a time. `on_disk(for_each, count)` gets one component whose records do not fit in
+  // memory, one at a time.
   void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
                           const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
     const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;

@@ -1,9 +1,9 @@
 // Many append-only lists of records, which together may be larger than memory: one per tile, mostly.
 //
 // Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to
-// the end of the one file, each as an extent of its list, until half of the budget is free. So the file is
-// written in long runs, whatever the order of appends. On disk, each extent is preceded by the place of the
-// list's extent before it: in memory a list is its buffer and 48 bytes, however many extents it has.
+// the end of the one file, until half of the budget is free. Each becomes an extent of its list. So the file
+// is written in long runs, whatever the order of appends. On disk, each extent begins with the place of the
+// list's extent before it. So in memory a list is its buffer and 48 bytes, however many extents it has.
 //
 // The order of records within a list depends on threads and budget: a reader sorts them by what they hold.
 // Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
@@ -34,7 +34,7 @@ class AppendBytes {
   std::size_t lists() const { return lists_.size(); }
   // Not while others append to the same list. to: `size(list)` bytes.
   void read(std::size_t list, std::byte* to) const;
-  // The same piece by piece, in any order: visit(bytes) when so many of `part` are filled.
+  // Reads a list piece by piece, in any order: visit(bytes) when so many of `part` are filled.
   void for_each_part(std::size_t list, std::span<std::byte> part,
                      const std::function<void(std::size_t)>& visit) const;
   // Frees the list's buffer; what it held is gone.

@@ -1,5 +1,5 @@
-// Fills many runs of a column's rows at once, each from its first row on, with records that come in any order
-// of runs: what was written for a run so far is contiguous on disk, so that the full run is one read.
+// Fills many runs of a column's rows at once, each from its first row on. Records come in any order of runs.
+// What was written for a run so far is contiguous on disk, so that the full run is one read.
 //
 // Each run has a piece of memory of the same size; what arrives is gathered there and written when the piece
 // is full. Pieces together stay within the memory given, and none is larger than makes a write cheaper.

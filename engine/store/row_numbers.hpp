@@ -11,7 +11,7 @@
 
 namespace lacuna {
 
-// A bitmap over the range of the rows with a running count: a look-up is one cache line, and memory an
+// A bitmap over the range of the rows with a running count. A look-up is one cache line, and memory is an
 // eighth of a byte per row of the range. Where the rows are few and far between, a sorted list instead.
 class RowNumbers {
  public:
@@ -45,7 +45,7 @@ class RowNumbers {
 
   LocalIndex size() const { return size_; }
 
-  // Of a row that was collected.
+  // Returns the number of a row that was collected.
   LocalIndex number(Row row) const {
     if (!is_dense_)
       return static_cast<LocalIndex>(std::lower_bound(list_.begin(), list_.end(), row) - list_.begin());
@@ -54,7 +54,7 @@ class RowNumbers {
            static_cast<LocalIndex>(std::popcount(w.bits & ((std::uint64_t{1} << value(row) % 64) - 1)));
   }
 
-  // The same of any row; none if it was not collected.
+  // Returns the number of any row; none if it was not collected.
   std::optional<LocalIndex> find(Row row) const {
     if (!is_dense_) {
       const auto at = std::lower_bound(list_.begin(), list_.end(), row);

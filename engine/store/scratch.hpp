@@ -31,9 +31,9 @@ class Scratch {
     return {reinterpret_cast<T*>(allocate(count * sizeof(T))), count};
   }
 
-  // To be called from loops over the arrays (most calls are one subtraction): gives mapped pages back to the
-  // system while they are more than the budget. Their contents stay. `bytes`: what the loop has passed since
-  // the last call where it goes along an array; else one access may map a window of pages.
+  // Gives mapped pages back to the system while they are more than the budget. Loops over the arrays call it;
+  // most calls are one subtraction. Their contents stay. `bytes`: what the loop has passed since the last
+  // call where it goes along an array; else one access may map a window of pages.
   void trim(std::uint64_t bytes = kWindow) {
     if ((untrimmed_ += bytes) >= between_looks_) release();
   }

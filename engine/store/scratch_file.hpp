@@ -12,8 +12,8 @@ namespace lacuna {
 // Created empty, and its name removed at once: nobody else can open it, and the system frees it with the
 // process, however that ends. Reads and writes may come from several threads.
 //
-// Throws `Error`, naming the path that the file was created at and the place in it, when the disk is full or
-// the file is shorter than what was written. So it never returns zeros in place of what was written.
+// Throws `Error` when the disk is full or the file is shorter than what was written. It names the path at
+// which the file was created, and the place in it. So it never returns zeros in place of what was written.
 class ScratchFile {
  public:
   explicit ScratchFile(std::filesystem::path path);  // `path` must not exist

@@ -1,5 +1,5 @@
-// The tile store: every distinct point of the scan on disk, in cell order, so that a tile is one read and
-// the cells around it are a few.
+// The tile store: every distinct point of the scan on disk, in cell order. So a tile is one read, and the
+// cells around it are a few.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -43,7 +43,7 @@ class TileStore {
   bool has_normals() const { return has_normals_; }
 
   std::vector<StoredPoint> points(TileIndex tile) const;
-  // The same without an array of them: visit(point).
+  // Goes through the points without an array of them: visit(point).
   template <class Visit>
   void for_each_point(TileIndex tile, Visit&& visit) const;
   std::vector<Eigen::Vector3d> normals(TileIndex tile) const;  // as given; empty where none are

@@ -20,7 +20,7 @@ struct CellRun {
 inline constexpr std::uint64_t kMostCounted = (std::uint64_t{1} << 31) - 1;
 
 // Leaves hold 8^3 cells, as in OpenVDB's standard tree. Above them are three levels of 4^3 nodes, since each
-// far outlier has nodes of its own: they take 4 KB here, 300 KB in the standard tree.
+// far outlier has nodes of its own. They take 4 KB here, and 300 KB in the standard tree.
 class CellTree {
  public:
   CellTree();
@@ -30,7 +30,7 @@ class CellTree {
 
   // `doublings`: from the size of the runs' cells to that of the tree's. Counts end at `kMostCounted`.
   void add(std::span<const CellRun> runs, int doublings);
-  // The same points in cells of twice the size. Cost: linear in cells.
+  // Returns these points in cells of twice the size. Cost: linear in cells.
   CellTree merged() const;
 
   std::uint64_t cells() const { return cells_; }

@@ -61,9 +61,9 @@ Whereabouts whereabouts_of(const PointBatch& batch) {
   return place;
 }
 
-// The cell that holds the point is at `kMiddle` along each axis. Its bits alternate, so that its distance to
-// the nearest border of a node of the tree is a third of the node's size, however often cells merge. A scan
-// in the middle of few nodes needs few of them.
+// The cell that holds the point is at `kMiddle` along each axis. Its bits alternate. So its distance to the
+// nearest border of a node of the tree is a third of the node's size, however often cells merge. A scan in
+// the middle of few nodes needs few of them.
 constexpr double kMiddle = 0x2aaaaaa;
 
 std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
@@ -143,9 +143,10 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
       is_expected_(expected_points > 0),
       expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
 
-// A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it; half of that size
-// is small enough for a first batch from a small area of the scan. Where that is spread over the whole scan,
-// in random order, its cells show how many there will be: sizes with several times too many are passed over.
+// A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it. Half of that size is
+// small enough for a first batch from a small area of the scan. A batch that is spread over the whole scan,
+// in random order, shows how many cells there will be. Sizes with several times too many are then passed
+// over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);

@@ -19,7 +19,7 @@ struct SurveyedScan {
   std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
   Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis of the first points
-  std::uint64_t points = 0;                          // rows of the input
+  std::uint64_t points = 0;                          // input rows
   std::uint64_t dropped = 0;                         // with a non-finite coordinate
   std::uint64_t ids = 0;                             // all ids are below
   bool is_single = true;  // every finite coordinate is a number of single precision
@@ -41,18 +41,17 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
 // Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge,
 // whenever the cells need more than `memory` bytes or hold too few points each. At the end they merge until a
-// cell holds about `kPointsPerCell` points on average, and until OpenVDB's standard tree of the cells that
-// are not far fits, too. Cells that would hardly merge stay: they are those of outliers, and larger ones
-// would be too large for the other points. Cost: one access of the tree for each run of points in the same
-// cell.
+// cell holds about `kPointsPerCell` points on average, and until OpenVDB's standard tree of the near cells
+// fits. Cells that would hardly merge stay: they are those of outliers, and larger ones would be too large
+// for the other points. Cost: one access of the tree for each run of points in the same cell.
 class Survey {
  public:
   // `expected_points`: 0 where not known.
   Survey(std::uint64_t memory, std::uint64_t expected_points);
 
   void add(const PointBatch& batch);
-  // The same in two steps, of which the first may run in other threads: `add(count_cells(batch, finest()))`,
-  // once the first batch with a finite point has been added.
+  // Adding may take two steps, of which the first may run in other threads: `add(count_cells(batch,
+  // finest()))`. A batch with a finite point must have been added before.
   bool is_sized() const { return sized_; }
   CellGrid finest() const { return {.finest = scan_.grid.finest, .origin = scan_.grid.origin}; }
   void add(const CellCounts& counts);

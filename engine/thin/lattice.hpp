@@ -1,5 +1,5 @@
-// The lattice of a resolution: cubes of one edge that are counted from the origin of the coordinates, so that
-// the cell of a point depends on that point alone.
+// The lattice of a resolution: cubes of one edge, counted from the origin of the coordinates. So the cell of
+// a point depends on that point alone.
 #pragma once
 
 #include <array>

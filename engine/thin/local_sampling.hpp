@@ -26,10 +26,10 @@ struct LocalSampling {
 std::optional<LocalSampling> measure_sampling(std::span<const Eigen::Vector3d> offsets);
 
 // The resolution of a scan whose points lie in lines, from a sample of its points; 0 where every point
-// counts. Three tenths of all points must lie in lines or, as near a scanner, three tenths of the dense ones:
-// those with less than four tenths of the median spacing, if they are one in twenty. Six in ten of the points
-// in lines have the next line within the resolution. Rounded to one digit. docs/method.md, D has how these
-// were chosen.
+// counts. Three tenths of all points must lie in lines or, as near a scanner, three tenths of the dense ones.
+// These have less than four tenths of the median spacing, and count if they are one in twenty. Six in ten of
+// the points in lines have the next line within the resolution. Rounded to one digit. docs/method.md, D has
+// how these were chosen.
 double resolution_of(const std::vector<LocalSampling>& sample);
 
 }  // namespace lacuna

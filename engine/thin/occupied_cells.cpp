@@ -13,7 +13,7 @@ bool is_full(std::size_t cells, std::size_t slots) {
   return 3 * cells > 2 * slots;
 }
 
-// Of points that are as near as each other: the lowest coordinates, so that the order of the input does not
+// Where points are equally near, the lowest coordinates decide, so that the order of the input does not
 // matter.
 bool comes_first(const Eigen::Vector3d& position, PointId id, const OccupiedCell& cell) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,8 +1,8 @@
 // Occupied cells of a lattice, and the point that represents each: the one nearest to the mean of its cell.
 //
 // The points are streamed twice. The first pass adds up where they lie in their cells, in whole numbers, so
-// that their order does not matter. The second pass finds the nearest one; of several the one with the lowest
-// coordinates, by x first, and of copies the one with the lowest id.
+// that their order does not matter. The second pass finds the nearest one. Where there are several, it is the
+// one with the lowest coordinates, by x first, and of copies the one with the lowest id.
 #pragma once
 
 #include "engine/model/ids.hpp"

@@ -34,17 +34,17 @@ struct ThinnedScan {
   double resolution = 0;
   bool has_normals = false;
   Eigen::AlignedBox3d bounds;  // of all finite points; empty without any
-  std::uint64_t points = 0;    // rows of the input
+  std::uint64_t points = 0;    // input rows
   std::uint64_t dropped = 0;   // with a non-finite coordinate
   // By block of the representative's id: all finite points of the input. Only with output.points.
   std::optional<AppendLists<Represented>> represented;
 };
 
-// Chooses, for each occupied cell of an absolute lattice with edges of `resolution`, the input point nearest
-// to the mean of the cell's points; of several the one with the lowest coordinates, then the lowest id. The
-// choice does not depend on memory, threads or the order of the points. Reads the scan twice, and a third
-// time with output.points. Where the cells do not fit in memory, shares of them take as many passes each.
-// Throws `Error`.
+// Chooses one input point for each occupied cell of an absolute lattice with edges of `resolution`: the
+// nearest to the mean of the cell's points. Of several it is the one with the lowest coordinates, then the
+// lowest id. The choice does not depend on memory, threads or the order of the points. Reads the scan twice,
+// and a third time with output.points. Where the cells do not fit in memory, shares of them take as many
+// passes each. Throws `Error`.
 ThinnedScan thin_scan(PointSource& scan, double resolution, Job& job);
 
 // The representatives as a scan, with the ids of the input. `thinned` must outlive it.

@@ -17,7 +17,7 @@ struct E57Rows {
 };
 
 // Range, azimuth and elevation, the angles in radians, become x y z. NaN where an angle is not finite or
-// beyond 1e6. The same bytes on every machine. Error: 1e-15 times the range.
+// beyond 1e6. The bytes are equal on every machine. Error: 1e-15 times the range.
 void spherical_to_cartesian(E57Rows rows);
 
 // Moves positions by the pose. A point exactly at the scanner is a ray without a return, and becomes NaN.

@@ -34,7 +34,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// Of all parts: writers divide a string that holds "]]>".
+// Returns the text of all parts: writers divide a string that holds "]]>".
 std::string text_of(pugi::xml_node node) {
   std::string text;
   for (const pugi::xml_node part : node.children()) text += part.value();

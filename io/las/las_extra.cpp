@@ -56,7 +56,7 @@ void put_text(LasExtraBytes& extra, std::size_t at, std::string_view text) {
   std::memcpy(&extra.descriptor[at], text.data(), std::min(text.size(), kText));
 }
 
-// Of one value, for types of several.
+// Returns the type of one value, for types of several.
 std::uint8_t base_type(const LasExtraBytes& extra) {
   return static_cast<std::uint8_t>((extra.type - 1) % 10 + 1);
 }

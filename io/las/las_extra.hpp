@@ -26,8 +26,8 @@ double load_las_value(std::uint8_t type, const std::byte* from);
 // Bytes in a point: of one, two or three values, or without a type. 0: a type that is not known.
 std::size_t las_extra_size(const LasExtraBytes& extra);
 
-// What stands in the points of a file that does not have them: NaN for floats, else the "no data" value of
-// the descriptor, else 0.
+// The fill value in the points of a file that lacks the dimension. It is NaN for floats, else the "no data"
+// value of the descriptor, else 0.
 std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra);
 
 // The "no data" value of type 1 to 10, without scale and offset; none: the descriptor has none, or NaN.

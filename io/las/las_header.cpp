@@ -68,7 +68,7 @@ void read_record(InputFile& in, LasHeader& header) {
   if (user == "laszip encoded" && number == 22204) header.laszip = std::move(data);
 }
 
-// Of LAS 1.4, behind the points: `count` records, the first at byte `place`.
+// Reads the records of LAS 1.4 behind the points: `count` of them, the first at byte `place`.
 void read_extended_records(const std::filesystem::path& file, std::uint64_t place, std::uint32_t count,
                            LasHeader& header) {
   constexpr std::uint64_t kLongestText = 1 << 20;

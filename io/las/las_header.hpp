@@ -1,5 +1,5 @@
 // The public header block of a LAS file, versions 1.0 to 1.4, and what its variable length records say of the
-// points (ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7).
+// points. Source: ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7.
 #pragma once
 
 #include "io/input_file.hpp"

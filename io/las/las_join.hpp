@@ -2,18 +2,18 @@
 //
 // Coordinates. Where all files are LAS with one scale and offset, these stay, and so does every stored
 // integer. Else each axis gets the smallest of the scales, divided by a power of ten up to 10^6 where that is
-// needed: every file's coordinates are then whole multiples of it, the same decimal numbers. Offsets count as
+// needed. Every file's coordinates are then whole multiples of it, the same decimal numbers. Offsets count as
 // equal within a thousandth of such a step, since doubles round decimal numbers. The offset is the first
 // file's, moved by a multiple of the scale where 32 bits need it. Points from other formats, or with a pose,
-// are rounded to the nearest multiple: of the finest such scale for which 32 bits suffice, and without any
-// LAS file, of the finest power of ten: about 4e8 steps or more across the scan, finer than 32-bit floats at
-// its farthest point. The offset is then the middle of the scan, round to a power of ten.
+// are rounded to the nearest multiple of the finest such scale for which 32 bits suffice. Without any LAS
+// file, it is the finest power of ten. That gives about 4e8 steps or more across the scan, finer than 32-bit
+// floats at its farthest point. The offset is then the middle of the scan, round to a power of ten.
 //
 // Fields. The point format has the fields of all: formats 0 to 5 become 6 to 10 next to one of these. Steps
 // of 0.006 degrees then stand for the whole degrees of a scan angle, and class 12 becomes class 1 with the
 // flag of overlap. Columns of other formats become the fields of their names (Intensity or scalar_intensity
-// is intensity) if every value of theirs fits exactly: whole, in the range of the field; colours of 0 to 255
-// times 257. All other columns become extra bytes.
+// is intensity) if all their values fit exactly. They must be whole and in the range of the field; colours of
+// 0 to 255 are multiplied by 257. All other columns become extra bytes.
 //
 // Extra bytes. Those of one name are one. Where types, scales or "no data" values differ, they are in double,
 // with NaN for no data. A file that has none of a name gets what las_extra_missing says.
@@ -82,9 +82,9 @@ struct LasParts {
   std::string crs;                       // of files of other formats
 };
 
-// Throws `Error` where it is not possible: coordinates that do not fit one scale, times of different kinds,
-// waveforms of several files, arrays of extra bytes that differ, records of more than 65535 bytes. The error
-// names the file and the way out.
+// Throws `Error` where it is not possible. Coordinates may not fit one scale, and times may be of different
+// kinds. Waveforms may come from several files. Arrays of extra bytes may differ, or records exceed 65535
+// bytes. The error names the file and the way out.
 LasForm join_las(const LasParts& parts);
 
 }  // namespace lacuna

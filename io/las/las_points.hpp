@@ -18,8 +18,8 @@ class LasPoints {
   virtual void read(std::span<std::byte> records) = 0;
 };
 
-// `in`: the file, just before its points. It must outlive the result. Throws `Error` where the file has no
-// room for the points of its header. LAZ: the chunks are decompressed by several threads. Memory: one chunk
+// `in`: the file, just before its points. It must outlive the result. Throws `Error` where the file is too
+// short for the points of its header. LAZ: the chunks are decompressed by several threads. Memory: one chunk
 // for each thread, or up to four while these are small; a chunk larger than 256 MiB is an `Error`.
 std::unique_ptr<LasPoints> las_points(const std::filesystem::path& file, InputFile& in,
                                       const LasHeader& header);

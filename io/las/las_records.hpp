@@ -1,5 +1,5 @@
 // Variable length records as bytes, of either kind: those before the points and the extended ones behind
-// them (ASPRS LAS specification 1.4 R15, sections 2.5 to 2.7).
+// them. Source: ASPRS LAS specification 1.4 R15, sections 2.5 to 2.7.
 #pragma once
 
 #include "io/las/las_header.hpp"

@@ -23,7 +23,7 @@ double power_of_ten(int exponent) {
   return value;
 }
 
-// Of the points as the header says.
+// Returns the bounds of the points as the header says.
 Eigen::AlignedBox3d bounds_of(const LasHeader& header) {
   Eigen::AlignedBox3d bounds;
   if (header.points == 0) return bounds;

@@ -20,7 +20,7 @@ class LasTransfer {
   LasTransfer(std::string name, const LasHeader& from, const LasForm& to,
               std::optional<Eigen::Affine3d> pose);
 
-  // `records`: raw ones of the file, one after the other; `out`: the first of as many in the form, each
+  // `records` are raw ones of the file, one after the other. `out` is the first of as many in the form, each
   // `stride` bytes behind the one before. Throws `Error` where a coordinate does not fit, though the file's
   // header says so.
   void convert(std::span<const std::byte> records, std::size_t stride, std::byte* out) const;

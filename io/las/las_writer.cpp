@@ -20,7 +20,7 @@ bool goes_over(const LasRecordPlace& record, const LasOrigin& origin) {
 }
 
 // Whether the coordinate reference system of a new file of these points is well-known text. Formats 6 to 10
-// ask for it, with a text or without (LAS 1.4 R15, 2.4). Keys of GeoTIFF alone stay what they are.
+// require it, with a text or without (LAS 1.4 R15, 2.4). Keys of GeoTIFF alone stay what they are.
 bool has_text(const std::optional<LasOrigin>& origin, const LasForm& form, std::string_view crs) {
   if (!is_extended_format(form.point_format)) return false;
   if (!origin) return !crs.starts_with("EPSG:");

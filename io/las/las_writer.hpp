@@ -21,9 +21,9 @@ namespace lacuna {
 inline constexpr std::string_view kLasSoftware = "Lacuna ";
 inline constexpr std::uint64_t kLasSoftwareAt = 58;
 
-// The LAS file whose header fields and variable length records go over: file source id, global encoding,
-// GUID, system identifier, creation date, bytes behind the header's last field; and all records byte for
-// byte, but those of LASzip and COPC and the descriptors of extra bytes.
+// The LAS file whose header fields and variable length records go over. The fields are file source id, global
+// encoding, GUID, system identifier, creation date, and bytes behind the header's last field. All records go
+// over byte for byte, except those of LASzip and COPC and the descriptors of extra bytes.
 struct LasOrigin {
   std::filesystem::path file;
   LasHeader header;
@@ -34,8 +34,8 @@ struct LasOrigin {
 class LasWriter {
  public:
   // Writes the header and the records before the points. `results`: extra bytes behind those of the form.
-  // Without an origin, the file has neither identity nor date, and `crs`: well-known text, or the code of a
-  // projected or geographic (4000 to 4999) system as keys of GeoTIFF.
+  // Without an origin, the file has neither identity nor date. `crs` is then well-known text, or the code of
+  // a projected or geographic (4000 to 4999) system as keys of GeoTIFF.
   LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraBytes> results,
             std::optional<LasOrigin> origin, std::string_view crs);
 

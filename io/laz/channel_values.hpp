@@ -6,9 +6,9 @@
 
 namespace lacuna::laz {
 
-// In version 3 of the items, LASzip chose wrongly between channels, and since then that is the format: these
-// items are coded as of the point's channel only where the channel changed, and else as of channel 0; and at
-// a change to a channel that has been used, the last values are still those of the channel before, and become
+// In version 3 of the items, LASzip chose wrongly between channels, and since then that is the format. These
+// items are coded as of the point's channel only where the channel changed, and else as of channel 0. At a
+// change to a channel that has been used, the last values are still those of the channel before. They become
 // this point's. Version 4 uses the point's channel.
 enum class ChannelRule { kVersion3, kVersion4 };
 

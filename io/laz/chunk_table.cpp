@@ -28,7 +28,7 @@ std::uint32_t chunk_count(std::span<const std::byte> table) {
 }  // namespace
 
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes) {
-  // A number of 32 bits takes at most 15 bits for its k, 15 for its first bits and 23 for the others; with
+  // A number of 32 bits takes at most 15 bits for its k, 15 for its first bits and 23 for the others. With
   // what an encoder adds at the end, 8 bytes for each number are enough.
   return kHeaderBytes + 16 + 2 * 8 * std::uint64_t{chunk_count(first_8_bytes)};
 }

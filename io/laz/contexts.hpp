@@ -17,8 +17,8 @@ inline unsigned return_level(unsigned number_of_returns, unsigned return_number)
                                            : return_number - number_of_returns;
 }
 
-// The context of the y difference by the k of the x difference, and of z by the mean k of both: even numbers
-// up to `largest`, the next odd one for the only return of a pulse.
+// The context of the y difference by the k of the x difference, and of z by the mean k of both. It is an even
+// number up to `largest`, and the next odd one for the only return of a pulse.
 inline unsigned k_context(unsigned k, unsigned largest, bool only_return) {
   return std::min(k & ~1u, largest) + (only_return ? 1 : 0);
 }

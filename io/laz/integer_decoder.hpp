@@ -9,10 +9,9 @@
 namespace lacuna::laz {
 
 // Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a
-// number k, in one model for each context, and then as its place in the k-th interval: 0 and 1 for k = 0,
-// else
-// -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for each k,
-// the lower ones none.
+// number k, in one model for each context. Then comes its place in the k-th interval. That is 0 and 1 for k =
+// 0, else -(2^k - 1) ... -2^(k-1) and 2^(k-1) + 1 ... 2^k. The highest 8 bits of the place have a model for
+// each k, the lower ones none.
 template <unsigned kBits, unsigned kContexts = 1>
 class IntegerDecoder {
  public:
@@ -25,7 +24,7 @@ class IntegerDecoder {
   std::uint32_t decode(ArithmeticDecoder& decoder, std::uint32_t prediction, unsigned context = 0) {
     return decode(decoder, prediction, ks_[context]);
   }
-  // The same with a context that the caller keeps.
+  // Decodes with a context that the caller keeps.
   std::uint32_t decode(ArithmeticDecoder& decoder, std::uint32_t prediction, SymbolModel<kBits + 1>& ks) {
     return (prediction + difference(decoder, ks)) & kMask;
   }

@@ -7,8 +7,8 @@
 // Where the points of a LAZ file are, from the LAS header's `offset to point data`, P:
 //
 // - Compressor 2 and 3: at P stands the offset of the chunk table, 8 bytes, signed. The first chunk begins at
-//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, is of a writer
-//   that could not seek: the last 8 bytes of the file hold the offset then.
+//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
+//   writer that could not seek. The last 8 bytes of the file hold the offset then.
 // - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to
 //   the first extended variable length record or the end of the file; bytes that follow it do no harm.
 #pragma once
@@ -63,14 +63,14 @@ struct Layout {
   std::size_t record_bytes() const;
 };
 
-// Of the data of the variable length record with user id "laszip encoded" and record id 22204. Supports
-// POINT10, GPSTIME11, RGB12 and BYTE of version 1 and 2 (point formats 0 to 3), and POINT14, RGB14, RGBNIR14
-// and BYTE14 of version 3 and 4 (point formats 6 to 8). Throws `Corrupt`, with the item's name where that is
-// not supported.
+// Reads the data of the variable length record with user id "laszip encoded" and record id 22204. Supports
+// POINT10, GPSTIME11, RGB12 and BYTE of version 1 and 2 (point formats 0 to 3). Of version 3 and 4, it
+// supports POINT14, RGB14, RGBNIR14 and BYTE14 (point formats 6 to 8). Throws `Corrupt`, with the item's name
+// where that is not supported.
 Layout parse_layout(std::span<const std::byte> record);
 
-// No encoder gets more points into a byte: each point takes at least the symbol that says what changed, of 64
-// symbols or more with at least one count each of at most 2^15, which is 0.0027 bits.
+// No encoder gets more points into a byte. Each point takes at least the symbol that says what changed. It is
+// one of 64 symbols or more, with at least one count each of at most 2^15, which is 0.0027 bits.
 inline constexpr std::uint64_t kMostPointsInAByte = 4096;
 
 struct Chunk {
@@ -88,14 +88,14 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
                                     std::uint64_t first_chunk, std::uint64_t table_offset,
                                     std::uint64_t points);
 
-// A bound on the bytes of a table, from its first 8 bytes: as much of the file, where it is as long, is what
-// read_chunk_table() needs.
+// A bound on the bytes of a table, from its first 8 bytes. read_chunk_table() needs as many bytes of the
+// file, or what is there.
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 
 // Decompresses the `points` records of a chunk, record_bytes() each, as they are in an uncompressed LAS file.
 // `records` holds exactly these. Thread-safe. Throws `Corrupt` where the chunk is cut or cannot be right;
 // never reads beyond `chunk`. Changed bytes inside a chunk are not always noticed: the format has no
-// checksum. Memory beside `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
+// checksum. Memory besides `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
                   std::span<std::byte> records);
 

@@ -13,7 +13,7 @@
 
 namespace lacuna::laz {
 
-// Decodes nine layers. All models and last values are of one of four scanner channels; those of a channel
+// Decodes nine layers. All models and last values belong to one of four scanner channels. Those of a channel
 // begin, at its first point, with the values of the point before.
 class Point14 {
  public:

@@ -6,9 +6,9 @@
 
 namespace lacuna::laz {
 
-// Keeps five values in order. A new one takes the place of the largest or of the smallest: of the largest
-// until a value comes that is not below the middle, then of the smallest until one comes that is not above
-// it.
+// Keeps five values in order. A new one takes the place of the largest or of the smallest. It replaces the
+// largest until a value comes that is not below the middle, then the smallest until one comes that is not
+// above it.
 class StreamingMedian {
  public:
   std::int32_t middle() const { return values_[2]; }

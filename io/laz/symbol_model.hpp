@@ -99,7 +99,7 @@ class SymbolModel {
   std::uint32_t until_update_ = 0;
 };
 
-// The same for an alphabet of two symbols.
+// A model for an alphabet of two symbols.
 class BitModel {
  public:
   static constexpr unsigned kShareBits = 13;

@@ -10,12 +10,12 @@ namespace lacuna {
 
 bool looks_like_obj(const FileStart& start);
 
-// Vertices "v x y z", in file order, x y z as doubles. The first vertex decides what every other has too: a
-// fourth value is a weight and left out, three more are red green blue (floats, as they stand). Normals "vn"
-// become nx ny nz if there are as many as vertices and every face that names normals gives each vertex the
-// one of its own number; else they belong to faces or corners, and are left out. Lines of other kinds are
-// skipped. A line that ends with a backslash goes on in the next one.
-// Opening reads the whole file once, to count.
+// Vertices "v x y z", in file order, x y z as doubles. The first vertex decides what every other has too. A
+// fourth value is a weight and left out; three more are red green blue, floats as they are in the file.
+// Normals "vn" become nx ny nz if there are as many as vertices. Every face that names normals must also give
+// each vertex the one of its own number. Else they belong to faces or corners, and are left out. Lines of
+// other kinds are skipped. A line that ends with a backslash goes on in the next one. Opening reads the whole
+// file once, to count.
 std::unique_ptr<ScanReader> open_obj(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna

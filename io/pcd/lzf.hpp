@@ -1,8 +1,9 @@
 // LZF, the compression of PCD files, read front to back in bounded memory.
 //
 // A block is a row of steps. A first byte below 32 is followed by that many bytes and one more, as they are.
-// Any other repeats what was written before: the upper three bits are its length less 2 (7: the next byte is
-// added), the lower five and the last byte its distance less 1. http://oldhome.schmorp.de/marc/liblzf.html
+// Any other repeats what was written before. Its upper three bits are the length less 2 (7: the next byte is
+// added). The lower five and the last byte are the distance less 1.
+// http://oldhome.schmorp.de/marc/liblzf.html
 #pragma once
 
 #include "io/input_file.hpp"

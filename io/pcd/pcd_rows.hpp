@@ -38,7 +38,7 @@ class PcdRows {
   std::uint64_t block_bytes_ = 0;  // compressed
   std::uint64_t unpacked_bytes_ = 0;
   bool has_padding_ = false;        // the block has columns of padding
-  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are asked for
+  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are read
   std::vector<std::byte> column_bytes_;
 };
 

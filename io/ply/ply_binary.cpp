@@ -37,7 +37,7 @@ void skip_list(InputFile& in, const PlyProperty& property, bool swapped) {
 void read_list(InputFile& in, const PlyProperty& property, bool swapped, std::vector<std::int64_t>& values) {
   const std::uint64_t count = read_count(in, property, swapped);
   const std::uint64_t bytes = count * size_of(property.type);
-  if (bytes > in.remaining()) in.skip(bytes);  // tells what is missing
+  if (bytes > in.remaining()) in.skip(bytes);  // says what is missing
   values.clear();
   values.reserve(count);
   with_type(property.type, [&](auto zero) {

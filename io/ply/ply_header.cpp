@@ -123,7 +123,7 @@ bool parse_line(Parser& parser, Words words) {
   } else if (words[0] == "property") {
     parse_property(parser, words);
   } else if (words.size() == 1 && words[0] == "bye") {
-    warn_once(parser.in, "'bye' is no keyword of a header; the line is passed over");
+    warn_once(parser.in, "'bye' is no keyword of a header; the line is ignored");
   } else {
     parser.fail("unknown keyword " + in_quotes(words[0]) +
                 "; allowed are format, comment, obj_info, element, property and end_header");

@@ -221,7 +221,7 @@ float typical_spacing(const Scene& scene) {
 
 Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   if (!fs::is_directory(folder))
-    throw Error(folder.string() + ": is no folder; that of a lacuna detect is needed");
+    throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
   Scene scene;
   read_holes(folder / "holes.json", scene);
   read_run(folder / "run.json", scene);

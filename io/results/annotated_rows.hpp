@@ -41,12 +41,12 @@ class InputRows {
   virtual std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) = 0;
 };
 
-// The union of the files' properties by name, in order of first appearance, packed: in double where types
-// differ, NaN or 0 in the rows of a file that has none. `is_left_out` says which do not count, by the index
-// of a property.
+// The union of the files' properties by name, in order of first appearance, packed. A property is double
+// where types differ, and NaN or 0 in the rows of a file that has none. `is_left_out` says which do not
+// count, by the index of a property.
 using LeftOut = std::function<bool(const RowLayout& layout, std::size_t index)>;
 RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_left_out);
-// Of the files [first, end).
+// The joined rows of the files [first, end).
 std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
                                        std::size_t end);
 std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined);

@@ -8,7 +8,7 @@
 
 namespace lacuna {
 
-// Throws `Error` if the library is neither beside the program nor in ../lib/lacuna of its folder. Cheap:
+// Throws `Error` if the library is neither in the program's folder nor in ../lib/lacuna of it. Cheap:
 // loads nothing.
 void check_gis_library();
 

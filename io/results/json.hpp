@@ -24,7 +24,7 @@ std::string print(const Json& json, int indent);
 Json list(const Eigen::Vector3d& vector);
 Json counts_of(const FilteredOut& filtered);  // by filter
 
-// Of the sections that `is_wanted` names, by section and key.
+// The values of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);
 
 }  // namespace lacuna

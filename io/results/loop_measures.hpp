@@ -1,4 +1,4 @@
-// The measures of loops by name, for all writers: a new one is a line of this table. holes.json alone has its
+// The measures of loops by name, for all writers. A new one is a line of this table. holes.json alone has its
 // own list, which its schema describes.
 #pragma once
 

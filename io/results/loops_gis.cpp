@@ -132,7 +132,7 @@ class LoopsWriter {
 
   void put(std::size_t id, const ReportedLoop& loop) {
     OGRFeature feature(layer_->GetLayerDefn());
-    // Of longer numbers the 24 characters of a Shapefile's field would keep the first ones.
+    // A Shapefile's field of 24 characters would keep only the first ones of longer numbers.
     const double most = task_.format == GisFormat::kShapefile ? 1e20 : HUGE_VAL;
     int field = 0;
     feature.SetField(field++, static_cast<GIntBig>(id));

@@ -1,6 +1,6 @@
 // The loops for geographic information systems, through GDAL. GDAL costs 35 MiB and 70 ms at the start of a
-// program: what needs it is a library of its own, lacuna_gis.so, which the program loads where such a result
-// is wanted.
+// program. So the code that needs it is a library of its own, lacuna_gis.so. The program loads it where such
+// a result is wanted.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -29,9 +29,9 @@ struct GisTask {
 };
 
 // Writes the loops in order, each a closed line with z and the fields id, kind and the measures, empty where
-// one is not finite. The coordinates are those of the scan, with all digits. Holds one loop in memory. The
-// same loops give the same bytes. Returns false where GDAL does not understand the crs: the file has none
-// then. Throws `Error` with GDAL's text.
+// one is not finite. The coordinates are those of the scan, with all digits. Holds one loop in memory. Equal
+// loops give equal bytes. Returns false where GDAL does not understand the crs: the file has none then.
+// Throws `Error` with GDAL's text.
 using WriteLoopsGis = bool(const GisTask& task);
 
 // In lacuna_gis.so:

@@ -24,8 +24,8 @@ struct NamedLoopIds {
 // How the first line of a file of true loops begins. It is about the file and names no loop.
 inline constexpr std::string_view kLoopsTextMark = "# one boundary loop per line, 0-based point ids of ";
 
-// The same with names. In text, the comment in the line before a loop is its name, words divided by one
-// blank; what exceeds 200 bytes is left out. Loops of a PLY file have no names.
+// Reads loops with their names. In text, the comment in the line before a loop is its name, words divided by
+// one blank; what exceeds 200 bytes is left out. Loops of a PLY file have no names.
 std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 
 // The ids of boundary.ply, in file order. Throws `Error`.

@@ -20,7 +20,7 @@ OutputFile::OutputFile(std::filesystem::path name, const std::filesystem::path& 
     : name_(std::move(name)), place_(place), writer_(writer) {
   if (writer == Writer::kLibrary) return;
   descriptor_ = ::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot be made", errno);
+  if (descriptor_ < 0) fail("cannot be created", errno);
   buffer_.reserve(kBufferBytes);
 }
 

@@ -3,9 +3,8 @@
 // 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that has the mark
 //    of the same command. With Overwrite::kAny it may be the name of any regular file. Links, folders, pipes
 //    and devices are always refused.
-// 2. The content goes to a new file in a private folder beside the name, `.lacuna-XXXXXX`. Other names in the
-// output
-//    folder are neither used nor looked at.
+// 2. The content goes to a new file in a private folder `.lacuna-XXXXXX` next to the name. Other names in
+//    the output folder are neither used nor looked at.
 // 3. commit: all files are closed and on the disk before any name changes. Then older files move to the
 // private
 //    folder, last added first; new ones take their names in the order of add. So the last file, a report,
@@ -64,8 +63,8 @@ class OutputSet {
   explicit OutputSet(Overwrite overwrite) : overwrite_(overwrite) {}
 
   // Checks the name and opens the file. The reference is valid as long as the set. A library must make its
-  // file at the OutputFile's place before commit, and have closed it; where it makes none, the file that has
-  // the name goes.
+  // file at the OutputFile's place before commit, and have closed it. Where it makes none, the file that has
+  // the name is removed.
   OutputFile& add(const std::filesystem::path& file, const FileMark& mark, Writer writer = Writer::kThis);
 
   // An own file of this name, if there is one, goes with commit; any other stays.
@@ -77,7 +76,7 @@ class OutputSet {
  private:
   struct Member {
     std::filesystem::path name;
-    TemporaryFolder* folder = nullptr;    // beside the name
+    TemporaryFolder* folder = nullptr;    // next to the name
     std::filesystem::path staged, older;  // in that folder, the new file and the one that it replaces
     std::optional<struct stat> found;     // under the name, when it was checked
     std::optional<OutputFile> content;    // none: the older file goes, and nothing takes its place

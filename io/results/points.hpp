@@ -1,5 +1,5 @@
 // The annotated scan, points.ply, .las, .pcd or .csv: every row of the input in order, all of its columns,
-// then the results. Files are joined by the names of columns; a column of the input with the name of a result
+// then the results. Files are joined by the names of columns. A column of the input with the name of a result
 // is left out, as an earlier run wrote it. Each writer reads every file once more. All throw `Error`.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// As config.points_format says. `input`: the format of the files where all have the same and it can be
-// written: PLY, LAS (LAZ too), PCD, and CSV for text; else PLY. Never kInput.
+// As config.points_format says. With `input`, it is the format of the files, if all have the same and it can
+// be written. That holds for PLY, LAS (LAZ too), PCD, and CSV for text. Else it is PLY. Never kInput.
 PointsFormat points_format(const FileScan& scan, const OutputConfig& config);
 std::string points_file(const FileScan& scan, const OutputConfig& config);  // "points.ply" and so on
 
@@ -25,9 +25,9 @@ void check_points(const FileScan& scan, const OutputConfig& config);
 // Bytes of a row. A guess for CSV, and for LAS from other formats.
 std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config);
 
-// PLY, binary little endian. Properties have the names of the input; results are scalar_probability,
-// scalar_angle and so on, as CloudCompare shows them, and `quality`, the probability for MeshLab, unless
-// the input has a `quality`.
+// PLY, binary little endian. Properties have the names of the input. Results are scalar_probability,
+// scalar_angle and so on, as CloudCompare shows them. `quality` is the probability for MeshLab, unless the
+// input has a `quality`.
 void write_points_ply(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out);
 

@@ -101,7 +101,7 @@ class LasRows final : public InputRows {
     return 0;
   }
 
-  // Of the block last returned, the rows that LAS cannot hold.
+  // The rows of the block last returned that LAS cannot hold.
   const std::vector<std::size_t>& left_out() const { return left_out_; }
 
  private:

@@ -70,7 +70,7 @@ class FileBuffer final : public std::streambuf {
     xsputn(&byte, 1);
     return character;
   }
-  // The place, which is all that OpenVDB asks for.
+  // The place, which is all that OpenVDB needs.
   pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
     const bool is_here = offset == 0 && from == std::ios_base::cur;
     return is_here ? pos_type(static_cast<off_type>(written_)) : pos_type(off_type(-1));

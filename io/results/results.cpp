@@ -158,7 +158,7 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   check_output_folder(scan, config, folder, overwrite);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder.string() + ": the folder cannot be made: " + error.message());
+  if (error) throw Error(folder.string() + ": the folder cannot be created: " + error.message());
 
   OutputSet set(overwrite);
   const Config chosen = with_points_format(config, scan);

@@ -18,7 +18,7 @@ bool is_colour(std::string_view property) {
   return std::find(std::begin(kColourNames), std::end(kColourNames), property) != std::end(kColourNames);
 }
 
-// Colours of chosen rows, which are asked for in ascending id.
+// Colours of chosen rows, which are requested in ascending id.
 class ColourRows {
  public:
   ColourRows(const FileScan& scan, const RowLayout& layout)

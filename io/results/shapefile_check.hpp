@@ -6,7 +6,7 @@
 
 namespace lacuna {
 
-// Of the files that belong to `shp`, the first one that is shorter than its head says, or missing; empty:
+// Returns the first of the files that belong to `shp` that is missing or shorter than its head says; empty:
 // none. The .prj only `with_crs`.
 std::filesystem::path find_cut_part(const std::filesystem::path& shp, bool with_crs);
 

@@ -11,9 +11,9 @@ namespace lacuna {
 
 class CsvWriter {
  public:
-  // Writes the header line. Names that this project's reader, or another, would take for something else are
-  // changed or quoted: ',' ';' and '"' become '_'; what could be a number or a comment is put in quotes. A
-  // second equal name gets a number.
+  // Writes the header line. Names are changed or quoted where this project's reader, or another, would
+  // mistake them. The characters ',' ';' and '"' become '_'. A name that could be a number or a comment is
+  // put in quotes. A second equal name gets a number.
   CsvWriter(OutputFile& out, RowLayout layout);
 
   // Rows of the layout, one after the other. Each number is the shortest text that reads back as the same

@@ -11,11 +11,11 @@ namespace lacuna {
 // Two bare counts, then three numbers.
 bool looks_like_ptx(const FileStart& start);
 
-// Blocks one after the other: columns and rows of the grid, the place and axes of the scanner, a 4 x 4
-// matrix, then one line for each ray: x y z intensity, or x y z intensity red green blue. The matrix is
-// applied, so all blocks are in the same coordinates. Rays without a return, 0 0 0, have coordinates that are
-// not numbers: they stay rows, and the engine drops and counts them. Columns: x y z intensity (red green
-// blue) scan, the number of the block.
+// Blocks come one after the other. A block has the columns and rows of the grid, the place and axes of the
+// scanner, and a 4 x 4 matrix. Then it has one line for each ray. A line is x y z intensity, or x y z
+// intensity red green blue. The matrix is applied, so all blocks are in the same coordinates. Rays without a
+// return, 0 0 0, have coordinates that are not numbers: they stay rows, and the engine drops and counts them.
+// Columns: x y z intensity (red green blue) scan, the number of the block.
 std::unique_ptr<ScanReader> open_ptx(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna

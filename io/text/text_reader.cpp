@@ -100,7 +100,7 @@ struct Preamble {
   std::string first;                   // the first line that is neither; empty: there is none
 };
 
-// Of a file whose lines end with a carriage return alone, all is one line.
+// In a file whose lines end with a carriage return alone, all is one line.
 void refuse_lone_returns(const InputFile& in, std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.find('\r') != std::string_view::npos)

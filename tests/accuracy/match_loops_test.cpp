@@ -198,7 +198,7 @@ TEST_CASE("short true loops count neither as found nor as missed, and loops on t
   CHECK(match(drawing, {small}, {small}, {.tolerance = 2, .min_vertices = 7}).scores.found == 1);
 }
 
-TEST_CASE("a loop on a short true loop beside a long one goes to the long one") {
+TEST_CASE("a loop on a short true loop next to a long one goes to the long one") {
   Drawing drawing;
   const LoopIds ring = drawing.ring(20, 0, 0);
   const LoopIds sparse = {ring[0], ring[4], ring[8], ring[12], ring[16]};

@@ -15,8 +15,8 @@ namespace {
 
 using Ids = std::vector<std::uint64_t>;
 
-// A disc of n triangles around its centre; every triangle brings points of its own where `torn`, so that the
-// disc hangs together by coordinates only. Returns the ids of its rim.
+// A disc of n triangles around its centre. With `torn`, every triangle brings points of its own, so that the
+// disc hangs together by coordinates only. Returns the ids of its edge.
 Ids add_disc(Drawing& drawing, std::vector<Triangle>& triangles, std::uint64_t n, double x, bool torn) {
   const LoopIds rim = drawing.ring(n, x, 0);
   const std::uint64_t centre = drawing.point(x, -0.0);
@@ -95,7 +95,7 @@ TEST_CASE("the boundary of two discs is two loops, also where their triangles sh
   }
 }
 
-TEST_CASE("holes are loops beside the rim, also where they touch at a vertex") {
+TEST_CASE("holes are loops apart from the outer edge, also where they touch at a vertex") {
   const auto one = sheet_without({{2, 2}});
   REQUIRE(one.size() == 2);
   CHECK(one[0].vertices.size() == 20);
@@ -120,7 +120,8 @@ TEST_CASE("holes that touch at several vertices stay apart, whatever lies betwee
   }
 }
 
-TEST_CASE("a hole that touches the rim is a loop of its own, and so is a part that hangs at a vertex") {
+TEST_CASE(
+    "a hole that touches the outer edge is a loop of its own, and so is a part that hangs at a vertex") {
   const auto hole = sheet_without({{1, 1}, {2, 1}, {0, 0}});
   REQUIRE(hole.size() == 2);
   CHECK(hole[0].vertices.size() == 20);

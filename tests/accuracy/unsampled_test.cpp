@@ -12,7 +12,7 @@
 namespace lacuna::accuracy {
 namespace {
 
-// Of a cloud the points between two distances from a vertical line, in order around it.
+// Returns the points of a cloud between two distances from a vertical line, in order around it.
 LoopIds ring(const Cloud& cloud, const Eigen::Vector2d& centre, double nearest, double farthest) {
   LoopIds ids;
   const auto from_centre = [&](std::uint64_t id) -> Eigen::Vector2d {
@@ -62,7 +62,7 @@ TEST_CASE("a loop around points lies at no unsampled place") {
   CHECK(share(cloud, ring(cloud, {7, 7}, 3, 4), square(0, 29)) == 0);
   // Around the gap, but three spacings away.
   CHECK(share(cloud, ring(cloud, {15, 15}, 8, 9), square(0, 29)) == 0);
-  // The rim: the surface goes on outside of it.
+  // The outer edge: the surface goes on outside of it.
   LoopIds rim;
   for (std::uint64_t id = 0; id < 900; ++id) {
     const Eigen::Vector3d p = plane(30).positions[id];

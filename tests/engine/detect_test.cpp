@@ -28,10 +28,10 @@ std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointI
   return loops;
 }
 
-// Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights
-// 1 - |n . n'| differ by rounding noise; where such edges disagree about the side, or a normal is at right
-// angles to the next, or lies level where it should point up, any of the results is as good as another. All
-// else has one result.
+// Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights 1 -
+// |n . n'| differ by rounding noise. Such edges may disagree about the side. A normal may be at right angles
+// to the next, or lie level where it should point up. Then any of the results is as good as another. All else
+// has one result.
 std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   constexpr double kNoise = 1e-12;
   struct Pair {
@@ -80,9 +80,9 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
   return undecided;
 }
 
-// Points judged by rounding alone: with a neighbour at the cone exactly, or so near the normal line that
-// noise makes its direction, or with a turn at a crease that halves the angle probability exactly. Their
-// probabilities are not compared.
+// Points whose criteria rounding alone decides. They have a neighbour exactly at the cone, or so near the
+// normal line that noise makes its direction. Or a turn at a crease halves the angle probability exactly.
+// Their probabilities are not compared.
 std::vector<bool> judged_by_rounding(const reference::Detection& plain, const Cloud& cloud, double cone) {
   constexpr double kNoise = 1e-9;
   const double cos_cone = std::cos(cone * std::numbers::pi / 180);
@@ -152,7 +152,7 @@ void check_seed(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a punched plane has its hole and its rim, as in the plain method") {
+TEST_CASE("a punched plane has its hole and its outer curve, as in the plain method") {
   const Cloud cloud = plane(40).punched({20, 20}, 5).jittered(0.2, 7);
   const reference::Detection plain = reference::detect(cloud.positions, {}, Config{});
   const Detected engine = run_engine(cloud, tiled({}, 300));
@@ -338,7 +338,8 @@ TEST_CASE("an open cylinder has two loops, one at each end") {
   CHECK(heights[1] == Approx(29).margin(0.5));
 }
 
-TEST_CASE("a step of the density to a quarter has no loop along it, only the rim") {  // the paper's figure 11
+TEST_CASE("a step of the density to a quarter has no loop along it, only the outer curve") {  // the paper's
+                                                                                              // figure 11
   const int n = 60;
   Cloud cloud;
   Random random(11);

@@ -1,5 +1,5 @@
-// The engine against golden results: of made clouds by the plain reference (tests/data), and of real scans by
-// another program (../shared/golden).
+// The engine against golden results: of synthetic clouds by the plain reference (tests/data), and of real
+// scans by another program (../shared/golden).
 #include "tests/support/golden.hpp"
 
 #include "engine/evaluate/evaluate.hpp"
@@ -27,7 +27,7 @@ GoldenOutcome outcome_of(const Detected& detected) {
   return outcome;
 }
 
-TEST_CASE("the engine gives the golden results of made clouds, whatever the tiles") {
+TEST_CASE("the engine gives the golden results of synthetic clouds, whatever the tiles") {
   for (const GoldenCase& golden : golden_cases()) {
     const Cloud cloud = read_golden_cloud(golden.cloud);
     const GoldenOutcome expected = read_golden_outcome(golden);
@@ -44,7 +44,7 @@ TEST_CASE("the engine gives the golden results of made clouds, whatever the tile
   }
 }
 
-TEST_CASE("the golden results of made clouds are those of the plain reference, and not empty") {
+TEST_CASE("the golden results of synthetic clouds are those of the plain reference, and not empty") {
   for (const GoldenCase& golden : golden_cases()) {
     INFO(golden.name());
     const GoldenOutcome expected = read_golden_outcome(golden);
@@ -88,8 +88,8 @@ TEST_CASE("the stages give the golden neighbour counts, mean distances and gap n
     const Cloud cloud = read_cloud(*shared / setting.cloud);
     const TilePoints points = whole_tile(cloud);
     const Config& config = setting.config;
-    const Rows rows = find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k),
-                                          config.neighbourhood.eps);
+    const Neighbourhoods rows = find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k),
+                                                    config.neighbourhood.eps);
     const std::vector<Evaluation> evaluations =
         evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria);
     const auto id_of = [&](LocalIndex i) {
@@ -108,7 +108,9 @@ TEST_CASE("the stages give the golden neighbour counts, mean distances and gap n
   }
 }
 
-TEST_CASE("the engine finds the paper's figures: the bunny's five holes, the range map's rim of 844 points") {
+TEST_CASE(
+    "the engine finds the paper's figures: the bunny's five holes, the range map's outer curve of 844 "
+    "points") {
   const auto shared = shared_folder();
   if (!shared) return;
   const Detected bunny = run_engine(read_cloud(*shared / "data/bun_zipper.ply"), with_paper_loops({}));

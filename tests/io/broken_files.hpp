@@ -24,8 +24,8 @@ using PointVisitor = std::function<void(const Point&)>;
 using Reading = std::function<void(const std::filesystem::path& file, std::size_t max_rows,
                                    std::uint64_t most_points, const PointVisitor& visit)>;
 
-// By `open_scan`. The rows are packed and have x, y and z, properties differ in name, batches have the bytes
-// of their rows, and the rows come to the number expected: never more than `most_points`.
+// By `open_scan`. The rows are packed and have x, y and z, properties differ in name, and batches have the
+// bytes of their rows. The number of rows is the expected one, never more than `most_points`.
 void read_scan(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
                const PointVisitor& visit);
 
@@ -43,8 +43,7 @@ struct WholeFile {
 };
 
 // Every length of each file, and 300 changed files in all. A failure names the seed and the number of the
-// change: mutated() gives the same file again, and after a crash it is left in the folder for temporary
-// files.
+// change, and mutated() gives that file again. After a crash it is left in the folder for temporary files.
 void check_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed);
 
 // Every length of each file, and 10,000 changed ones of each. For slow tests.

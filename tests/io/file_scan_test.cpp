@@ -73,7 +73,7 @@ TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
   CHECK(scan.single_precision());
 }
 
-TEST_CASE("a scan without normals has none, and a text file does not tell its size", "[io]") {
+TEST_CASE("a scan without normals has none, and a text file does not say its size", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
   CHECK_FALSE(scan.has_normals());

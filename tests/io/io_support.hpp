@@ -16,7 +16,7 @@
 
 namespace lacuna::test {
 
-// Bytes of values, in the order asked for.
+// Bytes of values, in the given order.
 class Bytes {
  public:
   explicit Bytes(std::endian order = std::endian::little) : order_(order) {}

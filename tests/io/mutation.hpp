@@ -6,8 +6,8 @@
 
 namespace lacuna::test {
 
-// `whole` with one to four random changes: bytes set, bits flipped, spans removed, repeated, inserted or
-// swapped, integers set to extreme values, numbers of text changed or replaced, the end cut off. Each
+// Returns `whole` with one to four random changes. Bytes are set, bits flipped, spans removed, repeated,
+// inserted or swapped. Integers become extreme values, numbers of text change, or the end is cut off. Each
 // `number` gives a file of its own, on every machine the same.
 std::string mutated(const std::string& whole, std::uint32_t seed, std::uint32_t number);
 

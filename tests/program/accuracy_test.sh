@@ -24,7 +24,7 @@ done
 grep -q '^synth,torus-noise0,[0-9]*,default,16,13,' "$scratch/a.csv" || fail "no row of torus-noise0 in the CSV"
 grep -q 'bun_zipper.ply is not there' "$scratch/err" || fail "missing scans are not told"
 
-# The same sets again give the same rows, and options reach lacuna.
+# A second run of these sets gives equal rows, and options reach lacuna.
 cp "$scratch/a.csv" "$scratch/first.csv"
 accuracy --only 'torus-noise0$'
 cmp -s "$scratch/a.csv" "$scratch/first.csv" || fail "a second run differs"
@@ -36,7 +36,7 @@ accuracy --only '/table-orthographic-noise0-strays$' || fail "ended with status 
 grep -q '^range-made,table-orthographic-noise0-strays,[0-9]*,default,8,20,' "$scratch/a.csv" ||
   fail "the range map has not 20 true loops: $(cat "$scratch/a.csv")"
 
-# What goes wrong is told.
+# Errors are reported.
 if accuracy --only no-such-set; then fail "no set, and no error"; fi
 if accuracy --only 'synth/torus-noise0$' -- --k 0; then fail "a failing lacuna is no error"; fi
 grep -q 'k = 0' "$scratch/err" || fail "the reason of lacuna is not told"
@@ -44,8 +44,8 @@ status=0
 accuracy --colour || status=$?
 ((status == 2)) || fail "wrong usage has exit code $status"
 
-# A mesh of 30 x 30 squares in every encoding, with a vertex that no face uses: a ball cut out of it leaves its rim
-# and one hole.
+# A mesh of 30 x 30 squares in every encoding, with a vertex that no face uses. A ball cut out of it leaves its outer
+# edge and one hole.
 python3 - "$root/bench/accuracy" "$scratch" <<'END'
 import struct
 import sys
@@ -84,7 +84,7 @@ END
 grep -q '^found . of 2 true loops' "$scratch/told" || fail "the cut mesh has not two true loops: $(cat "$scratch/told")"
 grep -q '^found 2 of 2' "$scratch/told" || fail "the loops of the cut mesh are not found: $(cat "$scratch/told")"
 
-# Shapes are met where they should be, and a range map has rims that do not touch and the strays that are asked for.
+# Rays hit shapes where they should. A range map has edges that do not touch, and the wanted strays.
 python3 - "$root/bench/accuracy" <<'END'
 import math
 import sys
@@ -113,7 +113,7 @@ assert meets(torus(1, 0.5), 1.3, 0, 2.6, 0.8) and meets(torus(1, 0.5), 0.4, 0, *
 assert meets(slope, 0.4, 0.7, 2.8, 2 / math.sqrt(5))
 assert meets(nearest(slope, ball), 0.6, 0, 1.2, 0.8)
 
-# Of 3 x 3 squares the four about one ray have one triangle each where it is lost or far off.
+# In 3 x 3 squares, the four about one ray have one triangle each where it is lost or far off.
 for ray, triangles in (((1.0, 1.0, 0.0), 18), (None, 14), ((1.0, 1.0, 5.0), 14)):
     seen = [(float(i % 4), float(i // 4), 0.0) for i in range(16)]
     seen[5] = ray
@@ -131,7 +131,7 @@ assert len(clean.faces) == len(maps[0].faces) and len(clean.positions) < len(map
 assert set(range(len(clean.positions))) == {vertex for face in clean.faces for vertex in face}
 END
 
-# Two holes that share a vertex are two true loops, beside the rim. Degraded scans keep what is left of each true loop.
+# Two holes that share a vertex are two true loops, besides the outer edge. Degraded scans keep what is left of each true loop.
 python3 - "$root/bench/accuracy" <<'END'
 import math
 import random
@@ -175,7 +175,7 @@ assert all(-2 <= x <= 42 and -2 <= y <= 42 and -2 <= z <= 2 for x, y, z in outli
 assert max(z for _, _, z in outliers) > 1
 END
 
-# Of CGAL's bounds the table shows the best of a group, and sums of columns that only some methods have.
+# The table shows the best of CGAL's bounds for a group, and sums of columns that only some methods have.
 python3 - "$root/bench/accuracy" <<'END' >"$scratch/table"
 import sys
 

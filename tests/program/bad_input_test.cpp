@@ -143,7 +143,7 @@ TEST_CASE("what is odd about a scan is a warning that names it, and the run goes
   CHECK_THAT(warnings({even, (scratch.path() / "." / "even.ply").string()}),
              Catch::Matchers::Contains("even.ply: given more than once"));
   CHECK_THAT(warnings({scratch.write("few.txt", "0 0 0\n1 0 0\n0 1 0\n")}),
-             Catch::Matchers::Contains("3 different points; each of them has fewer than k = 15 neighbours"));
+             Catch::Matchers::Contains("3 distinct points; each needs k = 15 neighbours"));
   const std::string utm =
       scratch.write("utm.ply", binary_ply(plane(40).scaled(0.5).translated({500'000, 5'400'000, 300})));
   CHECK_THAT(warnings({utm}), Catch::Matchers::Contains("steps of up to 0.5 here"));

@@ -60,7 +60,7 @@ const std::string kSquare =
 
 }  // namespace
 
-TEST_CASE("a made surface is evaluated against the truth beside it") {
+TEST_CASE("a synthetic surface is evaluated against the truth next to it") {
   const Made made;
   const auto report = evaluate({made.out, made.truth});
   CHECK(report.at("true") == 4);
@@ -145,7 +145,7 @@ TEST_CASE("the truth is itself found, from either kind of file, without boundary
   CHECK(evaluate({made.truth, made.truth, "--scan", (made.folder / "other.ply").string()}).at("found") == 4);
 }
 
-TEST_CASE("the scan is the one that the run names, where none lies beside the truth") {
+TEST_CASE("the scan is the one that the run names, where none lies next to the truth") {
   const Made made;
   const fs::path moved = made.folder / "elsewhere.loops.txt";
   fs::rename(made.truth, moved);

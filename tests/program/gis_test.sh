@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: the coordinates, measures and the
-# coordinate reference system; the same bytes for every tiling; what is replaced, and what is refused.
+# The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: coordinates, measures and the coordinate
+# reference system. The bytes are equal for every tiling. Other cases: what is replaced, and what is refused.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 work=$(mktemp -d)
@@ -120,7 +120,7 @@ done
 "$program" detect utm.las --out again --quiet
 [[ -z $(find again -name 'loops.*' ! -name loops.ply) ]]
 
-# The library is found beside the program, or where it is installed.
+# The library is found in the program's folder, or where it is installed.
 mkdir -p bin lib/lacuna
 cp "$program" bin/lacuna
 if bin/lacuna detect utm.las --out out --gpkg --quiet 2>missing.txt; then exit 1; fi

@@ -1,4 +1,4 @@
-// Opens OUT/points.las of a run with copc.js, and compares it with the LAS or LAZ inputs, read by copc.js too, and with the
+// Opens OUT/points.las of a run with copc.js. Compares it with the LAS or LAZ inputs, read by copc.js too, and with the
 // run's other results.
 //     node las_clients.cjs FOLDER_OF_COPC OUT INPUT...
 "use strict";
@@ -27,7 +27,7 @@ async function open(file) {
   return { bytes, header, records, extra, count: header.pointCount, view: Las.View.create(points, header, extra) };
 }
 
-// Of a little-endian PLY file with one element.
+// Reads a little-endian PLY file with one element.
 function readPly(file) {
   const bytes = fs.readFileSync(file);
   const end = bytes.indexOf("end_header\n") + 11;

@@ -2,7 +2,7 @@
 
 make_las.py IN.ply OUT.las FORMAT [FIRST [COUNT]]
 
-Point formats 0 to 3 make LAS 1.2 without extra bytes; 6 to 8 make LAS 1.4 with extra bytes, well-known text and a record
+Point formats 0 to 3 make LAS 1.2 without extra bytes. Formats 6 to 8 make LAS 1.4 with extra bytes, well-known text and a record
 behind the points.
 """
 import random
@@ -13,7 +13,7 @@ CRS = b'PROJCS["made",UNIT["metre",1]]\0'
 
 
 def descriptor(name, kind, options=0, no_data=b"", description=b""):
-    """Of the record "Extra Bytes" (LAS 1.4 R15, table 24)."""
+    """A descriptor of the record "Extra Bytes" (LAS 1.4 R15, table 24)."""
     return struct.pack("<HBB32s4x24s24s24s24s24s32s", 0, kind, options, name, no_data, b"", b"", b"", b"", description)
 
 

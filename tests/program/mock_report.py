@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes report.html of a made scan, in the format that `lacuna detect --report` has, to work on the page without it.
+"""Writes report.html of a synthetic scan, in the format that `lacuna detect --report` has, to work on the page without it.
 
     mock_report.py OUT.html [--points N] [--holes N] [--utm] [--colours] [--no-loops] [--empty] [--no-run] [--flat-loops N]
     mock_report.py OUT.html --ply SCAN.ply          # an ASCII or float PLY; loops of SCAN.ply.loops.txt if it is there

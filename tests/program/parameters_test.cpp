@@ -61,8 +61,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"tile_points", "150"},
 };
 
-// A rough sheet with two holes, and pairs of sheets that join in creases; of two classes and returns, with
-// one point at 0 0 0.
+// A rough sheet with two holes, and pairs of sheets that join in creases. The points have two classes and
+// returns, and one is at 0 0 0.
 std::string scan_text() {
   Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
   for (const int degrees : {40, 60, 80, 100, 120}) {
@@ -82,8 +82,8 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results. Of files with the parameters or times in them: of holes.json the loops, of the
-  // others the name.
+  // All bytes of the results. Some files have parameters or times in them: then it takes the loops of
+  // holes.json, and the names of the others.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));

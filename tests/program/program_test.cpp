@@ -43,8 +43,8 @@ TEST_CASE("a run counts its loops in words") {
     run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
     return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
   };
-  CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve, 2 of them longer than 0.1\n"));
-  CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves, 1 of them longer than 0.1\n"));
+  CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve; 2 longer than 0.1\n"));
+  CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves; 1 longer than 0.1\n"));
 }
 
 TEST_CASE("help is for everything and version is one line") {
@@ -87,7 +87,7 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   CHECK_FALSE(fs::exists("d"));
 }
 
-TEST_CASE("a mistyped option or command is told with the one that may be meant") {
+TEST_CASE("a mistyped option or command is reported with the one that may be meant") {
   check_failure(run_program({"detetc"}), 2,
                 "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
   check_failure(run_program({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
@@ -147,7 +147,7 @@ TEST_CASE("a printed config read again prints the same") {
   CHECK(run_program({"detect", "--print-config", "--config", file}).out == first.out);
 }
 
-TEST_CASE("the command line counts over the config file, the file over the defaults") {
+TEST_CASE("the command line overrides the config file, and the file the defaults") {
   const ScratchFolder scratch;
   const std::string file =
       scratch.write("c.toml", "[neighbourhood]\nk = 20\n[output]\npoints = true\n[spanning]\ne = 9\n");
@@ -157,7 +157,7 @@ TEST_CASE("the command line counts over the config file, the file over the defau
                              Contains("\ncone = 15.0\n"));
 }
 
-TEST_CASE("what is wrong in a config file is told with file, line and key") {
+TEST_CASE("a fault in a config file is reported with file, line and key") {
   const ScratchFolder scratch;
   const std::string unknown = scratch.write("unknown.toml", "[criteria]\nsigmas = 1\n");
   check_failure(run_program({"detect", "--print-config", "--config", unknown}), 1,
@@ -193,7 +193,7 @@ TEST_CASE("an output folder that cannot be is an error") {
   CHECK(test::read_file(scan) == sheet(8));
 }
 
-TEST_CASE("a run makes its folder, tells what it found and leaves nothing else") {
+TEST_CASE("a run creates its folder, prints what it found and leaves nothing else") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(40));
   const fs::path out = scratch / "new/folder";
@@ -262,7 +262,7 @@ TEST_CASE(
   CHECK(test::read_file(scan) == sheet(20));
 }
 
-TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
+TEST_CASE("a workspace elsewhere is used, and kept with --keep-workspace") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   const fs::path work = scratch / "work";
@@ -277,7 +277,7 @@ TEST_CASE("a workspace elsewhere is used, and kept when asked for") {
   CHECK(fs::file_size(fs::directory_iterator(work)->path() / "index.vdb") > 0);
 }
 
-TEST_CASE("one run at a time writes to a folder, and tells of what a killed one has left there") {
+TEST_CASE("one run at a time writes to a folder, and warns of what a killed one has left there") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   const fs::path out = scratch / "out";
@@ -431,7 +431,7 @@ TEST_CASE("a signal ends the run and removes the workspace") {
   }
 }
 
-TEST_CASE("info tells the size of the annotated scan, whatever the files hold") {
+TEST_CASE("info prints the size of the annotated scan, whatever the files hold") {
   const ScratchFolder scratch;
   const std::string text = scratch.write("scan.txt", sheet(20));
   const std::string ply = scratch.write(
@@ -464,7 +464,7 @@ TEST_CASE("info tells the size of the annotated scan, whatever the files hold") 
   }
 }
 
-TEST_CASE("info tells what files hold and what a run would take, and writes nothing") {
+TEST_CASE("info prints what files hold and what a run would take, and writes nothing") {
   const ScratchFolder scratch;
   const std::string text = scratch.write("scan.txt", sheet(8));
   const std::string ply = scratch.write("one.ply",

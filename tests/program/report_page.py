@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # none beside the sources
+sys.dont_write_bytecode = True  # none among the sources
 
 import report_browser
 import report_section

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The report of a made scan in headless Chromium: points and loops are drawn; rows, filters, section and keys work. The
+# The report of a synthetic scan in headless Chromium: points and loops are drawn; rows, filters, section and keys work. The
 # argument is the scan, `room` or `flat`.
 set -euo pipefail
 : "${LACUNA_PROGRAM:?}"

@@ -198,7 +198,7 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
     return run.err;
   };
   const std::string out = made.out().string();
-  CHECK_THAT(refused(out + "/nowhere"), Contains("is no folder"));
+  CHECK_THAT(refused(out + "/nowhere"), Contains("/nowhere: not a folder; allowed: a folder with results of lacuna detect"));
   const std::string holes = read_file(made.out() / "holes.json");
   const auto write = [&](const std::string& text) { std::ofstream(made.out() / "holes.json") << text; };
   for (std::size_t size = 0; size < holes.size() - 2; size += 1777) {

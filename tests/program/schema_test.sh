@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether holes.json is as docs/holes.schema.json says, by a validator that is not ours; and whether runs that differ in
+# Whether holes.json is as docs/holes.schema.json says, by a validator that is not ours. And whether runs that differ in
 # tiles, threads and memory write the same bytes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

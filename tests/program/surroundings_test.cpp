@@ -159,7 +159,7 @@ TEST_CASE("threads that cannot be started are an error of one line") {
     WARN("cannot run the program as another user: skipped");
     return;
   }
-  // Of a user who may have fewer threads, OpenVDB's logging library ends the program before it begins.
+  // For a user who may have fewer threads, OpenVDB's logging library ends the program before it begins.
   for (const std::string limit : {"5", "6", "7", "8", "9", "10", "11"}) {
     INFO("ulimit -u " << limit);
     const fs::path out = scratch / "open" / limit;

@@ -30,7 +30,7 @@ TEST_CASE(
     "OpenVDB's reader finds in each voxel of probability.vdb the largest probability of points.ply there") {
   const test::ScratchFolder scratch;
   const std::string surface = make_surface(scratch, "surface.ply");
-  // The same scan on Earth, with all digits.
+  // The scan is placed on Earth, with all digits.
   const test::Table table = test::read_table(surface);
   std::string text = "x y z\n";
   for (const auto& row : table.rows)

@@ -297,7 +297,7 @@ Cloud hard_cloud(std::uint64_t seed) {
   // Many copies of one point, and points around it.
   cloud = cloud.joined(coincident(2000).translated({8, 8, 8}));
   cloud = cloud.joined(sphere(60).scaled(2).translated({8, 8, 8}));
-  // Islands of fewer points than the neighbours asked for.
+  // Islands of fewer points than the wanted neighbours.
   for (int count : {1, 2, 3, 5, 9}) {
     cloud = cloud.joined(sphere(count).translated({-20. * count, 70, 0}));
   }

@@ -1,5 +1,5 @@
-// Drawn and random clouds: `plane(40).punched({20, 20}, 5).jittered(0.25, 1).translated({1e6, 0, 0})`.
-// The same numbers on every machine: nothing of <random> is used.
+// Drawn and random clouds: `plane(40).punched({20, 20}, 5).jittered(0.25, 1).translated({1e6, 0, 0})`. They
+// have equal numbers on every machine: nothing of <random> is used.
 #pragma once
 
 #include "engine/config.hpp"
@@ -66,9 +66,10 @@ Cloud plane(int n);
 Cloud lattice(int n);
 // n points of a Fibonacci spiral on the unit sphere: even, no ties.
 Cloud sphere(int n);
-// nu points around, nv rings a unit apart about the z axis; neighbours on a ring a unit apart too. Two rims.
+// nu points around, nv rings a unit apart about the z axis; neighbours on a ring a unit apart too. Two outer
+// edges.
 Cloud open_cylinder(int nu, int nv);
-// Two n x n half planes of the unit grid that meet along the y axis.
+// Two n x n half planes of the unit grid that join along the y axis.
 Cloud crease(int n, double degrees = 90);
 // The plane(n) where x < n / 2; beyond, every other point along both axes: a quarter of the density.
 Cloud density_step(int n);
@@ -78,9 +79,9 @@ Cloud coincident(int n);
 // n random points on the unit square, z = 0.
 Cloud scattered(int n, std::uint64_t seed);
 
-// What breaks tilings, in one cloud of some 5,000 points about the size of 100: density steps of 1 to 100,
-// lone far outliers, lattices with exact ties, 2,000 coincident points, points on round coordinates (likely
-// tile faces), islands of fewer points than k + 1, unusable rows; shuffled.
+// All that breaks tilings, in one cloud of some 5,000 points about the size of 100, shuffled. It has density
+// steps of 1 to 100, lone far outliers, lattices with exact ties, and 2,000 coincident points. It also has
+// points on round coordinates (likely tile faces), islands of fewer points than k + 1, and unusable rows.
 Cloud hard_cloud(std::uint64_t seed);
 
 // 1 to 3,000 points: a random mixture of all of the above, placed, scaled and rotated at random.
@@ -89,7 +90,7 @@ Cloud random_cloud(std::uint64_t seed);
 // All parameters of the method varied, each often left at its default. `spacing`: the typical distance
 // between neighbours, eps being a length.
 Config random_config(std::uint64_t seed, double spacing);
-// The same with the loops of the paper.
+// Returns the config with the loops of the paper.
 Config with_paper_loops(Config config);
 
 Config tiled(Config config, std::int64_t tile_points, std::int64_t threads = 2);

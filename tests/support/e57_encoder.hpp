@@ -28,7 +28,7 @@ E57Values e57_scaled(const std::string& name, std::int64_t minimum, std::int64_t
 
 struct E57TestScan {
   std::vector<E57Values> fields;
-  std::string pose;         // XML beside the points
+  std::string pose;         // XML next to the points
   std::size_t packets = 1;  // the bytes of each field are divided unevenly between them
   std::string codecs;       // XML within the points
 };
@@ -39,7 +39,7 @@ std::string e57_pose(const std::vector<double>& quaternion, const std::vector<do
 struct E57FileForm {
   std::size_t page_bytes = 1024;
   bool has_other_packets = true;  // one of an index before the data, and an empty one before the last
-  std::string root;               // XML beside data3D
+  std::string root;               // XML next to data3D
 };
 
 std::string encode_e57(const std::vector<E57TestScan>& scans, const E57FileForm& form = {});

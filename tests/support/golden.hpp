@@ -1,5 +1,5 @@
-// Golden results of real scans, made by another program. They lie beside the checkout, in the shared folder;
-// tests are skipped where that is absent. Those of made clouds: made_golden.hpp.
+// Golden results of real scans, made by another program. They lie next to the checkout, in the shared folder;
+// tests are skipped where that is absent. Those of synthetic clouds: made_golden.hpp.
 #pragma once
 
 #include "engine/config.hpp"
@@ -14,8 +14,8 @@
 
 namespace lacuna {
 
-// $LACUNA_SHARED, else `shared` beside the source folder. Where that is no folder: none, and the running test
-// case is skipped.
+// $LACUNA_SHARED, else `shared` next to the source folder. Where that is no folder: none, and the running
+// test case is skipped.
 std::optional<std::filesystem::path> shared_folder();
 
 // A point in the golden results: ids and counts as written, -1 for no gap neighbour.
@@ -39,8 +39,8 @@ std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
                                             const GoldenSetting& setting);
 GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
 
-// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances
-// within 1e-12 of themselves. What the tested program does not tell, `found` takes from `golden`.
+// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances within
+// 1e-12 of themselves. What the tested program does not return, `found` takes from `golden`.
 void check_golden(const std::vector<GoldenPoint>& found, const std::vector<GoldenPoint>& golden);
 GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 

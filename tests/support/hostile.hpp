@@ -16,7 +16,7 @@ Cloud volume(int n, std::uint64_t seed);
 // The rough sheet, nine tenths of it shrunk to a millionth.
 Cloud cluster(int n, std::uint64_t seed);
 
-// The same with a volume as the shrunk part.
+// A cluster whose shrunk part is a volume.
 Cloud volume_cluster(int n, std::uint64_t seed);
 
 // n points of a plane about the origin, as many in each decade of distance from 1e-6 to 1.

@@ -601,8 +601,8 @@ struct ColourEncoder {
   }
 
   void encode(const std::byte* now, unsigned channel, bool switched) {
-    // What LASzip's version 3 does: it takes any point for one of channel 0 but at a switch, and at a switch
-    // to a channel that it knows, goes on with the values of the one before.
+    // LASzip's version 3 takes any point for one of channel 0 but at a switch. At a switch to a channel that
+    // it knows, it goes on with the values of the one before.
     const unsigned next = item.version == 4 || switched ? channel : 0;
     const bool fresh = channels.count(next) == 0;
     if (fresh) channels[next].last = channels[at].last;

@@ -14,7 +14,7 @@ namespace lacuna::test {
 
 using LazBytes = std::vector<std::byte>;
 
-// The items of a point format, 0 to 3 with version 1 or 2, or 6 to 8 with version 3 or 4; `extra_bytes`
+// The items of a point format, 0 to 3 with version 1 or 2, or 6 to 8 with version 3 or 4. `extra_bytes` are
 // behind them. `chunk_points`: laz::kVariableChunks writes the number of points of each chunk.
 laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
                        std::uint16_t version);

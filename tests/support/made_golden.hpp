@@ -1,5 +1,5 @@
-// The golden results in tests/data: what the plain reference made of small made clouds. `make_golden` writes
-// them anew:
+// The golden results in tests/data: what the plain reference finds in small synthetic clouds. `make_golden`
+// writes them anew:
 //     ninja -C build make_golden && build/tests/make_golden
 // Each cloud is a text file "x y z", each result a text file that says its cloud in its name.
 #pragma once

@@ -23,8 +23,8 @@ struct Adaptor {
 using Metric = nanoflann::L2_Simple_Adaptor<double, Adaptor, double, LocalIndex>;
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Adaptor, 3, LocalIndex>;
 
-// nanoflann bounds the distance of a branch by sums that are rounded: a branch at the very distance of the
-// worst neighbour is looked into all the same.
+// nanoflann bounds the distance of a branch by sums that are rounded. So a branch at exactly the distance of
+// the worst neighbour is searched, too.
 const nanoflann::SearchParams kExact(0, -1e-6f, false);
 
 // nanoflann offers only points strictly nearer than `worstDist`; ties are decided by id here.

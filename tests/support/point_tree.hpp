@@ -1,5 +1,5 @@
-// Exact nearest neighbours in the order of the method (4.1) by a nanoflann kd-tree: a second opinion on the
-// search in blocks, for more points than a look at each allows.
+// Exact nearest neighbours in the order of the method (4.1) by a nanoflann kd-tree. It is a second opinion on
+// the search in blocks, for more points than brute force allows.
 #pragma once
 
 #include "engine/model/neighbourhoods.hpp"

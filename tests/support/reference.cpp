@@ -205,7 +205,7 @@ Moments weighted_moments(const Offsets& offsets, double sigma) {
   double total = 0;
   Moments moments;
   for (const Vector3d& q : offsets) {
-    // The engine's exp (tests/engine/simd/maths_test compares it with the standard library's): where two
+    // The engine's exp (tests/engine/simd/maths_test compares it with the standard library's). Where two
     // eigenvalues are equal but for rounding, the last bits of the weights decide where the normal points.
     weights.push_back(exponential(squared_length(q) * (-1 / (sigma * sigma))));
     total += weights.back();
@@ -398,7 +398,7 @@ bool by_weight_then_ids(const Edge& a, const Edge& b) {
   return std::tie(a.weight, a.low, a.high) < std::tie(b.weight, b.low, b.high);
 }
 
-// Of a root: to +z; a horizontal one to +y, else to +x.
+// Whether the normal of a root points up: to +z; a horizontal one to +y, else to +x.
 bool points_up(const Vector3d& n) {
   if (n.z() != 0) return n.z() > 0;
   return n.y() != 0 ? n.y() > 0 : n.x() > 0;
@@ -526,8 +526,8 @@ Graph span(Detection& result) {
 
 // ---- 6. Loops ----------------------------------------------------------------------------------------
 
-// Takes off the trees that hang off the graph: no loop contains them, and the order in which a search meets
-// all other vertices stays the same. (Bridges stay; a search from one finds nothing.)
+// Takes off the trees that hang off the graph. No loop contains them, and the order in which a search reaches
+// all other vertices stays. (Bridges stay; a search from one finds nothing.)
 void strip_trees(Graph& graph) {
   std::vector<PointId> leaves;
   for (std::size_t i = 0; i < graph.size(); ++i) {
@@ -601,7 +601,7 @@ void find_loops(Graph graph, Detection& result) {
 
 // ---- Stars -------------------------------------------------------------------------------------------
 
-// In the order around the point; ball: the radius of the one on this corner and the next.
+// In the order around the point; ball: the circumradius with this corner and the next.
 struct Corner {
   PointId point;
   double ball;
@@ -610,8 +610,8 @@ struct Corner {
 struct Star {
   std::vector<Corner> corners;
   double distance = 0;               // harmonic mean of r over the point and its neighbours
-  std::array<double, 2> radius{};    // that a ball may have to make a triangle, by scale: fine, coarse
-  std::array<double, 2> sampling{};  // nine in ten of the balls around within these are no larger
+  std::array<double, 2> radius{};    // the bounds on a triangle's circumradius, by scale: fine, coarse
+  std::array<double, 2> sampling{};  // nine in ten of the circumradii around within these are no larger
 };
 
 // What confidence needs of a gap.
@@ -682,13 +682,13 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-// Stars of points and of their neighbours, found when they are first asked for.
+// Stars of points and of their neighbours, found when they are first needed.
 class Stars {
  public:
   Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
       : positions_(positions), config_(config), result_(result) {}
 
-  // Measured by the balls of its own and its neighbours' stars.
+  // Measured by the circumradii of its own and its neighbours' stars.
   const Star& operator[](PointId p) {
     const auto [at, is_new] = measured_.try_emplace(p, found(p));
     if (is_new && !at->second.corners.empty()) measure(p, at->second);
@@ -724,7 +724,7 @@ class Stars {
     for (const std::size_t scale : {0, 1}) star.sampling[scale] = sampling(around, star.radius[scale]);
   }
 
-  // Of the eight smallest balls of each star that do not lie in a hole; to a 64th.
+  // Takes the eight smallest circumradii of each star that do not lie in a hole, to a 64th.
   double sampling(const std::vector<PointId>& around, double most) {
     std::vector<double> balls;
     for (const PointId q : around) {
@@ -816,7 +816,7 @@ struct CurvePoint {
   Evidence evidence;
 };
 
-// Of all ways to write a closed curve, the one whose points come first.
+// Returns the way to write a closed curve whose points come first.
 std::vector<CurvePoint> first_way(std::vector<CurvePoint> rim) {
   const auto ids = [](const std::vector<CurvePoint>& way) {
     std::vector<PointId> ids;
@@ -914,7 +914,7 @@ Loops find_curves(const Positions& positions, const TangentialConfig& config, co
                   std::size_t scale, Stars& stars, std::size_t& edges) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   std::vector<Gap> gaps;
-  std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the rim)
+  std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the curve)
   for (const PointId p : rough) {
     for (const Gap& gap : gaps_of(p, rough, stars, scale, positions, config)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
@@ -933,7 +933,7 @@ Loops find_curves(const Positions& positions, const TangentialConfig& config, co
       const PointId next = gaps[g].from == before ? gaps[g].to : gaps[g].from;
       is_done[g] = true;
       rim.push_back({gaps[g].point, gaps[g].evidence});
-      g = at.at({next, rim.back().point});  // rims are closed
+      g = at.at({next, rim.back().point});  // curves are closed
     } while (g != start);
     if (rim.size() < least) continue;
     for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {

@@ -20,8 +20,8 @@ void redirect(const std::filesystem::path& file, int descriptor) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(125);
 }
 
-// Of a running process. Not wait4's ru_maxrss: that counts what the forked child held before it became the
-// program, which is all that these tests hold.
+// The peak memory of a running process. Not wait4's ru_maxrss: that counts what the forked child held before
+// it became the program, which is all that these tests hold.
 std::uint64_t peak_resident(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string word; status >> word;) {

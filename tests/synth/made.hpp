@@ -1,4 +1,4 @@
-// Made scans, read back: the vocabulary of the tests of `lacuna synth`.
+// Synthetic scans, read back: the vocabulary of the tests of `lacuna synth`.
 #pragma once
 
 #include "engine/run/error.hpp"

@@ -27,7 +27,7 @@ TEST_CASE("quarter turns are exact") {
   CHECK(sin_cos(-0.25).sin == -1);
 }
 
-TEST_CASE("a permutation meets every index once, for every size") {
+TEST_CASE("a permutation visits every index once, for every size") {
   for (std::uint64_t size = 1; size <= 300; ++size) {
     const Permutation order(size, size);
     std::vector<int> met(size);

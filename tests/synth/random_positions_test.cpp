@@ -56,7 +56,7 @@ bool cross(const Position& a, const Position& b, const Position& c, const Positi
 
 }  // namespace
 
-TEST_CASE("random positions have the number of points asked for, give or take its square root") {
+TEST_CASE("random positions have the wanted number of points, give or take its square root") {
   for (const SurfaceKind kind : kAllKinds) {
     const ScratchFolder folder;
     SurfaceOptions options = random_surface(folder, kind);
@@ -126,7 +126,7 @@ TEST_CASE(
     auto loops = loops_of(options.truth);
     REQUIRE(loops.size() == 61);
     std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    loops.pop_back();  // the rim
+    loops.pop_back();  // the outer edge
     for (const auto& loop : loops) {
       const std::vector<Position> corners = on_loop(loop, points);
       const double extent = area(corners);

@@ -25,7 +25,7 @@ ScanOptions small(const ScratchFolder& folder, SceneKind scene = SceneKind::kRoo
 
 }  // namespace
 
-TEST_CASE("a ray meets the nearest of a wall, a box, a ball and a column, at the right angle") {
+TEST_CASE("a ray hits the nearest of a wall, a box, a ball and a column, at the right angle") {
   Scene scene;
   scene.walls.push_back({{10, -5, -5}, {0, 1, 0}, {0, 0, 1}, 10, 10, 0.8, {{4, 4, 5, 5, Opening::kGlass}}});
   const double slant = std::sqrt(0.5);
@@ -68,7 +68,7 @@ TEST_CASE(
   CHECK(fnv1a(read_file(folder / "made.loops.txt")) == 0x75acfa9cc7674a91u);
 }
 
-TEST_CASE("a scan has about the points asked for, of every station, with intensities in range") {
+TEST_CASE("a scan has about the wanted number of points, of every station, with intensities in range") {
   for (const SceneKind scene : kAllScenes) {
     const ScratchFolder folder;
     ScanOptions options = small(folder, scene);

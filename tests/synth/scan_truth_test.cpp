@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kStride = 12 + 1 + 4;
 
-// A room without a hole, 6 x 4 x 3 metres, with one place for stations.
+// A hall without a hole, 6 x 4 x 3 metres, with one place for stations.
 Scene closed_room(Vec3 eye) {
   Scene scene;
   constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
@@ -82,8 +82,8 @@ std::vector<Vec3> vertices(const Made& made, std::size_t loop) {
   return all;
 }
 
-// Both curves stay within two spacings of each other. The spacing is that of rays that reach a surface at this
-// least cosine.
+// Both curves stay within two spacings of each other. The spacing is that of rays that reach a surface at
+// this least cosine.
 void check_follows(const Made& made, std::size_t loop, const std::vector<Vec3>& outline, Vec3 eye,
                    double cosine) {
   const std::vector<Vec3> found = vertices(made, loop);

@@ -120,7 +120,7 @@ TEST_CASE("a sphere has one radius and the area of its squares, evenly covered")
   CHECK(at_corner / at_pole < 1.45);
 }
 
-TEST_CASE("panels meet without a gap and without an overlap") {
+TEST_CASE("panels join without a gap and without an overlap") {
   for (const SurfaceKind kind : kPanelKinds) {
     const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder, kind);
@@ -165,7 +165,7 @@ TEST_CASE("past the density step there is the promised part of the points, and t
       for (const auto& loop : loops)
         past += std::any_of(loop.begin(), loop.end(),
                             [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
-      CHECK(past == 1);  // the rim
+      CHECK(past == 1);  // the outer edge
     }
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("the density factor is the ratio of the densities at two corners") {
   CHECK(dense / sparse < 10);
 }
 
-TEST_CASE("noise is along the normal and has the deviation asked for") {
+TEST_CASE("noise is along the normal and has the wanted deviation") {
   const ScratchFolder folder;
   SurfaceOptions options = small_surface(folder);
   options.noise = 0.5;

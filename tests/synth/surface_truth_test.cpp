@@ -9,7 +9,7 @@
 using namespace lacuna;
 using namespace lacuna::synth;
 
-TEST_CASE("every planted hole and every rim is one closed true loop in canonical form") {
+TEST_CASE("every planted hole and every outer edge is one closed true loop in canonical form") {
   const auto check = [](SurfaceKind kind, Order order, PositionKind positions) {
     const ScratchFolder folder;
     SurfaceOptions options = small_surface(folder, kind);
@@ -85,7 +85,7 @@ TEST_CASE("inside a true loop on a plane there is no point, and just outside the
   const auto points = positions_of(options.out);
   auto loops = loops_of(options.truth);
   std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  loops.pop_back();  // the rim
+  loops.pop_back();  // the outer edge
   for (const auto& loop : loops) {
     const std::set<std::uint64_t> on_loop(loop.begin(), loop.end());
     std::size_t inside = 0, beside = 0;

@@ -1,4 +1,4 @@
-// How well points were told to be boundary points.
+// How well points were classified as boundary points.
 #pragma once
 
 #include "tools/accuracy/true_loops.hpp"
@@ -23,9 +23,9 @@ struct PointAccuracy {
   PointScores within_radius;           // flagged ones near a true edge; true ones near a flagged one
 };
 
-// Points at one place count once. The truth is the vertices of all loops given; within the radius, their
-// edges, since a boundary is a curve: where few of its points were sampled, those between them are on it as
-// well.
+// Points at one place count once. The truth is the vertices of all loops given. Within the radius, it is
+// their edges, since a boundary is a curve. Where few of its points were sampled, those between them are on
+// it as well.
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
                            std::span<const Eigen::Vector3d> positions,
                            std::span<const std::uint64_t> stand_ins, double radius);

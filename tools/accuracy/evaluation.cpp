@@ -139,8 +139,8 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   }
 }
 
-// Of the false loops those around unsampled places of the surface are unsampled, those along true loops as
-// well are joined.
+// False loops around unsampled places of the surface become unsampled. Those along true loops as well become
+// joined.
 void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
   std::vector<LoopMatch*> matches;
   std::vector<LoopIds> loops;

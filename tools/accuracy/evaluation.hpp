@@ -53,9 +53,9 @@ struct Evaluation {
 // loops, loops.ply or text. Throws `Error`.
 Result read_result(const std::filesystem::path& path);
 
-// A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`;
-// without any, of the scan X.ply beside X.loops.txt, else of the result's inputs where they still are. Points
-// that no face of a mesh uses take no part in the spacing. Throws `Error`.
+// A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`.
+// Without any, they are those of X.ply next to X.loops.txt, else of the result's inputs where they still
+// exist. Points that no face of a mesh uses take no part in the spacing. Throws `Error`.
 Truth read_truth(const std::filesystem::path& file, std::vector<ScanInput> scans, const Result& result);
 
 // The faces of a PLY mesh. Throws `Error`.

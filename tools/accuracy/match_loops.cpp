@@ -75,7 +75,7 @@ bool matches(const Shares& shares, const MatchRule& rule) {
   return shares.on >= rule.share && shares.covered >= rule.share;
 }
 
-// Of a loop that matches no true one, but lies on those that count together.
+// Rates a loop that matches no true one, but lies on those that count together.
 LoopMatch joined_or_parted(const Overlap& overlap, std::span<const TrueMatch> truth, const MatchRule& rule) {
   LoopMatch most_on, most_covered;
   for (const auto& [hit, shares] : overlap.of) {

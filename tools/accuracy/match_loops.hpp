@@ -10,12 +10,12 @@
 
 namespace lacuna::accuracy {
 
-// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of that, and covers
+// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of that. It covers
 // it if `share` of its vertices are within the tolerance of an edge of the loop. It matches if both hold.
 //
-// A loop that matches none may lie on all true loops that count together: `share` of its points are within
-// the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no single
-// one; then it runs along several. Else it is `parted`: it lies on one, and covers too little of it.
+// A loop that matches none may lie on all true loops that count together. Then `share` of its points are
+// within the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no
+// single one; then it runs along several. Else it is `parted`: it lies on one, and covers too little of it.
 struct MatchRule {
   double tolerance = 0;  // a length
   double share = 0.7;
@@ -34,9 +34,9 @@ enum class EdgeDecision {
 
 struct LoopMatch {
   EdgeDecision verdict = EdgeDecision::kFalse;
-  // Of the true loops that it matches the best one: counting before short, then by the smaller share, then by
-  // both, then the first; of a joined one that of which it covers most, of a parted one that on which most of
-  // it lies, of a false one the best of all that it comes near to. None: it is near none.
+  // The best of the true loops that it matches: counting before short, then by the smaller share, then by
+  // both, then the first. For a joined loop it is the one of which it covers most, for a parted one the one
+  // on which most of it lies. For a false loop it is the best of all that are near. None: it is near none.
   std::optional<std::size_t> true_loop;
   double on_any = 0;                   // share of its points on the true loops that count
   double on = 0;                       // share of its points on that true loop
@@ -71,8 +71,9 @@ LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoo
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
 
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
-// half: the area under the ROC curve. Loops without a confidence (NaN) and those that are neither right nor
-// wrong (short, joined, parted, unsampled) take no part; none where either kind is missing.
+// half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do
+// those that are neither right nor wrong (short, joined, parted, unsampled). There is no value where either
+// kind is missing.
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
 
 }  // namespace lacuna::accuracy

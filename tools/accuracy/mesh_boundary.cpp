@@ -17,7 +17,7 @@ using Positions = std::span<const Eigen::Vector3d>;
 
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
-// Of a triangle (from, to, apex).
+// A half edge of a triangle (from, to, apex).
 struct HalfEdge {
   std::uint64_t from, to, apex;
 

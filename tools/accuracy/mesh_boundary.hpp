@@ -16,12 +16,12 @@ namespace lacuna::accuracy {
 // vertices.
 //
 // A curve follows the directions in which the triangles pass their edges. At a vertex with several edges to
-// go on, it crosses the gap in the mesh: it takes the first unused edge counterclockwise from the one on
-// which it came, seen against the mean normal of the triangles at these edges. Where the curve returns to a
-// vertex, the part since then is a loop of its own.
+// go on, it crosses the gap in the mesh. It takes the first unused edge counterclockwise from the one on
+// which it came. The view is against the mean normal of the triangles at these edges. Where the curve returns
+// to a vertex, the part since then is a loop of its own.
 //
 // Where triangles disagree about their orientation, no edge may go on in the same direction; then any unused
-// edge does. With edges on three triangles or more, curves may end: they begin and end at vertices with an
+// edge does. With edges on three triangles or more, curves may end. They begin and end at vertices with an
 // odd number of boundary edges, and each is an open loop.
 //
 // Triangles with two corners at one place have no area and do not count. Cost: n log n.

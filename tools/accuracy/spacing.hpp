@@ -13,8 +13,8 @@ namespace lacuna::accuracy {
 // is one of the tree, whose points are distinct.
 double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
 
-// The median over the points; 0 for fewer than two. The points are finite and distinct. Of more than 130,000
-// points as many are taken, evenly spread. Cost: n log n, for the tree.
+// The median over the points; 0 for fewer than two. The points are finite and distinct. If there are more
+// than 130,000 points, as many are taken, evenly spread. Cost: n log n, for the tree.
 double median_spacing(std::span<const Eigen::Vector3d> points);
 double median_spacing(std::span<const Eigen::Vector3d> points,
                       const PointTree& tree);  // the tree of the points

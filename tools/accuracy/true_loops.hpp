@@ -1,4 +1,4 @@
-// What is true of a scan: the loops that its holes and rims have.
+// What is true of a scan: the loops of its holes and outer edges.
 #pragma once
 
 #include "engine/model/loop.hpp"

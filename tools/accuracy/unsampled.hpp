@@ -24,12 +24,12 @@ struct Sampling {
   double spacing = 0;
 };
 
-// Of every loop, its points at an unsampled place: a place of the surface inside the loop that is at most
-// 2 r from the loop's point, while no point of the scan is within r of it. r is 1.5 times the spacing at the
-// loop's point (see spacing_at), and at least 1.5 spacings of the scan. Inside is as seen along the normal of
-// the loop's area.
+// Returns for every loop its points at an unsampled place. Such a place of the surface is inside the loop and
+// at most 2 r from the loop's point. No point of the scan is within r of it. Here r is 1.5 times the spacing
+// at the loop's point (see spacing_at), and at least 1.5 spacings of the scan. Inside is as seen along the
+// normal of the loop's area.
 //
-// The surface is taken as finitely many places: every triangle is halved at the middle of its longest edge
+// The surface is taken as finitely many places. Every triangle is halved at the middle of its longest edge
 // until that is at most half a spacing, and the centroids are the places. A triangle with a corner that is
 // not finite has none.
 //

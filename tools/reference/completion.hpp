@@ -9,7 +9,8 @@
 
 namespace lacuna {
 
-// Of the files that are read, in the order of usage.md. Others are read too: formats are known by content.
+// The endings of the files that are read, in the order of usage.md. Others are read too: formats are known by
+// content.
 inline constexpr std::array<std::string_view, 15> kScanEndings = {
     "ply", "las", "laz", "e57", "ptx", "pcd", "obj", "off", "stl", "xyz", "txt", "csv", "pts", "asc", "xyzn"};
 
@@ -20,7 +21,7 @@ enum class ValueKind {
   kFile,
   kFolder,
   kScan,    // a file with one of kScanEndings, or a folder
-  kConfig,  // a TOML file, or the name of a config in share/lacuna/configs beside the program
+  kConfig,  // a TOML file, or the name of a config in share/lacuna/configs where the program is installed
 };
 ValueKind kind_of(const OptionEntry& option);
 

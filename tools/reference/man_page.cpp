@@ -168,6 +168,15 @@ The loops, with their measures, point ids and coordinates.
 .IR DIR/holes.csv ,\  DIR/loops.ply ,\  DIR/boundary.ply
 The loops as a table, the loops as lines, and the boundary points.
 .TP
+.I DIR/sample.ply
+Points spread evenly over the scan, up to a million, for reports and pictures.
+It can be larger than a small scan.
+.TP
+.I DIR/report.html
+With
+.BR \-\-report :
+the scan and its holes in 3D, for a browser.
+.TP
 .I DIR/run.json
 Threads, tiles, times and memory of the run.
 .TP
@@ -182,7 +191,7 @@ finds by name.
 std::string print_man_page(const CommandEntry& program, const std::string& version, const std::string& date) {
   const std::vector<const CommandEntry*> commands = all_commands(program);
   std::string page = ".TH LACUNA 1 " + date + " \"lacuna " + version + "\" \"User Commands\"\n";
-  page += ".SH NAME\nlacuna \\- find every hole in a scan that is larger than memory\n.SH SYNOPSIS\n.nh\n";
+  page += ".SH NAME\nlacuna \\- find holes in scanned surfaces, also in scans larger than memory\n.SH SYNOPSIS\n.nh\n";
   for (const CommandEntry* command : commands) {
     if (command->commands.empty()) page += synopsis_of(*command);
   }

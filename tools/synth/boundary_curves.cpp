@@ -48,7 +48,7 @@ PatchCurves trace(const std::vector<Lattice>& lattices, const Scanner& scanner,
   return all;
 }
 
-// Of each place of each curve, in order: does the surface go on there, on another patch?
+// Whether the surface goes on, on another patch, at each place of each curve, in order.
 std::vector<bool> junctions(const PatchCurves& all, const std::vector<Lattice>& lattices,
                             const Visibility& visibility) {
   const Junctions patches(lattices, visibility);
@@ -89,7 +89,7 @@ const CurvePlace& end_of(const std::vector<Curve>& pieces, std::size_t end) {
 
 constexpr auto kNone = std::numeric_limits<std::size_t>::max();
 
-// Of each end, the end that it is joined to, if any.
+// The end that each end is joined to, if any.
 std::vector<std::size_t> partners(const std::vector<Curve>& pieces) {
   std::vector<double> lengths;
   for (const Curve& piece : pieces) lengths.push_back(length_of(piece));

@@ -21,7 +21,7 @@ struct CurvePlace {
 using Curve = std::vector<CurvePlace>;
 
 // Within a patch, curves run between sampled nodes and others (marching squares), and cross the edges between
-// them where sampling ends. Where two patches touch and both are sampled, the surface goes on: both curves
+// them where sampling ends. Where two patches touch and both are sampled, the surface goes on. Both curves
 // are cut out there, and the ends that are left are joined, the nearest first. So a curve may run over
 // several patches.
 std::vector<Curve> boundary_curves(const std::vector<Lattice>& lattices, const Scanner& scanner,

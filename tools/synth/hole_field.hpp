@@ -9,13 +9,13 @@
 
 namespace lacuna::synth {
 
-// Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it, so that
-// none comes near another, the rim, a density step or the edge of a panel.
+// Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it. So none
+// comes near another, the outer edge, a density step or the edge of a panel.
 //
-// On a jittered grid, the surface is the quads whose four nodes exist; a loop is the closed chain of edges
+// On a jittered grid, the surface is the quads whose four nodes exist. A loop is the closed chain of edges
 // with exactly one such quad. A hole has exactly one loop, which visits no node twice, because the nodes that
-// it takes are those inside a convex curve: a line through a node beside it has one of the node's quads on
-// its far side, so no node is left without a quad; and were a node's only quads two opposite ones, it would
+// it takes are those inside a convex curve. A line through a node next to it has one of the node's quads on
+// its far side. So no node is left without a quad. If a node's only quads were two opposite ones, it would
 // lie between two removed nodes, so inside.
 class HoleField {
  public:

@@ -130,7 +130,7 @@ class Tracer {
     return place;
   }
 
-  // Of a place that no station samples, as the patch has it.
+  // The normal on the side of a station that samples the place; that of the patch where none does.
   Vec3 facing(const SurfacePlace& place) const {
     for (std::uint32_t station = 0; station < scanner_.stations().size(); ++station) {
       if (visibility_.cause(place, station).kind != Cause::kNone) continue;

@@ -11,8 +11,8 @@
 namespace lacuna::synth {
 
 // A Feistel network over the smallest power of two that holds `size`, its halves unequal by a bit where need
-// be; values outside the range are sent through again (cycle walking: Black and Rogaway 2002), on average
-// less than once. A bijection by construction.
+// be. Values outside the range are sent through again, on average less than once (cycle walking: Black and
+// Rogaway 2002). A bijection by construction.
 class Permutation {
  public:
   Permutation(std::uint64_t size, std::uint64_t seed)

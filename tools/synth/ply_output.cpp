@@ -31,7 +31,7 @@ PlyOutput::PlyOutput(OutputFile& file, Coordinates coordinates, Extras extras)
   file_.write(header());
 }
 
-// Of the same length for every count: the comment takes the digits that the count leaves.
+// The header has one length for every count: the comment takes the digits that the count leaves.
 std::string PlyOutput::header() const {
   const std::string count = std::to_string(count_);
   const std::string type = coordinates_ == Coordinates::kDouble ? "double" : "float";

@@ -1,5 +1,5 @@
-// Random numbers without state: each is a hash of (seed, stream, index), so any point can be made on its own,
-// in any order, on any machine. Integer operations and exact conversions only.
+// Random numbers without state: each is a hash of (seed, stream, index). So any point can be computed on its
+// own, in any order, on any machine. Integer operations and exact conversions only.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace lacuna::synth {
 
 namespace {
 
-// Of a Poisson number with mean 1: the probability to be k or less.
+// The probability that a Poisson number with mean 1 is k or less.
 constexpr auto kAtMost = [] {
   std::array<double, RandomPositions::kMostInSquare> sums{};
   double term = 0.36787944117144233;  // 1/e

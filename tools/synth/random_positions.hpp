@@ -6,13 +6,13 @@
 
 namespace lacuna::synth {
 
-// In a Poisson process the squares of the grid are independent of each other: each has a Poisson number of
+// In a Poisson process the squares of the grid are independent of each other. Each has a Poisson number of
 // points (mean 1), anywhere in the square. Points in a hole are left out, and beyond a density step all but
 // one in `stride` squared. At most kMostInSquare points: more would come once in 1.6e10 squares.
 //
-// The true loop of a hole is the sequence of points that are nearest, in the plane of the grid, to a place on
-// the hole's edge, as the place goes around. Neighbours in that sequence share an edge of the Delaunay
-// triangulation, and no point lies inside the loop: what it encloses is the hole, parts of its points'
+// The true loop of a hole is the sequence of points that are nearest to a place on its edge, as the place
+// goes around. Distances are those in the plane of the grid. Neighbours in that sequence share an edge of the
+// Delaunay triangulation, and no point lies inside the loop. It encloses the hole, parts of its points'
 // Voronoi cells, and empty discs around places on the edge. True loops of outer edges are the same of the
 // surface's edge.
 class RandomPositions : public Positions {

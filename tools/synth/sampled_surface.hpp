@@ -38,8 +38,8 @@ struct Lattice {
 
 // About 4 nodes per point, but at most 3 million, and fewer for more than 4 stations. A place that no station
 // samples counts as sampled all the same unless it lies in a hole. Holes are balls with a radius of 2
-// spacings, of the sampled places that are nearest, in which nothing is sampled, and what lies within 3
-// spacings of their middle. Places on the far side of a thin thing are not near.
+// spacings of the nearest sampled places, in which nothing is sampled. All within 3 spacings of their middle
+// belongs to them. Places on the far side of a thin thing are not near.
 std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& visibility,
                                      std::uint64_t points);
 

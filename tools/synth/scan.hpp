@@ -15,15 +15,15 @@ struct ScanSummary {
   std::filesystem::path truth;
 };
 
-// Writes what the stations see, station after station in upright scanlines (or all rays in random order): the
-// nearest surface in each direction, so things cast shadows, and glass, black and grazed surfaces and the far
-// distance return nothing. Each point has its station (`scan`) and an `intensity` in [0, 1]. Every point is a
-// function of the seed and its ray alone; memory does not depend on their number.
+// Writes what the stations sample, station after station in upright scanlines (or all rays in random order).
+// That is the nearest surface in each direction, so things cast shadows. Glass, black and grazed surfaces and
+// the far distance return nothing. Each point has its station (`scan`) and an `intensity` in [0, 1]. Every
+// point is a function of the seed and its ray alone; memory does not depend on their number.
 //
-// Beside it the true loops (scan_truth.hpp), a comment before each that says what it is.
+// Another file has the true loops (scan_truth.hpp), with a comment before each that says what it is.
 ScanSummary write_scan(const ScanOptions& options);
 
-// The same of a scene of one's own.
+// Writes the scan of a given scene.
 ScanSummary write_scan(const ScanOptions& options, const Scene& scene);
 
 }  // namespace lacuna::synth

@@ -1,4 +1,4 @@
-// What `lacuna synth scan` can be asked for.
+// The options of `lacuna synth scan`.
 #pragma once
 
 #include "io/results/output_set.hpp"
@@ -14,7 +14,7 @@ namespace lacuna::synth {
 
 struct ScanOptions {
   std::filesystem::path out;    // PLY
-  std::filesystem::path truth;  // the true loops; empty: beside `out`, as NAME.loops.txt
+  std::filesystem::path truth;  // the true loops; empty: next to `out`, as NAME.loops.txt
   SceneKind scene = SceneKind::kRoom;
   std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
   std::uint32_t stations = 2;        // [1, 255]

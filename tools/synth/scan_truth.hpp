@@ -17,8 +17,8 @@ struct NamedLoop {
 
 // A true loop is the sequence of points that are nearest to a place on a boundary curve, as the place goes
 // around. Only points on the surface of the place count, and only where they would lie without noise, strays
-// and errors of registration; so these change nothing. The surface's holes have such curves, and its
-// outer edges.
+// and errors of registration. So these change nothing. The surface's holes have such curves, and its outer
+// edges.
 class ScanTruth {
  public:
   explicit ScanTruth(const Scanner& scanner, std::uint64_t points);

@@ -1,4 +1,4 @@
-// Scenes of simple shapes, and what a ray meets first in them. Metres; z is up.
+// Scenes of simple shapes, and what a ray hits first in them. Metres; z is up.
 #pragma once
 
 #include "tools/synth/vec3.hpp"
@@ -8,7 +8,7 @@
 
 namespace lacuna::synth {
 
-// What a ray meets. Nothing within reach: `range` is infinite. Glass and black things have reflectance 0.
+// What a ray hits. Nothing within reach: `range` is infinite. Glass and black things have reflectance 0.
 struct Hit {
   double range;
   double cosine;  // of the angle of incidence, (0, 1]
@@ -63,7 +63,7 @@ struct Scene {
   std::vector<Column> columns;
   Vec3 stand_low, stand_high;  // where a station may stand, its eye included
 
-  // Of the shape with this number (Hit::shape).
+  // The name of the shape with this number (Hit::shape).
   const char* name_of(std::uint32_t shape) const;
 };
 

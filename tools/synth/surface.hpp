@@ -15,9 +15,9 @@ struct SurfaceSummary {
 };
 
 // Writes the surface and the file of its true loops: a comment, then one loop per line, the 0-based ids of
-// its points. Every point is a function of the seed and its number alone, so the order changes
-// only ids, and memory grows with the loops, not with the points. Throws `Error` for options that make no
-// surface and for files that cannot be written.
+// its points. Every point is a function of the seed and its number alone. So the order changes only ids, and
+// memory grows with the loops, not with the points. Throws `Error` for options that make no surface and for
+// files that cannot be written.
 SurfaceSummary write_surface(const SurfaceOptions& options);
 
 }  // namespace lacuna::synth

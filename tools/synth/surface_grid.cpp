@@ -63,7 +63,7 @@ SurfaceGrid lay_grid(const SurfaceOptions& options) {
     if (options.density_step > 1)
       throw Error("--density-step: not on a sphere or a cube, which have no halves");
     grid.panels = kCubeFaces;
-    grid.wrap_rows = grid.wrap_columns = true;  // no rim
+    grid.wrap_rows = grid.wrap_columns = true;  // no outer edge
     grid.rows = whole_strides(side, 1);
     grid.columns = grid.panels * grid.rows;
     grid.step_column = grid.columns;

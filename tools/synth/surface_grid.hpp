@@ -49,11 +49,11 @@ using NumberLoop = std::vector<std::uint64_t>;
 // is too few or too many.
 SurfaceGrid lay_grid(const SurfaceOptions& options);
 
-// The outer edges, each in the order of its nodes: one of a sheet, two of a tube, none of a torus, a sphere
-// or a cube. Where the density steps, fine and coarse quads meet without a gap.
+// The outer edges, each in the order of its nodes. A sheet has one, a tube two, a torus, a sphere or a cube
+// none. Where the density steps, fine and coarse quads join without a gap.
 std::vector<NumberLoop> rims(const SurfaceGrid& grid);
 
-// The same as curves.
+// Returns the outer edges as curves.
 std::vector<Outline> outer_edges(const SurfaceGrid& grid);
 
 }  // namespace lacuna::synth

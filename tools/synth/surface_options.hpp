@@ -1,4 +1,4 @@
-// What `lacuna synth surface` can be asked for.
+// The options of `lacuna synth surface`.
 #pragma once
 
 #include "io/results/output_set.hpp"
@@ -16,11 +16,11 @@ enum class SurfaceKind { kPlane, kWaves, kCylinder, kTorus, kSphereCap, kSphere,
 
 struct SurfaceOptions {
   std::filesystem::path out;    // PLY
-  std::filesystem::path truth;  // the true loops; empty: beside `out`, as NAME.loops.txt
+  std::filesystem::path truth;  // the true loops; empty: next to `out`, as NAME.loops.txt
   SurfaceKind kind = SurfaceKind::kPlane;
   std::uint64_t points = 1'000'000;          // about
   double spacing = 0.01;                     // mean distance of grid neighbours, units of the scan
-  std::uint64_t holes = 8;                   // none touches another or the rim
+  std::uint64_t holes = 8;                   // none touches another or the outer edge
   std::array<double, 2> hole_radius{4, 12};  // spacings, [1.5, ..), smallest and largest
   PositionKind positions = PositionKind::kJittered;
   double jitter = 0.25;            // of the local spacing, [0, 0.5]; not of random positions

@@ -10,7 +10,7 @@ namespace lacuna::synth {
 
 namespace {
 
-// Monotone, 0 to 0 and 1 to 1; its slope changes by the factor `stretch`, steadily from end to end, or, on a
+// Monotone, 0 to 0 and 1 to 1. Its slope changes by the factor `stretch`, steadily from end to end, or, on a
 // closed direction, once up and down.
 double warp(double t, double stretch, bool closed) {
   if (stretch == 1) return t;

@@ -1,5 +1,5 @@
-// Sine and cosine of an angle in turns, from + - * and floor only: the same bits on every machine, which
-// those of the C library are not.
+// Sine and cosine of an angle in turns, from + - * and floor only. They have the same bits on every machine,
+// which those of the C library do not.
 #pragma once
 
 #include <cmath>

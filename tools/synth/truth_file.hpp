@@ -1,4 +1,4 @@
-// The file of true loops beside a made scan.
+// The file of true loops of a synthetic scan.
 #pragma once
 
 #include "io/results/loops_reader.hpp"
@@ -15,7 +15,7 @@ namespace lacuna::synth {
 // How each file of true loops begins: an earlier one is recognised by it.
 inline constexpr std::string_view kTruthMark = kLoopsTextMark;
 
-// `truth`, or beside the scan if empty, as NAME.loops.txt. Throws `Error` when that is the scan itself.
+// `truth`, or next to the scan if empty, as NAME.loops.txt. Throws `Error` when that is the scan itself.
 std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std::filesystem::path& truth);
 
 void write_truth_head(OutputFile& file, const std::filesystem::path& scan);

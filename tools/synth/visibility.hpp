@@ -39,11 +39,11 @@ class Visibility {
  public:
   explicit Visibility(const Scanner& scanner);
 
-  // Of cause kNone if the station samples the place.
+  // The cause is kNone if the station samples the place.
   Cause cause(const SurfacePlace& place, std::uint32_t station) const;
   bool any(const SurfacePlace& place) const;
 
-  // Mean distance of the points that all stations leave around the place; 0 if none samples it. Of a scanner
+  // Mean distance of the points that all stations leave around the place; 0 if none samples it. For a scanner
   // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
   // so, since their points lie close in one direction only.
   double spacing(const SurfacePlace& place) const;

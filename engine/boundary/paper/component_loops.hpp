@@ -30,7 +30,7 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
 void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
                           RawLoops& loops);
 
-// The same for a component that does not fit in memory: sorted on disk and spanned in mapped arrays.
+// Does this for a component that does not fit in memory: it is sorted on disk and spanned in mapped arrays.
 void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
                                 std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops);
 

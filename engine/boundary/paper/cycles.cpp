@@ -64,8 +64,9 @@ class Cycles {
   LocalIndex clock_ = 0;
 };
 
-// The graph with two more vertices, last in number and in every row, that have an edge to each of `open` and
-// one to each other. Two, since an open vertex may have many edges outside: no way out is a bridge.
+// Returns the graph with two more vertices, last in number and in every list. They have an edge to each of
+// `open` and one to each other. Two, since an open vertex may have many edges outside: no way out is a
+// bridge.
 SpanningGraph add_outside(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch) {
   const std::size_t known = graph.size();
   const std::array<LocalIndex, 2> outside{graph.size(), graph.size() + 1};

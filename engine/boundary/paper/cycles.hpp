@@ -1,5 +1,5 @@
-// cycles: the edges of a spanning graph that can lie on a loop, and which of these are complete where only a
-// part of the graph is known.
+// cycles: the edges of a spanning graph that can lie on a loop. Where only a part of the graph is known, it
+// says which of these are complete.
 #pragma once
 
 #include "engine/boundary/paper/spanning.hpp"
@@ -15,7 +15,7 @@ namespace lacuna {
 // no two. Cost: linear.
 SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch);
 
-// Of a graph that is known in part only, on whichever side of its bridges the unknown lies.
+// The cycles of a graph that is known in part only. The unknown may lie on either side of its bridges.
 struct PartCycles {
   SpanningGraph complete;                   // cycles that the rest of the graph has nothing to do with
   std::span<const std::uint8_t> leads_out;  // by vertex: not cut off from the open ones by a bridge

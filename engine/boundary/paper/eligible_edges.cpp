@@ -19,7 +19,7 @@ bool is_strong(double probability, const SpanningConfig& config) {
          1 - config.max_prob_weight / 2 - kProbabilityStep;  // one step of slack for the halving
 }
 
-TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
+TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                          std::span<const Evaluation> evaluations, const SpanningConfig& config) {
   const auto strength = [&](LocalIndex p) {
     return Strength{evaluations[p].mean_distance, static_cast<float>(evaluations[p].probability)};
@@ -33,9 +33,9 @@ TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
         edges.crossings.push_back({p, q, distance});
         continue;
       }
-      const bool told_by_other =
+      const bool sent_by_other =
           is_strong(evaluations[q].probability, config) && points.ids[q] < points.ids[p];
-      if (told_by_other) continue;
+      if (sent_by_other) continue;
       const double weight = eligible_weight(strength(p), strength(q), distance, config);
       if (weight >= 0) edges.inside.push_back({p, q, weight});
     }

@@ -38,7 +38,7 @@ struct TileEdges {
 
 // An edge is eligible only if one of its ends is strong: Pi > 1 - max_prob_weight / 2. So only the
 // neighbours of strong points are compared, and the tile of each strong end reports an edge between tiles.
-TileEdges eligible_edges(const TilePoints& points, const Rows& neighbourhoods,
+TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                          std::span<const Evaluation> evaluations, const SpanningConfig& config);
 bool is_strong(double probability, const SpanningConfig& config);
 

@@ -11,7 +11,7 @@ namespace lacuna {
 
 // report(loop) for each loop, its vertices in order from the smallest id towards that one's smaller
 // neighbour, in the order in which they are found. A search starts from every vertex that is not yet on a
-// loop, in ascending id; the first edge that joins two branches of the origin closes the loop through it.
+// loop, in ascending id. The first edge that joins two branches of the origin closes the loop through it.
 // Differs from the paper: which stops at the first vertex that it reaches again, whether or not the loop
 // contains the origin. No loop: no report. Cost: the vertices within half a loop of each origin, and one pass
 // to leave out those that no loop can contain.

@@ -15,7 +15,7 @@ namespace {
 // Measured: edges, vertices and graph of a component while it is spanned.
 constexpr std::uint64_t kBytesPerEdge = 120;
 
-// Of a tile.
+// Measured as well, for each vertex of a tile.
 constexpr std::uint64_t kBytesPerVertex = 280;
 
 // Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
@@ -27,8 +27,8 @@ BoundaryEdge boundary_edge(double weight, const Vertex& a, const Vertex& b) {
   return a.id < b.id ? BoundaryEdge{weight, a, b} : BoundaryEdge{weight, b, a};
 }
 
-// The vertices that a tile knows of: its own ends of eligible edges, in ascending row, then those of other
-// tiles at the ends of its crossing edges.
+// The vertices that a tile knows of. First come its own ends of eligible edges, in ascending row, then those
+// of other tiles at the ends of its crossing edges.
 class TileVertices {
  public:
   TileVertices(const Tile& tile, std::span<const StoredVertex> own,

@@ -1,5 +1,5 @@
-// Boundary edges of the paper: the eligible edges of G, of which the spanning graph admits those that close
-// long loops only (paper, 5.1), and its loops by breadth-first search (5.2).
+// Boundary edges of the paper are the eligible edges of G. The spanning graph admits those that close long
+// loops only (paper, 5.1). Loops are found in it by breadth-first search (5.2).
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
@@ -11,7 +11,7 @@
 
 namespace lacuna {
 
-// An edge out of the tile, to be judged once Pi of its foreign end is known.
+// An edge out of the tile, to be decided once Pi of its foreign end is known.
 struct StoredCrossing {
   Vertex own, foreign;
   Strength strength;  // of its own end

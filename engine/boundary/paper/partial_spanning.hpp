@@ -28,11 +28,11 @@ struct PartialSpanning {
   std::span<LocalIndex> links;          // of a UnionFind: vertices that all edges of the part connect
 };
 
-// `edges`: all that have an owned end, in any order; a: owned. Spanned again with what other parts pass on,
-// the edges passed on give a graph whose loops are those of the whole, save the complete ones. Most edges are
-// certainly left out, and are not passed on; nor is what no loop needs: trees, and cycles beyond a bridge.
-// Without foreign vertices nothing is passed on. The graph lives in `scratch`.
-// Cost: that of spanning the part.
+// `edges`: all that have an owned end, in any order; a: owned. The edges passed on are spanned again with
+// those of other parts. That gives a graph whose loops are those of the whole, without the complete ones.
+// Most edges are certainly left out, and are not passed on; nor is what no loop needs: trees, and cycles
+// beyond a bridge. Without foreign vertices nothing is passed on. The graph lives in `scratch`. Cost: that of
+// spanning the part.
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch);
 

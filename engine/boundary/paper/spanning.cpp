@@ -7,8 +7,8 @@
 namespace lacuna {
 namespace {
 
-// Half steps from an open vertex, or the end of an undecided edge, to the middle of the unknown: two of them
-// may be as near to each other as one edge.
+// Half steps from an open vertex, or from the end of an undecided edge, to the middle of the unknown. Two of
+// them may be as near to each other as one edge.
 constexpr std::int64_t kToUnknown = 1;
 
 }  // namespace
@@ -148,8 +148,8 @@ SpanningGraph Spanning::finish() {
     scratch_.trim();
     const std::uint64_t begin = end;
     for_each_neighbour(nodes_[v], [&](LocalIndex w) { indices[end++] = w; });
-    const auto row = indices.subspan(begin, end - begin);
-    std::sort(row.begin(), row.end(), [&](LocalIndex a, LocalIndex b) { return ids_[a] < ids_[b]; });
+    const auto list = indices.subspan(begin, end - begin);
+    std::sort(list.begin(), list.end(), [&](LocalIndex a, LocalIndex b) { return ids_[a] < ids_[b]; });
     offsets[v + 1] = end;
   }
   return {ids_, offsets, indices};

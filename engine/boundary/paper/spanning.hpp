@@ -12,7 +12,7 @@
 
 namespace lacuna {
 
-// Vertices are numbered in any way (near in number, near in memory); row v lists the neighbours of v in
+// Vertices are numbered in any way (near in number, near in memory); list v holds the neighbours of v in
 // ascending order of their ids.
 struct SpanningGraph {
   std::span<const PointId> ids;            // of each vertex
@@ -28,13 +28,14 @@ struct SpanningGraph {
 enum class EdgeDecision : std::uint8_t { taken, left_out, undecided };
 
 // Built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two trees joins
-// them; one within a tree is taken only if the loop that it closes has more than e edges: no path of fewer
-// than e edges between its ends so far. The graph lives in `scratch`. Cost: per edge within a tree, the
+// them. One within a tree is taken only if the loop that it closes has more than e edges. Then no path of
+// fewer than e edges joins its ends so far. The graph lives in `scratch`. Cost: per edge within a tree, the
 // vertices within e / 2 steps.
 //
-// `open`: vertices at which edges may be missing, since others know them. Then a verdict is given only if it
-// holds whatever is missing: left out, since more edges only make paths shorter; taken, since no path by
-// way of open vertices or undecided edges can be short enough. An undecided edge is not in the graph.
+// `open`: vertices at which edges may be missing, since others know them. A decision is then made only if it
+// holds whatever is missing. An edge is left out for good, since more edges only make paths shorter. It is
+// taken if no path by way of open vertices or undecided edges can be short enough. An undecided edge is not
+// in the graph.
 class Spanning {
  public:
   Spanning(std::span<const PointId> ids, std::int64_t e, Scratch& scratch,

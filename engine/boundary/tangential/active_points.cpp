@@ -17,7 +17,7 @@ constexpr std::size_t kAhead = 8;
 // Finds the points and measures their stars.
 class TileStarFinder {
  public:
-  TileStarFinder(const TilePoints& points, const Rows& neighbourhoods,
+  TileStarFinder(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                  std::span<const Evaluation> evaluations, std::span<const std::uint8_t> is_border,
                  const TangentialConfig& config)
       : points_(points),
@@ -103,7 +103,8 @@ class TileStarFinder {
     }
   }
 
-  // Of the points and of all their neighbours: the samplings of these bound the points' triangles.
+  // Finds the stars of the points and of all their neighbours: the samplings of these bound the points'
+  // triangles.
   void find_stars_around(std::span<const LocalIndex> points) {
     wanted_.clear();
     for (const LocalIndex p : points) {
@@ -130,7 +131,7 @@ class TileStarFinder {
     wanted_.push_back(p);
   }
 
-  // Of wanted points and their neighbours.
+  // Makes the sites of wanted points and their neighbours.
   void make_sites() {
     list_without_site();
     for (std::size_t i = 0; i < without_site_.size(); ++i) {
@@ -236,7 +237,7 @@ class TileStarFinder {
   }
 
   const TilePoints& points_;
-  const Rows& neighbourhoods_;
+  const Neighbourhoods& neighbourhoods_;
   std::span<const Evaluation> evaluations_;
   const TangentialConfig& config_;
   std::unique_ptr<Site[]> sites_;
@@ -252,7 +253,7 @@ class TileStarFinder {
 
 }  // namespace
 
-TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
+TileStars find_stars(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                      std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
                      std::span<const std::uint8_t> is_border, const TangentialConfig& config) {
   return TileStarFinder(points, neighbourhoods, evaluations, is_border, config).find(seeds);

@@ -1,11 +1,11 @@
-// active_points: which points of a tile are active, and their stars (method.md, C.1).
+// active_points: which points of a tile are active, and their stars (method.md, C.4).
 //
 // A surface ends where triangles are missing. The search starts at the seeds, which are the paper's
-// candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. Where a triangle in
-// the star of an active point is inconsistent (its ball is too large, or the star of another active vertex
-// does not have it), all its vertices are active. That is a least fixed point: neither the order of the
-// search nor the tiles matter. Along a boundary wedge all points are active, which closes the boundary
-// curves.
+// candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. The vertices of
+// inconsistent triangles of an active point are active, too. A triangle is inconsistent if its circumradius
+// is too large, or if the star of another active vertex does not have it. That is a least fixed point:
+// neither the order of the search nor the tiles matter. Along a boundary wedge all points are active, which
+// closes the boundary curves.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
@@ -20,9 +20,9 @@
 
 namespace lacuna {
 
-// Of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active are
-// measured or in the belt: from the belt on, the search takes each triangle for inconsistent that may turn
-// out so.
+// The stars of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active
+// are measured or in the belt. From the belt on, the search takes each triangle for inconsistent that may
+// turn out so.
 struct TileStars {
   std::vector<PointState> states;
   std::vector<std::uint8_t> is_active;  // for certain
@@ -34,7 +34,7 @@ struct TileStars {
 
 // `seeds` ascend; `is_border`: of owned points, has foreign neighbours. Cost: proportional to the active
 // points and their neighbours, and one sweep over all points.
-TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
+TileStars find_stars(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                      std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
                      std::span<const std::uint8_t> is_border, const TangentialConfig& config);
 

@@ -83,7 +83,7 @@ void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config
       [&](std::size_t, std::span<const FoundStar> stars) {
         const std::array<Sampling, kBatchSize> samplings = samplings_of(stars, config);
         for (std::size_t i = 0; i < stars.size(); ++i)
-          samples.push_back({samplings[i], circles_of(stars[i], config)});
+          samples.push_back({samplings[i], smallest_radii(stars[i], config)});
       });
   replace_rows(lists.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
 }
@@ -99,7 +99,7 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const Tan
   OpenStars open;
   Outbox<RemoteTriangle> outbox(lists.remote_triangles);
   RadiusBounder bounder(samplings, config);
-  SamplingRadius circles;
+  SamplingRadius sampling_radius;
   std::vector<LinkVertex<LocalIndex>> link;
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
@@ -114,13 +114,13 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const Tan
           for (std::size_t v = 0; v < stars[i].size(); ++v)
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
           const Star<LocalIndex> star{link, bound};
-          circles.clear();
-          const auto add_circles = [&](LocalIndex q) {
-            circles.add(samples[q].circles, samplings[q].distance);
+          sampling_radius.clear();
+          const auto add_radii = [&](LocalIndex q) {
+            sampling_radius.add(samples[q].radii, samplings[q].distance);
           };
-          add_circles(query.point);
-          for (const LocalIndex q : query.neighbours) add_circles(q);
-          open.add(point.id, point.owned, bound, samplings[query.point].distance, circles);
+          add_radii(query.point);
+          for (const LocalIndex q : query.neighbours) add_radii(q);
+          open.add(point.id, point.owned, bound, samplings[query.point].distance, sampling_radius);
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);
             open.add_vertex({belt.rows()[link[v].point],

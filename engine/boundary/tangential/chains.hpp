@@ -35,8 +35,8 @@ using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratc
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
                   const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit);
 
-// The same for a component whose chains do not fit in memory: sorted on disk and followed in mapped arrays.
-// Memory: three times the budget.
+// Does this for a component whose chains do not fit in memory: they are sorted on disk and followed in mapped
+// arrays. Memory: three times the budget.
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
                        const Column<CurvePoint>& points, const std::filesystem::path& workspace,
                        std::uint64_t budget, const VisitCurve& visit);

@@ -74,7 +74,7 @@ std::vector<SharedPoint> same_places(const RawLoops& fine, const RawLoops& coars
 
 void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, RawLoops& chosen) {
   const std::vector<SharedPoint> places = same_places(fine, coarse, job);
-  // Of the coarse loops on each fine one: the highest confidence, and the length of those that are sure.
+  // For each fine loop: the highest confidence of the coarse loops on it, and the length of the sure ones.
   std::vector<LoopRating> on(fine.size(), LoopRating{.confidence = 0, .length = 0});
   for (const auto& [c, f] : places) {
     const auto& [confidence, length] = coarse.rating(c);

@@ -130,7 +130,7 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
     visit(whole);
     return;
   }
-  // Of the repeated rows, 1 + the place on the path; 0: not on it.
+  // For each repeated row: 1 + the place on the path, or 0 if it is not on it.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
     const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.vertex.row);

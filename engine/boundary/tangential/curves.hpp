@@ -25,7 +25,7 @@ struct CurvePoint {
 // among these wedges.
 using WedgePartners = std::array<LocalIndex, 2>;
 
-// Of each wedge. `wedges`: in ascending row. Cost: linear.
+// Returns the partners of each wedge. `wedges`: in ascending row. Cost: linear.
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges);
 
 // Wedges one after the other along boundary edges, by their numbers. An open chain begins and ends at wedges
@@ -41,8 +41,8 @@ struct WedgeChain {
 void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners> partners,
                    const std::function<void(const WedgeChain&)>& visit);
 
-// Turned so that the curve starts at its smallest id and goes on to that one's smaller neighbour (of several
-// such ways, the one whose ids come first).
+// The curve starts at its smallest id and goes on to the smaller neighbour of that one. Of several such ways,
+// it takes the one whose ids come first.
 void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch);
 
 // visit(curve): a curve passes a point twice where two holes touch, and is split there into curves that pass
@@ -51,7 +51,7 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit);
 
 // The length of a curve, and how likely it is that it bounds a hole, in [0, 1] (method.md, C.6). Where a scan
-// happens to be thin, a larger ball fits at few points of the curve. The curve's evidence is the mean
+// happens to be thin, the circumradius is large at few points of the curve. The curve's evidence is the mean
 // clearness of its wedges along its length. Some sampling radii of length without clearness are added: a
 // short curve may be clear by chance. A logistic function turns it into a probability. Sums are in the order
 // of the curve.

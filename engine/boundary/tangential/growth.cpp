@@ -86,7 +86,8 @@ bool Growth::is_inconsistent(std::size_t s, std::size_t i) {
   return !stars_.consistencies_of(s)[i].at(Scale::kFine) || scale_of(s, i) != Scale::kFine;
 }
 
-// The same triangle, as far as the active points are known. More active points never lower the scale.
+// This is the scale of that triangle as far as the active points are known. More active points never lower
+// the scale.
 Scale Growth::scale_of(std::size_t s, std::size_t i) {
   const Star<Row> star = stars_[s];
   const Row a = star.link[i].point, b = star.link[star.next(i)].point;

@@ -15,7 +15,7 @@ namespace lacuna {
 // Whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point);
 
-// Grows the active points of a tile along inconsistent triangles (method.md, C.1). The open stars are those
+// Grows the active points of a tile along inconsistent triangles (method.md, C.4). The open stars are those
 // of all points that may become active; `remote_triangles` are sorted. A foreign star that is not measured
 // yet makes no triangle inconsistent: `is_measured`, by tile, are those whose stars sent their triangles.
 class Growth {
@@ -24,7 +24,8 @@ class Growth {
          const OpenStars& open, std::span<const RemoteTriangle> remote_triangles);
 
   // Vertices of inconsistent triangles of active points become active, here and in other tiles, until there
-  // are no more. visit(row): each point that was not active before. Several tiles may grow at once.
+  // are no more. It calls visit(row) for each point that was not active before. Several tiles may grow at
+  // once.
   void find_active_points(const std::function<void(Row)>& visit);
 
   // Each wedge of active points, in ascending row. All active points are known.

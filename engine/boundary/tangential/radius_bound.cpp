@@ -10,9 +10,9 @@ namespace lacuna {
 namespace {
 
 constexpr Batch<double> kBeyondAll = [] {
-  Batch<double> row{};
-  for (double& number : row.at) number = std::numeric_limits<double>::infinity();
-  return row;
+  Batch<double> batch{};
+  for (double& number : batch.at) number = std::numeric_limits<double>::infinity();
+  return batch;
 }();
 
 using Counts = std::array<std::size_t, kBatchSize>;
@@ -26,60 +26,60 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
   std::vector<Batch<double>> many;
   std::array<Batch<double>, 16> few;
   if (most > few.size()) many.resize(most);
-  const std::span<Batch<double>> balls(many.empty() ? few.data() : many.data(), most);
-  std::fill(balls.begin(), balls.end(), kBeyondAll);
+  const std::span<Batch<double>> radii(many.empty() ? few.data() : many.data(), most);
+  std::fill(radii.begin(), radii.end(), kBeyondAll);
   Counts counts{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
     for (std::size_t vertex = 0; vertex < stars[i].size(); ++vertex) {
-      const double ball = stars[i][vertex].radius;
-      balls[counts[i]].at[i] = ball <= config.hole_radius ? ball : kBeyondAll.at[i];
-      counts[i] += ball <= config.hole_radius;
+      const double radius = stars[i][vertex].radius;
+      radii[counts[i]].at[i] = radius <= config.hole_radius ? radius : kBeyondAll.at[i];
+      counts[i] += radius <= config.hole_radius;
     }
   }
-  sort_rows(balls.data(), *std::max_element(counts.begin(), counts.end()));
+  sort_batches(radii.data(), *std::max_element(counts.begin(), counts.end()));
   std::array<Sampling, kBatchSize> samplings{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
     if (stars[i].size() == 0) continue;
     samplings[i].distance = stars[i].distance();
     if (counts[i] == 0) continue;
-    const double median = balls[counts[i] / 2].at[i];
-    samplings[i].circle = median * samplings[i].distance;
-    samplings[i].spread = (median - balls[0].at[i]) * samplings[i].distance;
+    const double median = radii[counts[i] / 2].at[i];
+    samplings[i].median_radius = median * samplings[i].distance;
+    samplings[i].spread = (median - radii[0].at[i]) * samplings[i].distance;
   }
   return samplings;
 }
 
 void RadiusBounder::find() {
-  std::size_t rows = 0;
-  for (const Surroundings& p : points_) rows = std::max(rows, p.neighbours.size() + 1);
-  if (circles_.size() < rows) {
-    circles_.resize(rows);
-    spreads_.resize(rows);
+  std::size_t most = 0;
+  for (const Surroundings& p : points_) most = std::max(most, p.neighbours.size() + 1);
+  if (medians_.size() < most) {
+    medians_.resize(most);
+    spreads_.resize(most);
   }
-  std::fill_n(circles_.begin(), rows, kBeyondAll);
-  std::fill_n(spreads_.begin(), rows, kBeyondAll);
+  std::fill_n(medians_.begin(), most, kBeyondAll);
+  std::fill_n(spreads_.begin(), most, kBeyondAll);
   Counts counts{};
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto add = [&](LocalIndex q) {
       const Sampling& sampling = samplings_[q];
-      circles_[counts[i]].at[i] = sampling.circle > 0 ? sampling.circle : kBeyondAll.at[i];
-      spreads_[counts[i]].at[i] = sampling.circle > 0 ? sampling.spread : kBeyondAll.at[i];
-      counts[i] += sampling.circle > 0;
+      medians_[counts[i]].at[i] = sampling.median_radius > 0 ? sampling.median_radius : kBeyondAll.at[i];
+      spreads_[counts[i]].at[i] = sampling.median_radius > 0 ? sampling.spread : kBeyondAll.at[i];
+      counts[i] += sampling.median_radius > 0;
     };
     add(points_[i].point);
     for (const LocalIndex q : points_[i].neighbours) add(q);
   }
-  rows = *std::max_element(counts.begin(), counts.end());
-  sort_rows(circles_.data(), rows);
-  sort_rows(spreads_.data(), rows);
+  most = *std::max_element(counts.begin(), counts.end());
+  sort_batches(medians_.data(), most);
+  sort_batches(spreads_.data(), most);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double distance = samplings_[points_[i].point].distance;
     bounds_[i] = {};
     if (distance == 0) continue;
     const double most = config_.most_radius * distance;
-    const double circle = std::min(circles_[counts[i] / 2].at[i], most);
+    const double median_radius = std::min(medians_[counts[i] / 2].at[i], most);
     const double spread = std::min(spreads_[counts[i] / 2].at[i], most);
-    const double fine = (config_.max_radius * circle + spread) / distance;
+    const double fine = (config_.max_radius * median_radius + spread) / distance;
     bounds_[i] = {static_cast<float>(fine), static_cast<float>(config_.coarse_bound * fine)};
   }
 }

@@ -1,10 +1,10 @@
-// radius_bound: the largest ball that makes a triangle, from how points lie around the star's point
-// (method.md, C.3).
+// radius_bound: the largest circumradius of a triangle, from how points lie around the star's point
+// (method.md, C.2).
 //
-// The balls of a star show how large the empty circles of the sampling are, and how much they differ. On a
-// grid all have 0.71 spacings; among points at random there are small and large ones. Beside a hole some
-// balls are large since they lie in it, so a median over a point's neighbours decides. Balls that certainly
-// lie in a hole are left out, since on strips and islands half of the balls do.
+// The circumradii of a star show how large the empty circles of the sampling are, and how much they differ.
+// On a grid all are 0.71 spacings; among points at random there are small and large ones. At a hole some are
+// large since the triangles lie in it, so a median over a point's neighbours decides. Triangles that
+// certainly lie in a hole are left out, since on strips and islands half of the triangles do.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
@@ -17,7 +17,7 @@
 
 namespace lacuna {
 
-// Of stars as they are found: as many as there are, up to kBatchSize. Zeros where a link is empty.
+// Returns the samplings of stars as they are found, up to kBatchSize at a time. Zeros where a link is empty.
 std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
                                               const TangentialConfig& config);
 
@@ -27,11 +27,11 @@ struct Surroundings {
   std::span<const LocalIndex> neighbours;
 };
 
-// With M the median of the circles of a point and its neighbours, S that of their spreads, each at most half
-// of the point's mean distance (`most_radius`), the fine bound is 1.5 M + S (`max_radius`) and the coarse one
-// twice that (`coarse_bound`). Points without a star, or with large balls only, do not count; where none
-// counts, M and S are that half. The bounds of a point without a star are 0.
-// A batch of points at once: keeps its memory.
+// M is the median circumradius of a point and its neighbours, and S that of their spreads. Each is at most
+// half of the point's mean distance (`most_radius`). The fine bound is 1.5 M + S (`max_radius`), and the
+// coarse one twice that (`coarse_bound`). Points without a star, or with large triangles only, do not count;
+// where none counts, M and S are that half. The bounds of a point without a star are 0. A batch of points at
+// once: keeps its memory.
 class RadiusBounder {
  public:
   RadiusBounder(std::span<const Sampling> samplings, const TangentialConfig& config)
@@ -53,7 +53,7 @@ class RadiusBounder {
   std::span<const Sampling> samplings_;
   TangentialConfig config_;
   std::vector<Surroundings> points_;
-  std::vector<Batch<double>> circles_, spreads_;
+  std::vector<Batch<double>> medians_, spreads_;
   std::array<RadiusBound, kBatchSize> bounds_;
 };
 

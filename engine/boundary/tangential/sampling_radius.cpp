@@ -6,18 +6,18 @@
 
 namespace lacuna {
 
-void SamplingRadius::add(const StarCircles& circles, double distance) {
-  for (const float radius : circles.radii) {
-    if (radius <= std::numeric_limits<float>::max()) circles_.push_back(radius * distance);
+void SamplingRadius::add(const StarRadii& star, double distance) {
+  for (const float radius : star.radii) {
+    if (radius <= std::numeric_limits<float>::max()) radii_.push_back(radius * distance);
   }
 }
 
 double SamplingRadius::within(double bound) {
   std::array<std::uint32_t, kSteps + 1> counts{};  // by how many steps they exceed; the last: not within
   const double per_step = kSteps / bound;
-  for (const double circle : circles_)
-    ++counts[static_cast<std::size_t>(std::min(circle * per_step, double{kSteps}))];
-  const std::size_t count = circles_.size() - counts[kSteps], rank = count * 9 / 10;
+  for (const double radius : radii_)
+    ++counts[static_cast<std::size_t>(std::min(radius * per_step, double{kSteps}))];
+  const std::size_t count = radii_.size() - counts[kSteps], rank = count * 9 / 10;
   if (count == 0) return bound;
   std::size_t step = 0;
   for (std::size_t below = counts[0]; below <= rank; below += counts[step]) ++step;

@@ -20,8 +20,8 @@ struct View {
   V x, y;
 };
 
-// The weights make it a ball orthogonal to small balls around the points: any two views of four points on one
-// circle then agree on how it falls into triangles.
+// Owing to the weights, the sphere through a triangle is orthogonal to small spheres around the points. So
+// any two views of four points on one circle agree on its triangles.
 template <class V>
 HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
   const V power = dot(offset, offset) + weight;
@@ -30,7 +30,7 @@ HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
   return {dot(offset, frame.u) * inverse, dot(offset, frame.v) * inverse};
 }
 
-// The radius of a ball that rests on p and two neighbours, in units of `distance`. (x, y): the view
+// The circumradius of p and two neighbours, in units of `distance`. (x, y): the view
 // of one of them; (dx, dy): from there to the view of the other.
 template <class V>
 HWY_INLINE auto radius_at(V x, V y, V dx, V dy, V distance) {
@@ -40,9 +40,9 @@ HWY_INLINE auto radius_at(V x, V y, V dx, V dy, V distance) {
   const V unit = distance * distance;
   const auto squared_length = hn::DemoteTo(single, (dx * dx + dy * dy) * unit);
   const auto height = hn::DemoteTo(single, (x * dy - y * dx) * (all<V>(2) * unit));  // times the length
-  const auto largest = hn::Set(single, static_cast<float>(kLargestBall));
-  const auto ball = hn::Sqrt(squared_length) / height;
-  return hn::IfThenElse(height > hn::Zero(single), hn::Min(ball, largest), largest);
+  const auto largest = hn::Set(single, static_cast<float>(kLargestRadius));
+  const auto radius = hn::Sqrt(squared_length) / height;
+  return hn::IfThenElse(height > hn::Zero(single), hn::Min(radius, largest), largest);
 }
 
 }  // namespace lacuna::HWY_NAMESPACE

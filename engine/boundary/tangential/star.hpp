@@ -1,4 +1,4 @@
-// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.2).
+// The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.1).
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -19,23 +19,23 @@ struct alignas(64) Site {
   double weight;     // decides ties among points on one circle, alike for all of them
 };
 
-// One vertex of a star's link, and the ball that rests on the star's point, this vertex and the next one
-// around.
+// One vertex of a star's link, and the circumradius of the triangle of the star's point, this vertex and the
+// next one around.
 template <class Name>
 struct LinkVertex {
   Name point;
-  float radius;  // of the ball, in units of `Sampling::distance`
+  float radius;  // in units of `Sampling::distance`
 };
 
 // How points lie around one.
 struct Sampling {
   double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from
                         // each other, count little); 0: the point has no star
-  double circle = 0;    // median radius of its balls that lie among points; 0: there are none
-  double spread = 0;    // and how far the smallest of these is below
+  double median_radius = 0;  // median circumradius of its triangles that lie among points; 0: there are none
+  double spread = 0;         // and how far the smallest of these is below
 };
 
-// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.3 and C.6).
+// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.2 and C.6).
 enum class Scale : std::uint8_t {
   kFine,
   kCoarse,  // not to the fine one
@@ -43,7 +43,7 @@ enum class Scale : std::uint8_t {
 };
 inline constexpr std::array kScales{Scale::kFine, Scale::kCoarse};
 
-// Which balls make a triangle, in units of `Sampling::distance`.
+// The largest circumradii of triangles, in units of `Sampling::distance`.
 struct RadiusBound {
   float fine = 0, coarse = 0;
 
@@ -67,9 +67,9 @@ struct Star {
 
   std::size_t size() const { return link.size(); }
   std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
-  // Of a measured star: the bound that the triangle beyond link vertex i keeps to.
+  // The bound that the triangle beyond link vertex i of a measured star keeps to.
   Scale scale_of(std::size_t i) const { return bound.scale_of(link[i].radius); }
-  // The same of the triangle with a and b; kNone if the star does not have it.
+  // The bound of the triangle with a and b; kNone if the star does not have it.
   Scale scale_of(Name a, Name b) const {
     for (std::size_t i = 0; i < link.size(); ++i) {
       if (link[i].point != a) continue;
@@ -102,8 +102,8 @@ inline bool is_in_belt(PointState state) {
   return state == PointState::kInner || state == PointState::kBorder;
 }
 
-// Of a triangle of a star: the bound within which the stars of all its active vertices have it. While it is
-// undecided, vertices in other tiles may still raise the scale.
+// The consistency of a triangle of a star. `scale` is the bound within which the stars of all its active
+// vertices have it. While it is undecided, vertices in other tiles may still raise the scale.
 struct Consistency {
   Scale scale = Scale::kNone;
   bool is_undecided = false;
@@ -111,8 +111,9 @@ struct Consistency {
   bool at(Scale bound) const { return scale <= bound; }
 };
 
-// visit(first, last, radius): each boundary wedge of a star's point at a scale, by its first and last link
-// vertex, with the largest radius between them. None where no triangle is consistent.
+// Calls visit(first, last, radius) for each boundary wedge of a star's point at a scale. A wedge is given by
+// its first and last link vertex, with the largest circumradius between them. None where no triangle is
+// consistent.
 template <class Name, class Visit>
 void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Scale scale,
                     Visit&& visit) {

@@ -24,21 +24,21 @@ HWY_INLINE Count count(std::size_t number) {
   return hn::Set(kWhole, number);
 }
 
-// A view at most this far from an edge is on it, in units of the edge's |x| + |y| times the distance of
-// the farthest view: 500 times what rounding can do.
+// A view at most this far from an edge is on it. The unit is the edge's |x| + |y| times the distance of the
+// farthest view. That is 500 times what rounding can do.
 constexpr double kOnEdge = 1e-12;
 
 // What rounding can do at most, by a hundred times, in units of the square of that distance.
 constexpr double kRounding = 1e-13;
 
-// Comparisons of rows depend on one another: as many at a time do not.
+// Comparisons of ranks depend on one another: as many at a time do not.
 constexpr std::size_t kChains = 4;
 
-// Of as many points as a vector holds, by row.
+// The views of as many points as a vector holds, by rank.
 struct Views {
   View<V> at[kMostNeighbours];
-  std::size_t rows;  // an even number
-  V distance;        // `Sampling::distance`
+  std::size_t ranks;  // an even number
+  V distance;         // `Sampling::distance`
 };
 
 // What of a site the stars need.
@@ -60,11 +60,11 @@ HWY_INLINE Sites load_sites(const double* const (&sites)[kStep]) {
   return {{x, y, z}, {shift_x, shift_y, shift_z}, closeness, weight};
 }
 
-// Of points `first` and the next. A neighbour that a point has not is at an offset of 0.
+// Finds the views of points `first` and the next. A neighbour that a point has not is at an offset of 0.
 void find_views(const StarBatch& batch, std::size_t first, Views& views) {
   const double* points[kStep];
   double counts[kStep];
-  std::size_t common = views.rows;
+  std::size_t common = views.ranks;
   for (std::size_t i = 0; i < kStep; ++i) {
     points[i] = numbers_of(batch.sites[batch.points[first + i]]);
     counts[i] = batch.counts[first + i];
@@ -75,26 +75,26 @@ void find_views(const StarBatch& batch, std::size_t first, Views& views) {
   const Sites at = load_sites(points);
   const V all_counts = hn::LoadU(Doubles(), counts);
   V sum = at.closeness;
-  const double* row_of[kStep];
-  std::size_t row = 0;
-  for (; row < common; ++row) {
+  const double* sources[kStep];
+  std::size_t rank = 0;
+  for (; rank < common; ++rank) {
     for (std::size_t i = 0; i < kStep; ++i)
-      row_of[i] = numbers_of(batch.sites[batch.neighbours[first + i][row]]);
-    const Sites q = load_sites(row_of);
+      sources[i] = numbers_of(batch.sites[batch.neighbours[first + i][rank]]);
+    const Sites q = load_sites(sources);
     const Vector<V> offset = (q.position - at.position) + (q.shift - at.shift);
-    views.at[row] = view_of(offset, at.weight - q.weight, frame);
+    views.at[rank] = view_of(offset, at.weight - q.weight, frame);
     sum = sum + q.closeness;
   }
-  for (; row < views.rows; ++row) {
+  for (; rank < views.ranks; ++rank) {
     // Without a branch: which point has one neighbour more is not predictable.
     for (std::size_t i = 0; i < kStep; ++i)
-      row_of[i] =
-          numbers_of(batch.sites[batch.neighbours[first + i][row < batch.counts[first + i] ? row : 0]]);
-    const Mask is_there = all<V>(static_cast<double>(row)) < all_counts;
-    const Sites q = load_sites(row_of);
+      sources[i] =
+          numbers_of(batch.sites[batch.neighbours[first + i][rank < batch.counts[first + i] ? rank : 0]]);
+    const Mask is_there = all<V>(static_cast<double>(rank)) < all_counts;
+    const Sites q = load_sites(sources);
     const Vector<V> offset = (q.position - at.position) + (q.shift - at.shift);
-    views.at[row] = view_of(select(is_there, offset, {all<V>(0), all<V>(0), all<V>(0)}),
-                            hn::IfThenElseZero(is_there, at.weight - q.weight), frame);
+    views.at[rank] = view_of(select(is_there, offset, {all<V>(0), all<V>(0), all<V>(0)}),
+                             hn::IfThenElseZero(is_there, at.weight - q.weight), frame);
     sum = sum + hn::IfThenElseZero(is_there, q.closeness);
   }
   views.distance = (all_counts + all<V>(1)) / sum;
@@ -106,7 +106,7 @@ HWY_INLINE V cross(const View<V>& edge, const View<V>& other) {
 
 struct HullVertex {
   V x, y;
-  Count row;
+  Count rank;
 };
 
 // The view farthest from the origin is a vertex.
@@ -114,20 +114,20 @@ HullVertex first_vertex(const Views& views, V& squared_distance, Count& defined)
   HullVertex vertex{all<V>(0), all<V>(0), count(0)};
   squared_distance = all<V>(0);
   defined = count(0);
-  for (std::size_t row = 0; row < views.rows; ++row) {
-    const auto [x, y] = views.at[row];
+  for (std::size_t rank = 0; rank < views.ranks; ++rank) {
+    const auto [x, y] = views.at[rank];
     const V squared = x * x + y * y;
     const Mask is_farther = squared > squared_distance;
     squared_distance = hn::IfThenElse(is_farther, squared, squared_distance);
     vertex.x = hn::IfThenElse(is_farther, x, vertex.x);
     vertex.y = hn::IfThenElse(is_farther, y, vertex.y);
-    vertex.row = hn::IfThenElse(hn::RebindMask(kWhole, is_farther), count(row), vertex.row);
+    vertex.rank = hn::IfThenElse(hn::RebindMask(kWhole, is_farther), count(rank), vertex.rank);
     defined = defined - hn::VecFromMask(kWhole, hn::RebindMask(kWhole, squared == squared));
   }
   return vertex;
 }
 
-// Rows of some views: how many, and their sum.
+// Ranks of some views: how many, and their sum.
 constexpr int kCountShift = 32;
 
 // The edge from a vertex such that no view is to its right. `back`: the edge before, turned; all views are to
@@ -142,31 +142,31 @@ HWY_INLINE View<V> next_edge(const Views& views, const HullVertex& at, const Vie
   View<V> next[kChains];
   for (View<V>& edge : next) edge = back;
   on_edge = count(0);
-  Count row_of_one = count(std::size_t{1} << kCountShift);
-  const auto compare = [&](std::size_t row, View<V>& chain) HWY_ATTR {
-    const View<V> edge{views.at[row].x - at.x, views.at[row].y - at.y};
+  Count rank_of_one = count(std::size_t{1} << kCountShift);
+  const auto compare = [&](std::size_t rank, View<V>& chain) HWY_ATTR {
+    const View<V> edge{views.at[rank].x - at.x, views.at[rank].y - at.y};
     const auto is_on_edge = hn::RebindMask(kWhole, cross(back, edge) >= least);
-    on_edge = hn::IfThenElse(is_on_edge, on_edge + row_of_one, on_edge);
+    on_edge = hn::IfThenElse(is_on_edge, on_edge + rank_of_one, on_edge);
     chain = first_of(chain, edge);
-    row_of_one = row_of_one + count(1);
+    rank_of_one = rank_of_one + count(1);
   };
-  std::size_t row = 0;
-  for (; row + kChains <= views.rows; row += kChains) {
-    for (std::size_t i = 0; i < kChains; ++i) compare(row + i, next[i]);
+  std::size_t rank = 0;
+  for (; rank + kChains <= views.ranks; rank += kChains) {
+    for (std::size_t i = 0; i < kChains; ++i) compare(rank + i, next[i]);
   }
-  for (; row < views.rows; row += 2) {
-    compare(row, next[0]);
-    compare(row + 1, next[1]);
+  for (; rank < views.ranks; rank += 2) {
+    compare(rank, next[0]);
+    compare(rank + 1, next[1]);
   }
   return first_of(first_of(next[0], next[1]), first_of(next[2], next[3]));
 }
 
-// Eight bytes each: a vertex's row, and the radius of the ball beyond it.
+// Eight bytes each: a vertex's number among the neighbours, and the circumradius beyond it.
 template <class Radius>
-HWY_INLINE void store_vertices(Count row, Radius radius, LinkVertex<LocalIndex>* link) {
+HWY_INLINE void store_vertices(Count rank, Radius radius, LinkVertex<LocalIndex>* link) {
   const hn::Rebind<std::uint32_t, Doubles> bits;
   std::uint64_t packed[kStep];
-  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, radius))), row), kWhole,
+  hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(kWhole, hn::BitCast(bits, radius))), rank), kWhole,
              packed);
   __builtin_memcpy(link, packed, sizeof packed);
 }
@@ -181,7 +181,7 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
 
   const auto none = hn::FirstN(kWhole, 0);
   auto is_open = defined > count(2), ambiguous = none;
-  Count sizes = count(0), before = start.row;
+  Count sizes = count(0), before = start.rank;
   HullVertex at = start;
   View<V> back{start.y, hn::Neg(start.x)};  // all views are on one side of the tangent at the farthest
   V margin = all<V>(0);
@@ -193,21 +193,21 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
       const auto are_two = hn::ShiftRight<kCountShift>(on_edge) == count(2);
       ambiguous = hn::Or(ambiguous, hn::AndNot(are_two, is_open));
       is_open = hn::AndNot(ambiguous, is_open);
-      at.row = hn::And(on_edge, count((std::size_t{1} << kCountShift) - 1)) - before;
-      const auto is_closed = hn::And(is_open, at.row == start.row);
+      at.rank = hn::And(on_edge, count((std::size_t{1} << kCountShift) - 1)) - before;
+      const auto is_closed = hn::And(is_open, at.rank == start.rank);
       sizes = hn::IfThenElse(is_closed, count(step), sizes);
       is_open = hn::AndNot(is_closed, is_open);
     }
     if (hn::AllFalse(kWhole, is_open)) break;
-    if (step == views.rows) {
+    if (step == views.ranks) {
       ambiguous = hn::Or(ambiguous, is_open);
       break;
     }
-    store_vertices(at.row, radius_at(at.x, at.y, next.x, next.y, views.distance), &stars.links[step][first]);
+    store_vertices(at.rank, radius_at(at.x, at.y, next.x, next.y, views.distance), &stars.links[step][first]);
     margin = scale * (hn::Abs(next.x) + hn::Abs(next.y));
     back = {hn::Neg(next.x), hn::Neg(next.y)};
-    before = at.row;
-    // Where the edges lead, within rounding; the views on the edge show which row that is.
+    before = at.rank;
+    // Where the edges lead, within rounding; the views on the edge show which rank that is.
     at.x = at.x + next.x;
     at.y = at.y + next.y;
   }
@@ -223,7 +223,7 @@ void find_batch_stars(const StarBatch& batch, BatchStars& stars) {
   std::size_t most = 0;
   for (const std::uint32_t count : batch.counts) most = count > most ? count : most;
   Views views;
-  views.rows = (most + 1) / 2 * 2;
+  views.ranks = (most + 1) / 2 * 2;
   for (std::size_t first = 0; first < kBatchSize; first += kStep) {
     find_views(batch, first, views);
     hn::StoreU(views.distance, Doubles(), stars.distances + first);

@@ -11,8 +11,8 @@ namespace lacuna {
 
 inline constexpr std::size_t kMostNeighbours = 64;  // of one point
 
-// Larger balls count as this large, in units of `Sampling::distance`.
-inline constexpr double kLargestBall = 8;
+// Larger circumradii count as this large, in units of `Sampling::distance`.
+inline constexpr double kLargestRadius = 8;
 
 struct StarBatch {
   const Site* sites;  // of all points

@@ -36,7 +36,7 @@ struct OpenStar {
   std::array<double, kScales.size()> sampling_radius;  // by scale
 };
 
-// Of an open star, with the consistency of the triangle that begins here.
+// A link vertex of an open star, with the consistency of the triangle that begins here.
 struct OpenLinkVertex {
   Row point;
   double length;  // from the star's point
@@ -77,7 +77,7 @@ struct RemoteTriangle {
 // What the stars around one need of it.
 struct StarSample {
   Sampling sampling;
-  StarCircles circles;
+  StarRadii radii;
 };
 
 // Lists are by tile.

@@ -113,8 +113,8 @@ ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query)
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const View& next = hull[i + 1 < hull.size() ? i + 1 : 0];
     const double dx = next.x - x, dy = next.y - y;
-    const auto ball = formulas::radius_at(one(x), one(y), one(dx), one(dy), one(views.distance));
-    star.link.push_back({hull[i].neighbour, number(ball)});
+    const auto radius = formulas::radius_at(one(x), one(y), one(dx), one(dy), one(views.distance));
+    star.link.push_back({hull[i].neighbour, number(radius)});
     x += dx;  // rounded as in a batch
     y += dy;
   }

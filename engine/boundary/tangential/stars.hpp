@@ -1,4 +1,4 @@
-// stars: the triangles around each point over which a ball can rest (method.md, C.2).
+// stars: the triangles around each point over which a ball can rest (method.md, C.1).
 //
 // A ball of radius R touches p with its centre in p's tangent plane and rolls around it. A neighbour at
 // offset d forbids the directions to the centre c in which the ball would contain it: c . d / |d|^2 > 1/2. So

@@ -18,28 +18,28 @@ bool is_any_inconsistent(std::span<const Consistency> consistencies) {
                      [](const Consistency& c) { return !c.at(Scale::kFine); });
 }
 
-// The circles around points of a tile.
-class TileCircles {
+// The circumradii around points of a tile.
+class TileRadii {
  public:
-  TileCircles(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config)
+  TileRadii(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config)
       : tile_(tile), found_(found), config_(config) {}
 
   SamplingRadius& around(LocalIndex p) {
-    circles_.clear();
+    radii_.clear();
     add(p);
     for (const LocalIndex q : tile_.neighbourhoods[p]) add(q);
-    return circles_;
+    return radii_;
   }
 
  private:
   void add(LocalIndex q) {
-    circles_.add(circles_of(found_.stars[q].link, config_), found_.samplings[q].distance);
+    radii_.add(smallest_radii(found_.stars[q].link, config_), found_.samplings[q].distance);
   }
 
   const EvaluatedTile& tile_;
   const TileStars& found_;
   const TangentialConfig& config_;
-  SamplingRadius circles_;
+  SamplingRadius radii_;
 };
 
 // Marks points, by is_wanted(p) of the owned ones, and all of their neighbours.
@@ -58,7 +58,7 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
 std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& found,
                                     const TangentialConfig& config, StarLists& lists) {
   const std::vector<Row>& rows = tile.points.rows;
-  TileCircles circles(tile, found, config);
+  TileRadii radii(tile, found, config);
   std::vector<std::uint8_t> is_vertex(tile.points.owned);
   std::vector<Wedge> wedges;
   OpenStars open;
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
     };
     if (state == PointState::kMaybeActive || is_any_undecided(consistencies)) {
       is_vertex[p] = 1;
-      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, circles.around(p));
+      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, radii.around(p));
       for (std::size_t i = 0; i < star.size(); ++i)
         open.add_vertex({row(i), length(i), star.link[i].radius, consistencies[i]});
     } else if (is_any_inconsistent(consistencies)) {
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
       const double distance = found.samplings[p].distance;
       SamplingRadius* around = nullptr;  // for the first wedge: some points have none
       const auto sampling_radius = [&](Scale scale) {
-        if (around == nullptr) around = &circles.around(p);
+        if (around == nullptr) around = &radii.around(p);
         return around->within(star.bound.at(scale) * distance);
       };
       add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, row, length, config, wedges);
@@ -135,7 +135,7 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
     return site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]);
   });
   write_wanted(lists.samples, tile, owned, [&](LocalIndex p) {
-    return StarSample{found.samplings[p], circles_of(found.stars[p].link, config)};
+    return StarSample{found.samplings[p], smallest_radii(found.stars[p].link, config)};
   });
 }
 

@@ -51,7 +51,7 @@ void TangentialBoundary::take(const EvaluatedTile& tile) {
   add_loop_points(loop_points_, tile, take_stars(tile, tiling_, config_, stars_));
 }
 
-// Of a tile, in ascending row.
+// Returns the wedges of a tile, in ascending row.
 std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
   std::vector<Wedge> wedges = stars_.wedges.read(t);
   stars_.wedges.drop(t);

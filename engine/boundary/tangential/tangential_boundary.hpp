@@ -1,7 +1,7 @@
 // Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
-// consistent triangle. A boundary wedge is a point with the two such edges between which, around the point,
-// there is no consistent triangle; wedges chain to closed curves. That is done within a fine and a coarse
-// bound on the triangles at once, and the better of both curves stands.
+// consistent triangle. A boundary wedge is a point with two such edges, between which there is no consistent
+// triangle around the point. Wedges chain to closed curves. That is done within a fine and a coarse bound on
+// the triangles at once, and the better of both curves stands.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
@@ -17,7 +17,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
   void take(const EvaluatedTile& tile) override;
-  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges by itself.
+  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges anyway.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes
   // through.

@@ -16,7 +16,7 @@ namespace lacuna {
 struct WedgeEvidence {
   double length = 0;           // of the curve at the point: half of its two boundary edges
   double sampling_radius = 0;  // of the point, at the scale of the wedge
-  float clearness = 0;  // of the gap, [0, 1]: how much larger the empty ball is than the sampling radius
+  float clearness = 0;         // of the gap, [0, 1]: how much the circumradius exceeds the sampling radius
 };
 
 // A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
@@ -28,7 +28,7 @@ struct Wedge {
   Scale scale;
 };
 
-// 0 where the ball is no larger than the sampling radius, 1 from `clear_radius` times that on.
+// 0 where the circumradius is no larger than the sampling radius, 1 from `clear_radius` times that on.
 inline float clearness(double radius, double sampling_radius, const TangentialConfig& config) {
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }

@@ -1,10 +1,10 @@
-// Loops as thick lines. WebGL's own lines are one pixel wide, so each edge is a quad of the width asked for.
+// Loops as thick lines. WebGL's own lines are one pixel wide, so each edge is a quad of the wanted width.
 //
 // The corners of all quads are made once. A filter only writes the indices of the quads that are drawn. Instances of
 // one quad would need a quarter of the memory, but graphics in software takes seconds for 100,000 of them.
 
-// Per corner: one end of the edge, the other end; then length along the loop, loop * 4 + end * 2 + side, edge of the loop,
-// radius of the loop.
+// Per corner: one end of the edge, and the other end. Then length along the loop, loop * 4 + end * 2 + side, edge of
+// the loop, radius of the loop.
 const kLineVertexShader = `
   ${kCameraShader}
   ${kSectionShader}
@@ -45,7 +45,7 @@ const kLineVertexShader = `
     vec2 scale = vec2(projectionMatrix[0][0], projectionMatrix[1][1]) * resolution * 0.5;
     vec2 start = a.xy / -a.z * scale, end = b.xy / -b.z * scale;
     edge_pixels = length(end - start);
-    // Of edges much shorter than a pixel, one in 2, 4, 8 is enough: the others lie under its round ends.
+    // Where edges are much shorter than a pixel, one in 2, 4, 8 is enough: the others lie under its round ends.
     float stride = exp2(floor(log2(max(1.0, 1.2 * pixel_ratio / max(edge_pixels, 1e-3)))));
     if (mod(more.z, stride) > 0.5) return;
     vec2 direction = edge_pixels > 1e-4 ? (end - start) / edge_pixels : vec2(1.0, 0.0);

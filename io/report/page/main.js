@@ -143,7 +143,7 @@ class Page {
     if (this.section) this.section.reset();
   }
 
-  // Of the view alone: the table, the charts and the filters have all heights.
+  // The section is that of the view alone: the table, the charts and the filters have all heights.
   apply_section(low, high) {
     this.view.set_section(low, high);
     this.update_legend();

@@ -1,4 +1,4 @@
-// Mouse and fingers on the view, beside the drags that OrbitControls has.
+// Mouse and fingers on the view, besides the drags that OrbitControls has.
 
 // `actions`: {zoom(factor, x, y), click(x, y), double_click(x, y), hover(x, y), leave(), is_busy()}
 function connect_pointer(canvas, actions) {

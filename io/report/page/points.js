@@ -97,7 +97,7 @@ class PointCloud {
     this.uniforms.high.value = high;
   }
 
-  // Of the default size.
+  // The factor is relative to the default size.
   set_factor(factor) {
     this.factor = factor;
   }

@@ -125,8 +125,8 @@ class ChangingScan final : public PointSource {
   int readings_ = 0;
 };
 
-// All tiles hold no more points than allowed, all cells few points, and none is wide beside its distance to
-// the densest place.
+// All tiles hold no more points than allowed, all cells few points, and none is wide compared with its
+// distance to the densest place.
 void check_division(const Cloud& cloud, std::int64_t tile_points) {
   const TiledScan scan(cloud, tiled({}, tile_points));
   const Tiling& tiling = scan.store.tiling();

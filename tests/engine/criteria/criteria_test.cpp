@@ -28,7 +28,7 @@ LargestGap gap_of(const std::vector<Vector3d>& offsets, double cos_cone = kNoCon
     y[i].at[kPoint] = offsets[i].y();
     z[i].at[kPoint] = offsets[i].z();
   }
-  NeighbourBatch batch{.rows = offsets.size(), .x = x.data(), .y = y.data(), .z = z.data()};
+  NeighbourBatch batch{.ranks = offsets.size(), .x = x.data(), .y = y.data(), .z = z.data()};
   batch.counts.at[kPoint] = double(offsets.size());
   return find_largest_gap_exactly(batch, kPoint, normal.data(), cos_cone);
 }

@@ -54,7 +54,7 @@ FilledBatch batch_of(const std::vector<Neighbourhood>& points, bool given) {
   FilledBatch filled{.rows = std::vector<Batch<double>>(5 * count)};
   Batch<double>* const rows = filled.rows.data();
   NeighbourBatch& batch = filled.batch;
-  batch.rows = count;
+  batch.ranks = count;
   batch.x = rows, batch.y = rows + count, batch.z = rows + 2 * count;
   batch.squared_distance = rows + 3 * count, batch.weight = rows + 4 * count;
   for (std::size_t point = 0; point < kBatchSize; ++point) {

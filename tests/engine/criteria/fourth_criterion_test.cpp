@@ -14,7 +14,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// Two faces that meet at right angles in the line x = 0.
+// Two faces that join at right angles in the line x = 0.
 std::string folded_sheet() {
   std::ostringstream text;
   text << "x y z\n";
@@ -41,7 +41,8 @@ TEST_CASE("one more line in the table is one more criterion: its weight, its par
   const test::ScratchFolder folder;
   const auto scan = folder.write("folded.xyz", folded_sheet());
   const auto detect = [&](const char* program, const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{program, "detect", scan, "--points", "--points-format", "ply", "--out", folder / out};
+    std::vector<std::string> words{program,           "detect", scan,    "--points",
+                                   "--points-format", "ply",    "--out", folder / out};
     words.insert(words.end(), more.begin(), more.end());
     return test::run_command(words);
   };

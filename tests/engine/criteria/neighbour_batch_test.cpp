@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna {
-// The last position is the last there is: nothing is read beyond it (valgrind would tell).
+// The last position is the last there is: nothing is read beyond it (valgrind would report it).
 TEST_CASE("a row has the offsets of as many neighbours as there are points, and 0 where there are no more") {
   Random random(8);
   std::size_t wrong = 0;
@@ -33,7 +33,7 @@ TEST_CASE("a row has the offsets of as many neighbours as there are points, and 
     }
     by_each_instruction_set([&] {
       std::vector<Batch<double>> columns(4 * rows);
-      NeighbourBatch batch{.rows = rows, .x = &columns[0], .y = &columns[rows], .z = &columns[2 * rows]};
+      NeighbourBatch batch{.ranks = rows, .x = &columns[0], .y = &columns[rows], .z = &columns[2 * rows]};
       batch.squared_distance = &columns[3 * rows];
       gather_neighbours(of, batch);
       for (std::size_t i = 0; i < kBatchSize; ++i) {

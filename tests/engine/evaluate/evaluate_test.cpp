@@ -14,14 +14,15 @@
 namespace lacuna {
 namespace {
 
-// With the criteria beside it.
+// The evaluation of a point with its criteria.
 struct Evaluated : Evaluation {
   std::array<double, 3> criteria;
 };
 
 std::vector<Evaluated> evaluate_whole(const Cloud& cloud, const TilePoints& points, const Config& config,
                                       double eps) {
-  const Rows rows = find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), eps);
+  const Neighbourhoods rows =
+      find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), eps);
   std::vector<double> values(points.owned * criteria().size(), -1);
   std::vector<Evaluated> all;
   for (const Evaluation& e :

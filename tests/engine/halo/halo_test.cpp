@@ -29,7 +29,7 @@ std::vector<PointId> nearest_plainly(const Cloud& cloud, const std::vector<Point
   return nearest;
 }
 
-// Every edge from a point of `from` to one of its k nearest in another tile, told to both.
+// Every edge from a point of `from` to one of its k nearest in another tile, sent to both.
 std::vector<Letter> letters_plainly(const TiledScan& scan, const Cloud& cloud,
                                     const std::set<PointId>& from) {
   const std::map<PointId, Row> rows = scan.rows();
@@ -79,7 +79,7 @@ void check_links(const Cloud& cloud, const Config& config) {
   check_links(cloud, config, {ids.begin(), ids.end()});
 }
 
-TEST_CASE("every edge to a nearest neighbour in another tile is told to both tiles, once") {
+TEST_CASE("every edge to a nearest neighbour in another tile is sent to both tiles, once") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Cloud cloud = random_cloud(9000 + seed);
     for (const std::int64_t tile_points : {1, 20, 300}) {
@@ -91,12 +91,12 @@ TEST_CASE("every edge to a nearest neighbour in another tile is told to both til
   }
 }
 
-TEST_CASE("ties, steps of density and lone outliers are told to both tiles, once") {
+TEST_CASE("ties, steps of density and lone outliers are sent to both tiles, once") {
   for (const std::int64_t tile_points : {1, 100, 1500}) check_links(hard_cloud(4), tiled({}, tile_points));
 }
 
-// From so far above, all of the plane is within the reach of the outlier's cell, and its neighbours are
-// looked for one cell after the other. Those next to the centre come four at a distance.
+// From so far above, all of the plane is within the bound of the outlier's cell. Its neighbours are searched
+// one cell after the other. Those next to the centre come four at a distance.
 TEST_CASE("an outlier that has tens of thousands of points within its reach finds its nearest ones") {
   Cloud cloud = plane(200);
   std::set<PointId> from;
@@ -108,7 +108,7 @@ TEST_CASE("an outlier that has tens of thousands of points within its reach find
   check_links(cloud, tiled({}, 3000), from);
 }
 
-// Of four points at the distance of the 27th neighbour two are wanted: those with the lower ids, which stand
+// Two of the four points at the distance of the 27th neighbour are wanted: those with the lower ids. They are
 // at the near corners of cells that are no nearer than the other two points.
 TEST_CASE("an outlier's farthest neighbours tie with points in cells that it has not looked into") {
   Cloud cloud = plane(200);
@@ -120,8 +120,8 @@ TEST_CASE("an outlier's farthest neighbours tie with points in cells that it has
   check_links(cloud, config, {outlier});
 }
 
-// As near a scanner: what is in reach is no more than a few times what is in the cell itself. One point after
-// the other, as for outliers, would take thousands of times as long.
+// This is the case near a scanner: the bound covers no more than a few times what is in the cell itself. One
+// point after the other, as for outliers, would take thousands of times as long.
 TEST_CASE("tens of thousands of points in one cell find their neighbours in it and in other tiles") {
   Cloud cloud = plane(200);
   std::set<PointId> from;

@@ -57,7 +57,7 @@ TEST_CASE("a square of side two has perimeter 8, area 4, diameter 2 sqrt 2") {
   CHECK(m.tiles == 4);  // corners at 0 and 2: cubes 0 and 2
 }
 
-TEST_CASE("the surface outside makes a hole, inside a rim, whatever the direction of the loop") {
+TEST_CASE("the surface outside makes a hole, inside an outer curve, whatever the direction of the loop") {
   for (const bool reversed : {false, true}) {
     for (const int n : {4, 5, 30, 1000}) {
       Loop hole = circle(n, 3, 1), rim = circle(n, 3, -1);
@@ -72,7 +72,7 @@ TEST_CASE("the surface outside makes a hole, inside a rim, whatever the directio
   }
 }
 
-TEST_CASE("the rim of a dented outline is a rim though parts of it bend inwards") {
+TEST_CASE("the edge of a dented outline is an outer curve though parts of it bend inwards") {
   Loop star = circle(100, 3, -1);
   for (std::size_t i = 0; i < star.size(); ++i)
     star[i].position *= 1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i));

@@ -19,7 +19,7 @@ struct Points {
   std::vector<PointId> ids;
 };
 
-// Distinct finite points in the order of the cloud, sorted by x first if asked; ids shuffled.
+// Distinct finite points in the order of the cloud, or sorted by x first; ids shuffled.
 Points points_of(const Cloud& cloud, bool sorted) {
   const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
@@ -92,7 +92,7 @@ TEST_CASE("blocks that jump far, and more neighbours than are ranked by counting
   check_all(points_of(scattered(700, 2), false), 250);
 }
 
-// Runs of queries that extend far beyond what they look for: single precision tells little of them.
+// Runs of queries that extend far beyond what they search for: single precision is no use for them.
 TEST_CASE("blocks whose points lie in two places") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Random random(seed);
@@ -151,7 +151,7 @@ TEST_CASE("queries may start anywhere, and fewer points than k are all neighbour
   for (const int n : {1, 2, 15, 16, 17, 33}) check_all(points_of(scattered(n, 4), false), 16);
 }
 
-TEST_CASE("two points too near to be told apart are refused") {
+TEST_CASE("two points too near to be distinguished are refused") {
   const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {1e-160, 0, 0}, {1, 0, 0}};
   const std::vector<PointId> ids = {PointId{0}, PointId{1}, PointId{2}};
   BlockSearch search(positions, ids);

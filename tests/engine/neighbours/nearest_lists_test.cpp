@@ -42,7 +42,7 @@ Edges expected_edges(const Lists& lists) {
   return edges;
 }
 
-// Asked in runs of `run` points.
+// Searched in runs of `run` points.
 Edges found_edges(const Lists& lists, std::size_t count, std::uint32_t run) {
   const auto owned = std::uint32_t(lists.size());
   const std::size_t stride = (count + kListLine - 1) / kListLine;

@@ -11,7 +11,7 @@
 namespace lacuna {
 namespace {
 
-std::vector<std::vector<PointId>> ids_of(const Rows& rows, const TilePoints& points) {
+std::vector<std::vector<PointId>> ids_of(const Neighbourhoods& rows, const TilePoints& points) {
   std::vector<std::vector<PointId>> ids(rows.size());
   for (std::size_t p = 0; p < rows.size(); ++p) {
     for (const LocalIndex q : rows[p]) ids[p].push_back(points.ids[q]);
@@ -19,7 +19,8 @@ std::vector<std::vector<PointId>> ids_of(const Rows& rows, const TilePoints& poi
   return ids;
 }
 
-// Of the tile's owned points; nothing after section 1 is computed beyond what it must.
+// Returns the neighbourhoods of the tile's owned points; nothing after section 1 is computed beyond what it
+// must.
 std::vector<std::vector<PointId>> plain(const Cloud& cloud, const TilePoints& points, std::size_t k,
                                         double eps) {
   Config config;
@@ -63,7 +64,7 @@ TEST_CASE("a tile that owns a part of the points gives them the neighbourhoods o
 
 TEST_CASE("a point is never its own neighbour, and sees all others where there are no more than k") {
   const TilePoints points = whole_tile(line(5).with_duplicates(20, 1));
-  const Rows rows = find_neighbourhoods(points, 15, 0);
+  const Neighbourhoods rows = find_neighbourhoods(points, 15, 0);
   REQUIRE(rows.size() == 5);
   CHECK(ids_of(rows, points)[2] == std::vector{PointId{1}, PointId{3}, PointId{0}, PointId{4}});
 }

@@ -17,7 +17,7 @@ OrientationEdge edge(double weight, std::uint64_t low, std::uint64_t high) {
   return {weight, PointId{low}, PointId{high}, Row{low}, Row{high}, 0};
 }
 
-TEST_CASE("an edge tells how far two normals are from parallel, and whether they are opposed") {
+TEST_CASE("an edge says how far two normals are from parallel, and whether they are opposed") {
   const OrientationEdge same = orientation_edge(end_at(7, {0, 0, 1}), end_at(3, {0, 0, 1}));
   CHECK(same.weight == 0);
   CHECK(same.low_id == PointId{3});

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// Of eight numbers each.
+// Computes those of eight numbers each.
 void exponentials(const double* x, double* values) {
   for (std::size_t i = 0; i < 8; i += kLanes<Doubles>)
     hn::StoreU(exponential(hn::LoadU(Doubles(), x + i)), Doubles(), values + i);

@@ -1,4 +1,4 @@
-// Columns sorted side by side, by each instruction set, against the standard library.
+// Lanes sorted at once, by each instruction set, against the standard library.
 #include "engine/simd/sort.hpp"
 
 #include "tests/support/clouds.hpp"
@@ -12,18 +12,18 @@
 namespace lacuna {
 namespace {
 
-using Rows = std::vector<Batch<double>>;
+using Batches = std::vector<Batch<double>>;
 
-// Of all columns, numbers that are not where the standard library puts them.
-std::size_t misplaced(const Rows& rows) {
-  Rows sorted = rows;
-  sort_rows(sorted.data(), rows.size());
+// Counts the numbers of all lanes that are not where the standard library puts them.
+std::size_t misplaced(const Batches& batches) {
+  Batches sorted = batches;
+  sort_batches(sorted.data(), batches.size());
   std::size_t wrong = 0;
-  for (std::size_t column = 0; column < kBatchSize; ++column) {
+  for (std::size_t lane = 0; lane < kBatchSize; ++lane) {
     std::vector<double> expected;
-    for (const Batch<double>& row : rows) expected.push_back(row.at[column]);
+    for (const Batch<double>& batch : batches) expected.push_back(batch.at[lane]);
     std::sort(expected.begin(), expected.end());
-    for (std::size_t i = 0; i < rows.size(); ++i) wrong += sorted[i].at[column] != expected[i];
+    for (std::size_t i = 0; i < batches.size(); ++i) wrong += sorted[i].at[lane] != expected[i];
   }
   return wrong;
 }
@@ -37,18 +37,17 @@ TEST_CASE("every instruction set that the machine has is tried, with the plaines
   CHECK(tried == instruction_sets());
 }
 
-// What sorts every row of zeros and ones sorts everything (Knuth, 5.3.4, theorem Z).
-TEST_CASE("few rows are sorted whatever the numbers") {
+// What sorts every list of zeros and ones sorts everything (Knuth, 5.3.4, theorem Z).
+TEST_CASE("few batches are sorted whatever the numbers") {
   by_each_instruction_set([] {
     std::size_t wrong = 0;
     for (std::size_t count = 1; count <= 12; ++count) {
       for (unsigned first = 0; first < 1u << count; first += kBatchSize) {
-        Rows rows(count);
+        Batches batches(count);
         for (std::size_t i = 0; i < count; ++i) {
-          for (unsigned column = 0; column < kBatchSize; ++column)
-            rows[i].at[column] = (first + column) >> i & 1;
+          for (unsigned lane = 0; lane < kBatchSize; ++lane) batches[i].at[lane] = (first + lane) >> i & 1;
         }
-        wrong += misplaced(rows);
+        wrong += misplaced(batches);
       }
     }
     CHECK(wrong == 0);
@@ -56,19 +55,19 @@ TEST_CASE("few rows are sorted whatever the numbers") {
 }
 
 // Numbers of few kinds, so that many are equal.
-TEST_CASE("many rows are sorted, in registers and beyond, and the next row is left alone") {
+TEST_CASE("many batches are sorted, in registers and beyond, and the next one is left alone") {
   by_each_instruction_set([] {
     Random random(9);
     std::size_t wrong = 0;
-    for (std::size_t count = 0; count <= 4 * kRowsInRegisters + 3; ++count) {
-      Rows rows(count);
-      for (Batch<double>& row : rows) {
-        for (double& number : row.at) number = double(random.whole(-20, 20));
+    for (std::size_t count = 0; count <= 4 * kBatchesInRegisters + 3; ++count) {
+      Batches batches(count);
+      for (Batch<double>& batch : batches) {
+        for (double& number : batch.at) number = double(random.whole(-20, 20));
       }
-      wrong += misplaced(rows);
-      rows.push_back({{-100, -100, -100, -100, -100, -100, -100, -100}});
-      sort_rows(rows.data(), count);
-      wrong += rows.back().at[3] != -100;
+      wrong += misplaced(batches);
+      batches.push_back({{-100, -100, -100, -100, -100, -100, -100, -100}});
+      sort_batches(batches.data(), count);
+      wrong += batches.back().at[3] != -100;
     }
     CHECK(wrong == 0);
   });

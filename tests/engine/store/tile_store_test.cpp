@@ -47,7 +47,7 @@ TEST_CASE("a column is filled in many runs at once, whatever the memory and the 
   }
 }
 
-// Of 3000 and 5000 points.
+// Two tiles of 3000 and 5000 points.
 std::vector<Tile> two_tiles() {
   return {{.first_row = Row{0}, .raw = 3000}, {.first_row = Row{3008}, .raw = 5000}};
 }
@@ -56,7 +56,7 @@ StoredPoint numbered(std::uint64_t id) {
   return {double(id), 0, 0, PointId{id}};
 }
 
-TEST_CASE("points that come from several threads are in their tile once each, beside their normals") {
+TEST_CASE("points that come from several threads are in their tile once each, with their normals") {
   const ScratchFolder folder;
   TileStore store(folder / "", two_tiles(), 2, Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
@@ -110,7 +110,7 @@ void append_values(Values& values, std::span<const StoredPoint> points) {
 
 TEST_CASE("points come back in tile order, and in cell order within a tile, with their ids and coordinates") {
   // By tile, the points of its cells. The second is longer than a part of for_each_point; the last is added
-  // behind the others. Of each tile but the last, one point is a copy.
+  // behind the others. One point of each tile but the last is a copy.
   const std::vector<std::vector<std::uint64_t>> cells_of_tile = {{40, 25}, {3000, 1, 2999}, {7}, {10, 2}};
   const ScratchFolder folder;
   std::vector<Tile> tiles;

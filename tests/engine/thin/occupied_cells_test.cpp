@@ -79,7 +79,7 @@ TEST_CASE("the representatives of random points are the nearest to the means, in
       CHECK(cell.nearest == cloud.positions[value(cell.id)]);
       CHECK((cell.nearest - mean).norm() <= nearest + 1e-9);
     }
-    // The same positions, whatever their order.
+    // The positions are the same in any order.
     OccupiedCells shuffled = occupied(cloud.shuffled(seed), lattice);
     for (const OccupiedCell& cell : cells.all()) {
       const OccupiedCell* const other = shuffled.find(lattice.place_of(cell.nearest));

@@ -44,7 +44,7 @@ E57TestScan one_point(std::vector<E57Values> more = {}) {
 struct E57Folder {
   ScratchFolder folder;
 
-  // As a new file each time: some file systems write a file that is cut to nothing to the disk at once.
+  // Writes a new file each time: some file systems write a file that is cut to nothing to the disk at once.
   std::string write(const std::string& bytes) const {
     std::filesystem::remove(folder / "a.e57");
     return folder.write("a.e57", bytes);

@@ -20,7 +20,7 @@ void put(std::string& bytes, std::size_t offset, T value) {
 // A variable length record.
 std::string las_record(const std::string& user, std::uint16_t number, const std::string& data);
 
-// Of the record "Extra Bytes".
+// The descriptor of a value in the record "Extra Bytes".
 std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std::uint8_t options = 0,
                                  double scale = 0, double offset = 0);
 

@@ -121,7 +121,7 @@ TEST_CASE("faces may stand before the vertices", "[io]") {
   CHECK(read_triangles(file) == Triangles{{0, 1, 3}});
 }
 
-TEST_CASE("what makes no mesh is told with its place and what is allowed", "[io]") {
+TEST_CASE("a file without a mesh is reported with the place and what is allowed", "[io]") {
   const ScratchFolder folder;
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
   const auto error = [&](const std::string& body, const std::string& rows) {

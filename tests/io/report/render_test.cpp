@@ -60,8 +60,8 @@ TEST_CASE("a picture from above has the surface, its hole and the loop where the
   CHECK_FALSE(is_white(colour_at(picture, view, 5, 5)));
   CHECK_FALSE(is_reddish(colour_at(picture, view, 5, 5)));
   CHECK(is_greenish(colour_at(picture, view, 5, 15)));  // probable boundary
-  CHECK(is_reddish(colour_at(picture, view, 15, 2)));  // the loop
-  CHECK(is_white(colour_at(picture, view, -4, 10)));   // beside the sheet
+  CHECK(is_reddish(colour_at(picture, view, 15, 2)));   // the loop
+  CHECK(is_white(colour_at(picture, view, -4, 10)));    // next to the sheet
 }
 
 TEST_CASE("a loop is seen along its normal, with as much around it") {

@@ -49,7 +49,7 @@ TEST_CASE("the comment before a loop is its name, that of the file is none", "[i
   CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).at(0).name.empty());
 }
 
-TEST_CASE("loops as text that are no ids are told with their line", "[io]") {
+TEST_CASE("loops as text that are no ids are reported with their line", "[io]") {
   const ScratchFolder folder;
   using Catch::Matchers::Contains;
   CHECK_THAT(loops_error(folder.write("a.txt", "# ids\n1 2 3\n4 5 -6\n")),
@@ -69,7 +69,7 @@ TEST_CASE("loops.ply has its loops one after the other", "[io]") {
         std::vector<std::uint64_t>{5, 3});
 }
 
-TEST_CASE("a PLY without loops, or with broken ones, is told with its place", "[io]") {
+TEST_CASE("a PLY without loops, or with broken ones, is reported with its place", "[io]") {
   const ScratchFolder folder;
   using Catch::Matchers::Contains;
   const std::string points =

@@ -50,15 +50,15 @@ TEST_CASE("a disk that takes no more is an error that names the file", "[io]") {
   }
 }
 
-TEST_CASE("a file is made anew: nothing that exists is opened, and no link followed", "[io]") {
+TEST_CASE("a file is created anew: nothing that exists is opened, and no link followed", "[io]") {
   const ScratchFolder folder;
   const std::string other = folder.write("other", "precious");
   std::filesystem::create_symlink(other, folder / "link");
   std::filesystem::create_symlink(folder / "nothing", folder / "broken link");
   for (const std::string name : {"other", "link", "broken link"})
-    CHECK(error_of([&] { OutputFile(name, folder / name); }) == name + ": cannot be made: File exists");
+    CHECK(error_of([&] { OutputFile(name, folder / name); }) == name + ": cannot be created: File exists");
   CHECK(error_of([&] { OutputFile("a", folder / "none" / "a"); }) ==
-        "a: cannot be made: No such file or directory");
+        "a: cannot be created: No such file or directory");
   CHECK(read_file(other) == "precious");
   CHECK(folder.names() == std::vector<std::string>{"broken link", "link", "other"});
 }

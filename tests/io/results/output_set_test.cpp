@@ -101,7 +101,7 @@ TEST_CASE("a file that the command did not write is refused by its name, or repl
   }
 }
 
-TEST_CASE("links, folders, pipes and devices are refused at once, whatever is asked for", "[io]") {
+TEST_CASE("links, folders, pipes and devices are refused at once, with any option", "[io]") {
   const ScratchFolder folder;
   const std::string target = folder.write("target", "mine: old");
   fs::create_symlink(target, folder / "link");
@@ -136,7 +136,7 @@ TEST_CASE("links, folders, pipes and devices are refused at once, whatever is as
   CHECK(read_file(target) == "mine: old");
 }
 
-TEST_CASE("names beside those of a set are not touched, as like they are", "[io]") {
+TEST_CASE("names next to those of a set are not touched, as like they are", "[io]") {
   const ScratchFolder folder;
   folder.write("a.partial", "precious");
   const std::string target = folder.write("target", "precious");

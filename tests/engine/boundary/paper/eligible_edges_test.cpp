@@ -43,7 +43,7 @@ TEST_CASE("eligible edges are those of the plain method, each once, with their w
     config.neighbourhood.k = std::min<std::int64_t>(config.neighbourhood.k, 15);
     const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
     const TilePoints points = whole_tile(cloud);
-    const Rows rows =
+    const Neighbourhoods rows =
         find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), plain.eps);
     const TileEdges found = eligible_edges(
         points, rows, evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria),
@@ -70,7 +70,7 @@ TEST_CASE("the tile of a strong end reports an eligible edge between tiles") {
   Edges edges;
   for (const std::vector<bool>& owns : {left, right}) {
     const TilePoints points = part_tile(cloud, owns, 15);
-    const Rows rows = find_neighbourhoods(points, 15, 0);
+    const Neighbourhoods rows = find_neighbourhoods(points, 15, 0);
     const TileEdges found = eligible_edges(
         points, rows, evaluate(points, rows, {}, config.normals, config.criteria), config.spanning);
     REQUIRE_FALSE(found.crossings.empty());

@@ -115,7 +115,7 @@ TEST_CASE("a theta graph gives the short way round first, then the loop through 
   CHECK(loops_of(8, edges) == std::vector<Cycle>{{0, 2, 1, 4, 3}, {0, 2, 1, 7, 6, 5}});
 }
 
-TEST_CASE("a small loop beside a long rim does not hide the rim") {
+TEST_CASE("a small loop next to a long outer curve does not hide that one") {
   // A ring of 20 with a handle at its far side; the paper's first grey vertex would be in the handle.
   Edges edges;
   for (LocalIndex v = 0; v < 20; ++v) edges.emplace_back(v, (v + 1) % 20);

@@ -38,7 +38,7 @@ TEST_CASE("edges come in ascending order of weight, then lower id, then higher i
   }
 }
 
-TEST_CASE("weights one step apart are told apart up to the largest") {
+TEST_CASE("weights one step apart are distinguished up to the largest") {
   const std::vector<PointId> ids{PointId{0}, PointId{1}};
   std::vector<WeightedEdge> edges{{0, 1, 1e9}, {0, 1, 1e9 - kProbabilityStep}, {0, 1, 0}, {0, 1, 3}};
   order_edges(edges, ids);

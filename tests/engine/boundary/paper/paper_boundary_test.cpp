@@ -66,7 +66,7 @@ std::vector<std::size_t> component_sizes(const reference::Detection& plain) {
   return edges;
 }
 
-// A plane whose every edge is eligible, some islands with a rim each, and specks without loops.
+// A plane whose every edge is eligible, some islands with an outer edge each, and specks without loops.
 Cloud plane_and_islands() {
   Cloud cloud = plane(50).punched({15, 15}, 5).punched({34, 30}, 7).jittered(0.3, 1);
   for (int i = 0; i < 12; ++i)

@@ -98,8 +98,8 @@ TEST_CASE("a ring inside one part is complete there, one over two parts is passe
 }
 
 // 0 and 1 are of one part, which reports the edges between. The other is a path 2 3 4 5, with 6 next to 3.
-// Only it knows that neither (0, 6) nor (1, 6) closes a loop of more than 5 edges: by way of 3, where
-// otherwise nothing leads out.
+// Only it knows that neither (0, 6) nor (1, 6) closes a loop of more than 5 edges. The paths lead by way of
+// 3, where otherwise nothing leads out.
 TEST_CASE("a path that excludes an edge that the other part reports is passed on") {
   Whole whole;
   for (LocalIndex v = 0; v < 7; ++v) whole.ids.push_back(PointId{v});

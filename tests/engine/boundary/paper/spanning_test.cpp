@@ -137,7 +137,7 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
   }
 }
 
-// The verdicts on the edges that are known here, those of which one end is below `owned`.
+// The decisions on the edges that are known here, those of which one end is below `owned`.
 std::vector<EdgeDecision> judge(LocalIndex vertices, LocalIndex owned, const Edges& edges, std::int64_t e) {
   const test::ScratchFolder folder;
   Scratch scratch(folder / "", kInMemory);

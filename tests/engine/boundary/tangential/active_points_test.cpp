@@ -30,7 +30,7 @@ struct PlainStar {
 // A cloud with all that its stars need.
 struct EvaluatedCloud {
   TilePoints points;
-  Rows rows;
+  Neighbourhoods rows;
   std::vector<Evaluation> evaluations;
 
   explicit EvaluatedCloud(const Cloud& cloud)

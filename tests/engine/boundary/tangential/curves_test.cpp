@@ -40,7 +40,7 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   return curves;
 }
 
-// Points of length 1 among circles of 1.
+// Points of length 1 among circumradii of 1.
 std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
                                  const std::vector<float>& clearness = {}) {
   std::vector<CurvePoint> curve;
@@ -208,13 +208,13 @@ TEST_CASE("confidence is a logistic function of the mean clearness along the cur
   CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 1)), config) == Approx(logistic(20. / 25)));
   CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 0.625)), config) == Approx(0.5));
   CHECK(confidence_of(curve_of(twenty), config) == Approx(logistic(0)));
-  // Half of the points are clear, and three times as long as the others; circles are twice as large.
+  // Half of the points are clear, and three times as long as the others; circumradii are twice as large.
   std::vector<CurvePoint> curve = curve_of(twenty);
   for (std::size_t i = 0; i < 20; ++i) curve[i].evidence = {i % 2 == 0 ? 3. : 1., 2, i % 2 == 0 ? 1.f : 0.f};
   CHECK(confidence_of(curve, config) == Approx(logistic(30. / (40 + 5 * 2))));
 }
 
-TEST_CASE("a ball is clear in proportion to what it has beyond the sampling radius") {
+TEST_CASE("a circumradius is clear in proportion to what it has beyond the sampling radius") {
   const TangentialConfig config{.clear_radius = 2.5};
   CHECK(clearness(3, 4, config) == 0);
   CHECK(clearness(4, 4, config) == 0);

@@ -56,8 +56,8 @@ struct Border {
 
 TEST_CASE("vertices of inconsistent triangles become active, from star to star, here and in other tiles") {
   Border border;
-  // The star of 1 lacks the triangle (0, 1, 2) of 0. The ball between 3 and the foreign point is too large
-  // for a triangle of 2. The star of 5 is not reached.
+  // The star of 1 lacks the triangle (0, 1, 2) of 0. The circumradius between 3 and the foreign point is too
+  // large for a triangle of 2. The star of 5 is not reached.
   border.add(0, {owned(1), owned(2), owned(4)}, {1, 1, 1});
   border.add(1, {owned(4), owned(3), owned(6)}, {1, 1, 1});
   border.add(2, {owned(3), kForeign, owned(0)}, {3, 1, 1});

@@ -1,4 +1,4 @@
-// Bounds on the balls of triangles, from medians by hand, whatever points share the batch.
+// Bounds on circumradii, from medians by hand, whatever points share the batch.
 #include "engine/boundary/tangential/radius_bound.hpp"
 
 #include "tests/support/clouds.hpp"
@@ -14,9 +14,9 @@ namespace {
 constexpr TangentialConfig kConfig{
     .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .coarse_bound = 3};
 
-Sampling sampling_among(std::vector<float> balls, double distance) {
+Sampling sampling_among(std::vector<float> radii, double distance) {
   std::vector<LinkVertex<LocalIndex>> link;
-  for (const float ball : balls) link.push_back({0, ball});
+  for (const float radius : radii) link.push_back({0, radius});
   const FoundStar star(link.data(), 1, link.size(), distance);
   return samplings_of({&star, 1}, kConfig)[0];
 }
@@ -27,39 +27,39 @@ double median(std::vector<double> numbers) {
 }
 
 RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
-  std::vector<double> circles, spreads;
+  std::vector<double> medians, spreads;
   const auto add = [&](LocalIndex q) {
-    if (samplings[q].circle == 0) return;
-    circles.push_back(samplings[q].circle);
+    if (samplings[q].median_radius == 0) return;
+    medians.push_back(samplings[q].median_radius);
     spreads.push_back(samplings[q].spread);
   };
   add(around.point);
   for (const LocalIndex q : around.neighbours) add(q);
   const double most = kConfig.most_radius * samplings[around.point].distance;
-  const double circle = circles.empty() ? most : std::min(median(circles), most);
-  const double spread = circles.empty() ? most : std::min(median(spreads), most);
+  const double median_radius = medians.empty() ? most : std::min(median(medians), most);
+  const double spread = medians.empty() ? most : std::min(median(spreads), most);
   const double distance = samplings[around.point].distance;
-  const double fine = (kConfig.max_radius * circle + spread) / distance;
+  const double fine = (kConfig.max_radius * median_radius + spread) / distance;
   return {static_cast<float>(fine), static_cast<float>(3 * fine)};
 }
 
 }  // namespace
 
-TEST_CASE("a sampling is the median ball of a star and how far the least is below") {
+TEST_CASE("a sampling is the median circumradius of a star and how far the least is below") {
   const Sampling even = sampling_among({0.5f, 0.25f, 0.8f, 0.75f}, 10);
   CHECK(even.distance == 10);
-  CHECK(even.circle == 7.5);
+  CHECK(even.median_radius == 7.5);
   CHECK(even.spread == 5);
-  CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).circle == 1);
+  CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).median_radius == 1);
   CHECK(sampling_among({}, 2).distance == 0);
-  CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).circle == 1);
+  CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).median_radius == 1);
 }
 
-TEST_CASE("balls that lie in a hole do not count") {
-  CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).circle == 1);  // of the three small ones
+TEST_CASE("triangles that lie in a hole do not count") {
+  CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).median_radius == 1);  // of the three small ones
   const Sampling none = sampling_among({2, 3, 4}, 2);
   CHECK(none.distance == 2);
-  CHECK(none.circle == 0);
+  CHECK(none.median_radius == 0);
 }
 
 TEST_CASE("samplings of stars side by side are those of each alone") {
@@ -77,7 +77,7 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
     const auto together = samplings_of(stars, kConfig);
     for (std::size_t i = 0; i < stars.size(); ++i) {
       const Sampling alone = samplings_of({&stars[i], 1}, kConfig)[0];
-      wrong += together[i].distance != alone.distance || together[i].circle != alone.circle ||
+      wrong += together[i].distance != alone.distance || together[i].median_radius != alone.median_radius ||
                together[i].spread != alone.spread;
     }
   }
@@ -99,7 +99,7 @@ TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batc
     std::vector<Sampling> samplings(200);
     for (Sampling& s : samplings) {
       if (random.chance(0.8)) s = {random.uniform(0.5, 2), random.uniform(0.1, 2), random.uniform(0, 1)};
-      if (random.chance(0.2)) s.circle = s.spread = 0;  // large balls only
+      if (random.chance(0.2)) s.median_radius = s.spread = 0;  // large triangles only
     }
     std::vector<std::vector<LocalIndex>> neighbours;
     std::vector<Surroundings> all;

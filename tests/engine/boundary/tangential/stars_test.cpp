@@ -1,5 +1,5 @@
-// Stars found side by side are those of the exact fallback, from every instruction set and beside whatever
-// others.
+// Stars of a batch are those of the exact fallback, from every instruction set and with any others in the
+// batch.
 #include "engine/boundary/tangential/stars.hpp"
 
 #include "tests/support/clouds.hpp"
@@ -28,8 +28,9 @@ Site drawn_seat(Random& random, double x, double y, double z) {
   return {{x, y, z}, {0, 0, random.uniform(-0.05, 0.05)}, random.uniform(0.5, 1), random.uniform(0, 1e-4)};
 }
 
-// Noise around a plane, a half plane, a flat lattice with and without weights, points that project onto few
-// places, three neighbours or fewer, more than fit side by side, a cluster at the point, no normal.
+// Noise around a plane, a half plane, a flat lattice with and without weights, and points that project onto
+// few places. Also three neighbours or fewer, more than one batch holds, a cluster at the point, and no
+// normal.
 Neighbourhood drawn_neighbourhood(Random& random) {
   const std::int64_t kind = random.whole(0, 9);
   const auto count = std::size_t(kind == 5 ? random.whole(0, 3) : random.whole(3, kind == 6 ? 90 : 30));
@@ -56,7 +57,7 @@ std::vector<Neighbourhood> drawn_neighbourhoods(Random& random) {
   return drawn;
 }
 
-// The sites of several neighbourhoods, and what is asked of them.
+// The sites of several neighbourhoods, and what is wanted of them.
 struct Queries {
   std::vector<Site> sites;
   std::vector<std::vector<LocalIndex>> neighbours;
@@ -130,10 +131,12 @@ TEST_CASE(
   CHECK(star[1].radius == Approx(0.6 * std::sqrt(2.0)));
 }
 
-TEST_CASE("where all neighbours are on one side, the star is closed by an edge with the largest ball") {
+TEST_CASE(
+    "where all neighbours are on one side, the star is closed by an edge with the largest circumradius") {
   const Link star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
   CHECK(names(star).size() == 3);
-  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestBall; }) == 1);
+  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestRadius; }) ==
+        1);
 }
 
 TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
