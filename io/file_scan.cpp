@@ -12,8 +12,6 @@
 namespace lacuna {
 namespace {
 
-constexpr std::size_t kBatchRows = std::size_t{1} << 16;
-
 // Empty where they differ.
 std::string common(const std::vector<std::string>& names) {
   const bool is_common =
@@ -23,8 +21,8 @@ std::string common(const std::vector<std::string>& names) {
 
 }  // namespace
 
-FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
-    : config_(std::move(config)), expected_points_(0) {
+FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
+    : config_(std::move(config)), memory_(memory), expected_points_(0) {
   for (ScanInput& input : inputs) {
     states_.push_back(file_state(input.file));
     files_.push_back(std::move(input.file));
@@ -49,8 +47,13 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
   lacuna::check_unchanged(files_[file], states_[file]);
-  auto reader = open_scan(files_[file], {.columns = config_.columns});
+  auto reader = open_scan(files_[file], {.columns = config_.columns, .memory = memory_});
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
+}
+
+std::size_t FileScan::batch_rows(std::size_t file) const {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
+  return std::clamp<std::uint64_t>(memory_ / 2 / layouts_[file].stride, 1, kMost);
 }
 
 void FileScan::check_unchanged() const {
@@ -73,6 +76,7 @@ void FileScan::rewind() {
   next_id_ = 0;
   reader_.reset();
   filtered_out_ = {};
+  before_filters_ = {};
 }
 
 bool FileScan::next(PointBatch& batch) {
@@ -85,10 +89,10 @@ bool FileScan::next(PointBatch& batch) {
       rows_read_[file_] = 0;
       filter_.emplace(config_, files_[file_], *reader_);
     }
-    if (!reader_->next(rows_, kBatchRows)) continue;
+    if (!reader_->next(rows_, batch_rows(file_))) continue;
     const RowLayout& layout = reader_->layout();
     load_vectors(rows_, layout, kPositionNames, batch.positions);
-    filter_->apply(rows_, batch.positions, filtered_out_);
+    filter_->apply(rows_, batch.positions, filtered_out_, before_filters_);
     if (has_vectors(layout, kNormalNames)) {
       load_vectors(rows_, layout, kNormalNames, batch.normals);
     } else if (has_normals_) {
@@ -99,6 +103,8 @@ bool FileScan::next(PointBatch& batch) {
     next_id_ += rows_.count;
     return true;
   }
+  if (filtered_out_.total() > 0 && before_filters_.kept == 0)
+    throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
   return false;
 }
 

@@ -27,12 +27,14 @@ struct ScanInput {
 
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
-// position. A file that changes after the first opening is an `Error` when it is opened again.
+// position; where they leave out all points, the last `next` is an `Error`. A file that changes after the
+// first opening is an `Error` when it is opened again.
 class FileScan : public PointSource {
  public:
   // Opens every file once. So a missing or broken file, or one that lacks what a filter needs, is an `Error`
-  // before any work is done.
-  FileScan(std::vector<ScanInput> inputs, InputConfig config);
+  // before any work is done. Reading takes `memory` bytes at most, but for a row. Batches have fewer rows
+  // where these are long.
+  FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory = ReadOptions{}.memory);
 
   void rewind() override;
   bool next(PointBatch& batch) override;
@@ -55,6 +57,9 @@ class FileScan : public PointSource {
   std::string length_unit() const;
   // The rows of a file: as its header declares, else as many as the last pass has read of it.
   std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
+  std::uint64_t memory() const { return memory_; }
+  // Rows of a file to be read at a time.
+  std::size_t batch_rows(std::size_t file) const;
   // From its first row on, moved by its pose, without filters.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
   // Counts the points read since the last rewind.
@@ -70,6 +75,7 @@ class FileScan : public PointSource {
   std::vector<std::filesystem::path> files_;
   std::vector<std::optional<Pose>> poses_;  // one per file
   InputConfig config_;
+  std::uint64_t memory_;
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, formats_;
@@ -84,6 +90,7 @@ class FileScan : public PointSource {
   std::optional<RowFilter> filter_;
   RowBatch rows_;
   FilteredOut filtered_out_;
+  BeforeFilters before_filters_;
 };
 
 }  // namespace lacuna

@@ -90,6 +90,17 @@ void InputFile::read(std::byte* to, std::size_t count) {
   fail_at_byte(position(), "the file ends here, in the middle of a row; it must be complete");
 }
 
+void InputFile::read_at(std::uint64_t place, std::span<std::byte> to) const {
+  while (!to.empty()) {
+    const ssize_t got = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(place));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(std::string("cannot be read: ") + std::strerror(errno));
+    if (got == 0) fail_at_byte(place, "the file ends here, too early; it must be complete");
+    to = to.subspan(static_cast<std::size_t>(got));
+    place += static_cast<std::uint64_t>(got);
+  }
+}
+
 void InputFile::skip(std::uint64_t count) {
   if (count <= end_ - begin_) {
     begin_ += count;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,8 @@ class InputFile {
   // Throws `Error` where the file ends before.
   void read(std::byte* to, std::size_t count);
   void skip(std::uint64_t count);
+  // Bytes from anywhere in the file; what is read next stays the same.
+  void read_at(std::uint64_t place, std::span<std::byte> to) const;
 
   // Lines end with a carriage return alone if the first one does. Must be called at the beginning of the
   // file.

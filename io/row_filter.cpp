@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace lacuna {
@@ -48,7 +49,40 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
   is_active_ = config.drop_origin || bounds_ || class_ || return_number_ || number_of_returns_;
 }
 
-void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered) {
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
+                                 const BeforeFilters& before) {
+  std::ostringstream text;
+  text.precision(10);
+  text << "the filters leave none of the " << filtered.total() << " points";
+  const char* separator = ": ";
+  const auto add = [&](const char* option, std::uint64_t count) -> std::ostream& {
+    text << separator << option << " leaves out " << count;
+    separator = "; ";
+    return text;
+  };
+  if (config.drop_origin && filtered.origin > 0) add("--drop-origin", filtered.origin);
+  if (!config.bounds.empty()) {
+    add("--bounds", filtered.bounds);
+    if (!before.bounds.isEmpty()) {
+      const Eigen::Vector3d min = before.bounds.min(), max = before.bounds.max();
+      text << ", the scan lies from " << min.x() << " " << min.y() << " " << min.z() << " to " << max.x()
+           << " " << max.y() << " " << max.z();
+    }
+  }
+  if (!config.classes.empty()) {
+    add("--classes", filtered.classes);
+    const char* between = ", the classes here are ";
+    for (const auto& [number, count] : before.classes) {
+      text << between << number << " (" << count << " points)";
+      between = ", ";
+    }
+  }
+  if (config.returns != Returns::kAll) add("--returns", filtered.returns);
+  return text.str();
+}
+
+void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
+                      BeforeFilters& before) {
   if (!is_active_) return;
   load(rows, class_);
   load(rows, return_number_);
@@ -56,15 +90,31 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
-    std::uint64_t* const count = is_no_return(position)                    ? &filtered.origin
-                                 : bounds_ && !bounds_->contains(position) ? &filtered.bounds
-                                 : !has_chosen_class(row)                  ? &filtered.classes
-                                 : !is_chosen_return(row)                  ? &filtered.returns
-                                                                           : nullptr;
-    if (count == nullptr) continue;
+    std::uint64_t* const count = refusing(row, position, filtered, before);
+    if (count == nullptr) {
+      ++before.kept;
+      continue;
+    }
     ++*count;
     position.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+// The count of the first filter that refuses the row; null: none does.
+std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
+                                   BeforeFilters& before) const {
+  constexpr std::size_t kMostClasses = 256;
+  if (is_no_return(position)) return &filtered.origin;
+  if (bounds_) {
+    before.bounds.extend(position);
+    if (!bounds_->contains(position)) return &filtered.bounds;
+  }
+  if (class_ && before.kept == 0) {  // afterwards nobody needs to know
+    const double found = class_->values[row];
+    if (before.classes.size() < kMostClasses || before.classes.contains(found)) ++before.classes[found];
+  }
+  if (!has_chosen_class(row)) return &filtered.classes;
+  return is_chosen_return(row) ? nullptr : &filtered.returns;
 }
 
 void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {

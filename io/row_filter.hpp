@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -25,13 +27,25 @@ struct FilteredOut {
   std::uint64_t total() const { return origin + bounds + classes + returns; }
 };
 
+// What the filters found, for the error where they leave no row.
+struct BeforeFilters {
+  Eigen::AlignedBox3d bounds;               // of all finite rows but those without a return
+  std::map<double, std::uint64_t> classes;  // of the rows that reach the filter of classes; few at most
+  std::uint64_t kept = 0;                   // finite rows that every filter accepts
+};
+
+// The message of an error: which filter left out how many rows, and what these are.
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
+                                 const BeforeFilters& before);
+
 class RowFilter {
  public:
   // For the rows of one file. Throws `Error` where these have no class or return, and the choice needs it.
   RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
 
   // Makes the positions of rows that do not take part NaN, and counts them.
-  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered);
+  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
+             BeforeFilters& before);
 
  private:
   struct Values {  // of one column, for the rows at hand
@@ -39,6 +53,8 @@ class RowFilter {
     std::vector<double> values;
   };
   void load(const RowBatch& rows, std::optional<Values>& column) const;
+  std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
+                          BeforeFilters& before) const;
   bool is_no_return(const Eigen::Vector3d& position) const;
   bool has_chosen_class(std::size_t row) const;
   bool is_chosen_return(std::size_t row) const;

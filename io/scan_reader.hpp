@@ -26,6 +26,11 @@ struct Property {
   std::size_t offset;
 };
 
+// A row with more columns than this is refused by every reader: names and types of columns are held in
+// memory.
+inline constexpr std::size_t kMostColumns = 10'000;
+inline constexpr const char* kTooManyColumns = "more than the 10,000 columns that are read";
+
 struct RowLayout {
   std::vector<Property> properties;  // in file order; lists are skipped
   std::size_t stride = 0;            // bytes per row, no padding
@@ -60,6 +65,8 @@ class ScanReader {
 
 struct ReadOptions {
   std::string columns;  // text files: column names, space separated; empty: from the header line
+  // Bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
+  std::uint64_t memory = std::uint64_t{64} << 20;
 };
 
 // What a format is recognised by.

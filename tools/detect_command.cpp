@@ -3,6 +3,7 @@
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/report/report.hpp"
@@ -64,8 +65,9 @@ void require(const CLI::App& command, const std::string& option) {
 std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  const ReadOptions options{.columns = config.input.columns};
-  FileScan scan(expand_inputs(arguments.scans, options), config.input);
+  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
+  const ReadOptions options{.columns = config.input.columns, .memory = memory};
+  FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
   for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
 
   const MadeFolder out_folder(arguments.out);

@@ -2,11 +2,13 @@
 
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/results.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -55,21 +57,31 @@ struct FileInfo {
 struct RunInfo {
   Estimate estimate;
   std::string points_file;
-  std::uint64_t points_bytes = 0;
+  std::optional<std::uint64_t> points_bytes;  // none: it cannot be written
   double seconds = 0;
 };
 
-std::uint64_t count_rows(ScanReader& reader) {
+std::uint64_t count_rows(ScanReader& reader, std::size_t rows_at_a_time) {
   if (const auto expected = reader.expected_rows()) return *expected;
-  constexpr std::size_t kRowsAtATime = 1 << 16;
   std::uint64_t rows = 0;
-  for (RowBatch batch; reader.next(batch, kRowsAtATime);) rows += batch.count;
+  for (RowBatch batch; reader.next(batch, rows_at_a_time);) rows += batch.count;
   return rows;
 }
 
-FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
-  const std::unique_ptr<ScanReader> reader = open_scan(file, options);
-  return {file, reader->format(), reader->crs(), reader->layout(), count_rows(*reader)};
+FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
+  const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file], options);
+  return {scan.files()[file], reader->format(), reader->crs(), reader->layout(),
+          count_rows(*reader, scan.batch_rows(file))};
+}
+
+// Some scans have more columns than a format holds with the results.
+std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConfig& config) {
+  if (config.points) check_points(scan, config);
+  try {
+    return point_row_bytes(scan, config);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 RunInfo estimate_run(FileScan& scan, const Config& config) {
@@ -81,7 +93,8 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   run.estimate = estimate(scan, config, workspace.path(), silence);
   const Summary& summary = run.estimate.summary;
   run.points_file = points_file(scan, config.output);
-  run.points_bytes = point_row_bytes(scan, config.output) * summary.counts.points;
+  run.points_bytes = points_bytes(scan, config.output);
+  if (run.points_bytes) *run.points_bytes *= summary.counts.points;
 
   const double threads = std::max<double>(1, static_cast<double>(summary.threads));
   const std::uint64_t points = summary.counts.points - summary.counts.thinned_out;
@@ -134,7 +147,9 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << "\n  threads       " << summary.threads << "\n  workspace     "
             << print_size(run.estimate.workspace_bytes)
             << " on disk; up to three times that if the scan is noisy"
-            << "\n  " << run.points_file << "    " << print_size(run.points_bytes) << ", with --points"
+            << "\n  " << run.points_file << "    "
+            << (run.points_bytes ? print_size(*run.points_bytes) + ", with --points"
+                                 : "cannot hold all columns; --points-format ply can")
             << "\n  other output  depends on the holes found"
             << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
 }
@@ -170,7 +185,7 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   root["threads"] = summary.threads;
   root["workspace_bytes"] = run.estimate.workspace_bytes;
   root["points_file"] = run.points_file;
-  root["points_bytes"] = run.points_bytes;
+  root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
   root["estimated_seconds"] = run.seconds;
   root["estimate"] = assumption();
   std::cout << print(root, 2) << "\n";
@@ -178,10 +193,11 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
 
 void run_info(const InfoArguments& arguments) {
   const Config config = arguments.parameters.read().config;
-  const ReadOptions options{.columns = config.input.columns};
-  FileScan scan(expand_inputs(arguments.scans, options), config.input);
+  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
+  const ReadOptions options{.columns = config.input.columns, .memory = memory};
+  FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
   std::vector<FileInfo> files;
-  for (const fs::path& file : scan.files()) files.push_back(read_file_info(file, options));
+  for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
   const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
     print_json(files, scan.filtered_out(), run);

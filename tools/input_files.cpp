@@ -20,20 +20,18 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPoseBlanks = " \t,";
 
-bool is_readable(const fs::path& file, const ReadOptions& options) {
+// Why a file of a folder is passed over; empty: it is a scan. Text may be anything, so it must also be
+// readable. A file of another format that is broken is an error, later.
+std::string reason_against(const fs::path& file, const ReadOptions& options) {
+  const Recognised recognised = recognise(file);
+  if (recognised == Recognised::kNo) return visible(file.string()) + ": it is not a scan";
+  if (recognised == Recognised::kYes) return {};
   try {
     open_scan(file, options);
-    return true;
-  } catch (const Error&) {
-    return false;
+    return {};
+  } catch (const Error& error) {
+    return visible(error.what());
   }
-}
-
-// Text may be anything, so it must also be readable. A file of another format that is broken is an error,
-// later.
-bool is_scan(const fs::path& file, const ReadOptions& options) {
-  const Recognised recognised = recognise(file);
-  return recognised == Recognised::kYes || (recognised == Recognised::kAsText && is_readable(file, options));
 }
 
 void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<ScanInput>& files) {
@@ -47,10 +45,10 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
   std::sort(inside.begin(), inside.end());
   const std::size_t before = files.size();
   for (const fs::path& file : inside) {
-    if (is_scan(file, options)) {
+    if (const std::string reason = reason_against(file, options); reason.empty()) {
       files.emplace_back(file);
     } else {
-      spdlog::warn("{}: skipped, because it is not a scan", visible(file.string()));
+      spdlog::warn("skipped: {}", reason);
     }
   }
   if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");

@@ -50,8 +50,12 @@ Memory Memory::share(std::uint64_t limit) {
   const std::uint64_t rest = limit > kProgram + 16 * kMiB ? limit - kProgram : 16 * kMiB;
   // Tiles and the global stage are not at work at the same time. What is left over is for what the
   // allocator cannot give back at once.
-  return {
-      .limit = limit, .cells = rest / 6, .tiles = rest * 2 / 5, .spills = rest / 8, .global = rest * 3 / 5};
+  return {.limit = limit,
+          .cells = rest / 6,
+          .tiles = rest * 2 / 5,
+          .spills = rest / 8,
+          .global = rest * 3 / 5,
+          .reading = rest * 2 / 5};
 }
 
 Job::Job(const Config& config, std::filesystem::path workspace, Progress& progress)

@@ -17,11 +17,12 @@ namespace lacuna {
 // How the memory limit is shared out. Nothing of the scan's size is held outside of these, save a few
 // bits a point (active, coherent, on a loop).
 struct Memory {
-  std::uint64_t limit;   // all of it; where the config has none, half of what the process may have
-  std::uint64_t cells;   // survey and index
-  std::uint64_t tiles;   // all tiles at work together
-  std::uint64_t spills;  // buffers of all lists on their way to disk
-  std::uint64_t global;  // spanning graph and loops, sorts
+  std::uint64_t limit;    // all of it; where the config has none, half of what the process may have
+  std::uint64_t cells;    // survey and index
+  std::uint64_t tiles;    // all tiles at work together
+  std::uint64_t spills;   // buffers of all lists on their way to disk
+  std::uint64_t global;   // spanning graph and loops, sorts
+  std::uint64_t reading;  // what a reader of the scan holds of it, beside survey and index
 
   static Memory share(std::uint64_t limit);
 };

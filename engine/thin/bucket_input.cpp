@@ -2,10 +2,12 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
 #include "engine/survey/survey_scan.hpp"
 #include "engine/thin/choose_resolution.hpp"
 
+#include <sstream>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -21,8 +23,27 @@ Bucketed bucket_points(PointSource& scan, Job& job) {
   return {{}, std::move(survey), tile_points, std::move(store)};
 }
 
+// Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
+// has no more at any resolution.
+void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
+  const std::uint64_t left = thinned.representatives.size(), finite = thinned.points - thinned.dropped;
+  const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
+  if (left > k || finite <= k || thinned.bounds.sizes().isZero(0)) return;
+  const Eigen::Vector3d size = thinned.bounds.sizes();
+  const ScaleConfig& scale = config.scale;
+  std::ostringstream message;
+  message << "a resolution of " << scale.resolution;
+  const bool is_of_hole = scale.min_hole > 0 && scale.resolution == scale.min_hole / kCellsAcross;
+  if (is_of_hole) message << ", for holes of " << scale.min_hole << ",";
+  message << " leaves " << left << " of " << finite << " points, too few for k = " << k
+          << " neighbours; the scan's size is " << size.x() << " x " << size.y() << " x " << size.z()
+          << "; allowed: a smaller " << (is_of_hole ? "--min-hole" : "--resolution");
+  throw Error(message.str());
+}
+
 Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) {
   ThinnedScan thinned = thin_scan(scan, resolution, job);
+  if (job.config.scale.resolution > 0) refuse_too_coarse(thinned, job.config);
   Bucketed bucketed = bucket_points(*read_representatives(thinned), job);
   bucketed.thinned.emplace(std::move(thinned));
   return bucketed;

@@ -156,6 +156,10 @@ E57Columns e57_columns(const PagedFile& pages, const E57Header& header) {
     const std::vector<FieldColumn> columns = field_columns(header.scans[i]);
     check_columns(pages, header.scans[i], i, columns);
     for (const FieldColumn& column : columns) add(column.name, column.type);
+    if (all.size() >= kMostColumns) {  // `scan` is one more
+      pages.fail_physical(header.scans[i].points_at,
+                          "scan " + std::to_string(i) + ": the scans so far have " + kTooManyColumns);
+    }
   }
   add("scan", Scalar::kUint32);
   return {.layout = packed_layout(all), .ranks = std::move(ranks)};

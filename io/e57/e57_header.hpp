@@ -39,7 +39,8 @@ struct E57Header {
 };
 
 // Throws `Error` unless the version is 1.0, the sizes hold and the scans can be read. The number of records
-// of each is no more than the file could hold, one of no bits counted as one bit.
+// of each is no more than the file could hold, one of no bits counted as one bit. All scans together have at
+// most 64 values for each byte of the file.
 // Memory: up to 17 times the XML section, which may have up to 16 MiB and be no larger than the file.
 E57Header read_e57_header(const std::filesystem::path& file);
 

@@ -141,7 +141,20 @@ Pose read_pose(const Xml& xml, pugi::xml_node node) {
   return pose;
 }
 
-E57Scan read_scan(const Xml& xml, pugi::xml_node node) {
+// Scans with a section in common, and columns of one value, take no bytes for each value.
+constexpr std::uint64_t kMostValuesInAByte = 64;
+
+// Adds the values of a scan to those of the scans before.
+void count_values(const Xml& xml, pugi::xml_node points, const E57Scan& scan, std::uint64_t& values) {
+  values += scan.records * scan.fields.size();  // below 2^63: of at most 2^15 fields and 8 records in a byte
+  if (values / kMostValuesInAByte <= xml.pages.size()) return;
+  xml.fail(points, "the scans up to here have " + std::to_string(values) + " values, in a file of " +
+                       std::to_string(xml.pages.size()) + " bytes; at most " +
+                       std::to_string(kMostValuesInAByte) + " in a byte are read");
+}
+
+// `values`: of the scans before, and then of this one, too.
+E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
   E57Scan scan;
   const pugi::xml_node points = node.child("points");
   if (!points) return scan;
@@ -162,6 +175,7 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node) {
     xml.fail(points, std::to_string(scan.records) + " points of " + std::to_string(bits) +
                          " bits; the file holds at most " + std::to_string(most));
   }
+  count_values(xml, points, scan, values);
   scan.pose = read_pose(xml, node.child("pose"));
   return scan;
 }
@@ -185,7 +199,8 @@ void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header) {
   if (!data)
     xml.fail(root, "the XML section has no scans; an element e57Root with an element data3D is needed");
   header.coordinate_metadata = text_of(root.child("coordinateMetadata"));
-  for (const pugi::xml_node scan : data.children()) header.scans.push_back(read_scan(xml, scan));
+  std::uint64_t values = 0;
+  for (const pugi::xml_node scan : data.children()) header.scans.push_back(read_scan(xml, scan, values));
 }
 
 }  // namespace lacuna

@@ -5,7 +5,7 @@
 #include "io/las/las_header.hpp"
 
 #include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -19,9 +19,10 @@ class LasPoints {
 };
 
 // `in`: the file, just before its points. It must outlive the result. Throws `Error` where the file is too
-// short for the points of its header. LAZ: the chunks are decompressed by several threads. Memory: one chunk
-// for each thread, or up to four while these are small; a chunk larger than 256 MiB is an `Error`.
-std::unique_ptr<LasPoints> las_points(const std::filesystem::path& file, InputFile& in,
-                                      const LasHeader& header);
+// short for the points of its header. LAZ: `memory` bytes bound what is held. Chunks that fit are
+// decompressed by several threads: one for each, or up to four while these are small. A larger chunk is
+// decompressed in the blocks that are read, by one thread. Where even its models do not fit, that is an
+// `Error`.
+std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, std::uint64_t memory);
 
 }  // namespace lacuna

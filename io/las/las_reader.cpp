@@ -17,10 +17,10 @@ namespace {
 
 class LasReader final : public ScanReader {
  public:
-  explicit LasReader(const std::filesystem::path& file)
+  LasReader(const std::filesystem::path& file, std::uint64_t memory)
       : in_(file),
         header_(read_las_header(in_)),
-        points_(las_points(file, in_, header_)),
+        points_(las_points(in_, header_, memory)),
         columns_(header_),
         left_(header_.points) {}
 
@@ -74,8 +74,8 @@ bool looks_like_las(const FileStart& start) {
   return start.first_bytes.starts_with("LASF");
 }
 
-std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions&) {
-  return std::make_unique<LasReader>(file);
+std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions& options) {
+  return std::make_unique<LasReader>(file, options.memory);
 }
 
 }  // namespace lacuna

@@ -6,20 +6,27 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 namespace lacuna::laz {
 
-// Decodes from `bytes`, which outlive it. An encoder ends its data such that a decoder reads exactly all
-// bytes; so each function throws `Corrupt` at the end of the bytes. Between calls value_ < length_ and
-// length_ >= kMinLength hold, whatever the bytes are.
+// All bytes of a chunk from `begin` to `end`. Throws `Corrupt` where the chunk is shorter.
+std::vector<std::byte> read_all(const ChunkBytes& bytes, std::uint64_t begin, std::uint64_t end);
+
+// Decodes the bytes of a chunk from `begin` to `end`, which are within it; the chunk outlives the decoder. An
+// encoder ends its data such that a decoder reads exactly all bytes; so each function throws `Corrupt` at the
+// end of the bytes. Between calls value_ < length_ and length_ >= kMinLength hold, whatever the bytes are.
 class ArithmeticDecoder {
  public:
-  explicit ArithmeticDecoder(std::span<const std::byte> bytes)
-      : next_(bytes.data()), end_(bytes.data() + bytes.size()) {
+  ArithmeticDecoder(const ChunkBytes& bytes, std::uint64_t begin, std::uint64_t end)
+      : bytes_(&bytes), left_at_(begin), left_end_(end) {
     for (int i = 0; i < 4; ++i) value_ = value_ << 8 | next_byte();
     if (value_ == length_) throw Corrupt("the compressed points begin with bytes that no encoder writes");
   }
+
+  // Not to be copied: the bytes may lie in its buffer.
+  ArithmeticDecoder(ArithmeticDecoder&&) = default;
+  ArithmeticDecoder& operator=(ArithmeticDecoder&&) = default;
 
   template <unsigned kCapacity>
   unsigned symbol(SymbolModel<kCapacity>& model) {
@@ -96,14 +103,20 @@ class ArithmeticDecoder {
   }
 
   std::uint32_t next_byte() {
-    if (next_ == end_) throw Corrupt("the compressed points end too early");
+    if (next_ == end_) [[unlikely]]
+      read_more();
     return std::to_integer<std::uint32_t>(*next_++);
   }
 
-  const std::byte* next_;
-  const std::byte* end_;
+  void read_more();
+
+  const std::byte* next_ = nullptr;
+  const std::byte* end_ = nullptr;
   std::uint32_t value_ = 0;
   std::uint32_t length_ = 0xffffffff;
+  const ChunkBytes* bytes_;
+  std::uint64_t left_at_, left_end_;  // in the chunk, of the bytes behind `end_`
+  std::vector<std::byte> buffer_;
 };
 
 }  // namespace lacuna::laz

@@ -47,7 +47,8 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
 
   std::vector<Chunk> chunks;
   if (count > 0) {
-    ArithmeticDecoder decoder(table.subspan(kHeaderBytes));
+    const ChunkInMemory sizes(table.subspan(kHeaderBytes));
+    ArithmeticDecoder decoder(sizes, 0, sizes.size());
     const auto numbers = std::make_unique<IntegerDecoder<32, 2>>();
     const bool variable = layout.chunk_points == kVariableChunks;
     std::uint64_t offset = first_chunk, left = points;

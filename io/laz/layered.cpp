@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace lacuna::laz {
 namespace {
@@ -71,6 +72,49 @@ class ExtraBytes {
   ChannelValues<std::vector<std::byte>, std::vector<SymbolModel<256>>> channels_;
 };
 
+class LayeredDecoder final : public RecordDecoder {
+ public:
+  LayeredDecoder(const Layout& layout, const ChunkBytes& bytes, std::span<const std::byte> first)
+      : record_bytes_(first.size()),
+        layers_(bytes, record_bytes_, layer_count(layout)),
+        point_(first.data(), layers_) {
+    const ChannelRule rule = layout.items[0].version == 3 ? ChannelRule::kVersion3 : ChannelRule::kVersion4;
+    std::size_t at = 0;
+    for (const Item& item : layout.items) {
+      if (item.type == item_type::kRgb14 || item.type == item_type::kRgbNir14) {
+        const bool has_nir = item.type == item_type::kRgbNir14;
+        colour_.emplace(has_nir, rule, point_.channel(), &first[at], layers_);
+        colour_at_ = at;
+      } else if (item.type == item_type::kByte14) {
+        extra_bytes_.emplace(item.size, rule, point_.channel(), &first[at], layers_);
+        extra_bytes_at_ = at;
+      }
+      at += item.size;
+    }
+  }
+
+  void decode(std::span<std::byte> records) override {
+    for (std::size_t at = 0; at < records.size(); at += record_bytes_) {
+      std::byte* const to = records.data() + at;
+      point_.decode(to);
+      const unsigned channel = point_.channel();
+      const bool changed = point_.changed_channel();
+      if (colour_) colour_->decode(channel, changed, to + colour_at_);
+      if (extra_bytes_) extra_bytes_->decode(channel, changed, to + extra_bytes_at_);
+    }
+  }
+
+ private:
+  std::size_t record_bytes_;
+  Layers layers_;
+  Point14 point_;
+  std::optional<Colour> colour_;
+  std::optional<ExtraBytes> extra_bytes_;
+  std::size_t colour_at_ = 0, extra_bytes_at_ = 0;
+};
+
+}  // namespace
+
 std::size_t layer_count(const Layout& layout) {
   std::size_t count = Point14::kLayers;
   for (const Item& item : layout.items) {
@@ -81,36 +125,9 @@ std::size_t layer_count(const Layout& layout) {
   return count;
 }
 
-}  // namespace
-
-void decode_layered(const Layout& layout, std::span<const std::byte> compressed,
-                    std::span<std::byte> records) {
-  const std::byte* first = records.data();
-  Layers layers(compressed, layer_count(layout));
-  const auto point = std::make_unique<Point14>(first, layers);
-  const ChannelRule rule = layout.items[0].version == 3 ? ChannelRule::kVersion3 : ChannelRule::kVersion4;
-  std::unique_ptr<Colour> colour;
-  std::unique_ptr<ExtraBytes> extra_bytes;
-  std::size_t at = 0, colour_at = 0, extra_bytes_at = 0;
-  for (const Item& item : layout.items) {
-    if (item.type == item_type::kRgb14 || item.type == item_type::kRgbNir14) {
-      const bool has_nir = item.type == item_type::kRgbNir14;
-      colour = std::make_unique<Colour>(has_nir, rule, point->channel(), first + at, layers);
-      colour_at = at;
-    } else if (item.type == item_type::kByte14) {
-      extra_bytes = std::make_unique<ExtraBytes>(item.size, rule, point->channel(), first + at, layers);
-      extra_bytes_at = at;
-    }
-    at += item.size;
-  }
-
-  const std::size_t record_bytes = layout.record_bytes();
-  for (std::size_t record = record_bytes; record < records.size(); record += record_bytes) {
-    std::byte* to = records.data() + record;
-    point->decode(to);
-    if (colour) colour->decode(point->channel(), point->changed_channel(), to + colour_at);
-    if (extra_bytes) extra_bytes->decode(point->channel(), point->changed_channel(), to + extra_bytes_at);
-  }
+std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
+                                               std::span<const std::byte> first) {
+  return std::make_unique<LayeredDecoder>(layout, bytes, first);
 }
 
 }  // namespace lacuna::laz

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "io/laz/laz.hpp"
+#include "io/laz/record_decoder.hpp"
+
+#include <memory>
 
 namespace lacuna::laz {
 
-// The records of a chunk behind the first, which is in `records` already. `compressed`: what follows it in
-// the chunk.
-void decode_layered(const Layout& layout, std::span<const std::byte> compressed,
-                    std::span<std::byte> records);
+// The records of a chunk behind the first, which is not compressed.
+std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
+                                               std::span<const std::byte> first);
+
+std::size_t layer_count(const Layout& layout);
 
 }  // namespace lacuna::laz

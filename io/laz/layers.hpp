@@ -5,36 +5,37 @@
 #include "io/little_endian.hpp"
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace lacuna::laz {
 
 // A stream of one attribute, or nothing where the attribute is the first point's for all points.
 using Layer = std::optional<ArithmeticDecoder>;
 
-// Hands out layer after layer. The bytes are: the number of points, 4 bytes; the size of each layer, 4 bytes
-// each; the layers.
+// Hands out layer after layer. The bytes of the chunk from `begin` on are: the number of points, 4 bytes; the
+// size of each layer, 4 bytes each; the layers.
 class Layers {
  public:
-  Layers(std::span<const std::byte> bytes, std::size_t count) : sizes_(bytes), layers_(bytes) {
-    constexpr std::size_t kPointsBytes = 4;
-    if (bytes.size() < kPointsBytes + kSizeBytes * count)
-      throw Corrupt("a chunk of compressed points is cut");
-    sizes_ = bytes.subspan(kPointsBytes, kSizeBytes * count);
-    layers_ = bytes.subspan(kPointsBytes + kSizeBytes * count);
+  Layers(const ChunkBytes& bytes, std::uint64_t begin, std::size_t count)
+      : bytes_(bytes), layer_at_(begin + kPointsBytes + kSizeBytes * count) {
+    sizes_ = read_all(bytes, begin + kPointsBytes, layer_at_);
   }
 
   Layer next() {
-    const std::size_t size = load<std::uint32_t>(sizes_.data());
-    sizes_ = sizes_.subspan(kSizeBytes);
-    if (size > layers_.size()) throw Corrupt("a layer of compressed points is cut");
-    const auto layer = layers_.first(size);
-    layers_ = layers_.subspan(size);
-    return size == 0 ? Layer() : Layer(layer);
+    const std::uint64_t size = load<std::uint32_t>(&sizes_[kSizeBytes * next_++]);
+    if (size > bytes_.size() - layer_at_) throw Corrupt("a layer of compressed points is cut");
+    const std::uint64_t begin = layer_at_;
+    layer_at_ += size;
+    return size == 0 ? Layer() : Layer(std::in_place, bytes_, begin, layer_at_);
   }
 
  private:
-  static constexpr std::size_t kSizeBytes = 4;
-  std::span<const std::byte> sizes_, layers_;
+  static constexpr std::size_t kPointsBytes = 4, kSizeBytes = 4;
+  const ChunkBytes& bytes_;
+  std::vector<std::byte> sizes_;
+  std::size_t next_ = 0;
+  std::uint64_t layer_at_;  // of the next layer, in the chunk
 };
 
 }  // namespace lacuna::laz

@@ -1,28 +1,52 @@
 #include "io/laz/laz.hpp"
 
+#include "io/laz/arithmetic_decoder.hpp"
 #include "io/laz/layered.hpp"
 #include "io/laz/pointwise.hpp"
+#include "io/laz/symbol_model.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace lacuna::laz {
 
-void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
-                  std::span<std::byte> records) {
-  assert(records.size() == points * layout.record_bytes());
-  if (points == 0) return;
-  // The first point is not compressed.
-  const std::size_t record_bytes = layout.record_bytes();
-  if (chunk.size() < record_bytes)
-    throw Corrupt("a chunk of compressed points is shorter than its first point");
-  std::copy_n(chunk.begin(), record_bytes, records.begin());
-  if (points == 1) return;
-  if (layout.compressor == compressor::kLayeredChunked) {
-    decode_layered(layout, chunk.subspan(record_bytes), records);
-  } else {
-    decode_pointwise(layout, chunk.subspan(record_bytes), records);
+ChunkDecoder::ChunkDecoder(const Layout& layout, const ChunkBytes& bytes) : layout_(layout), bytes_(bytes) {}
+
+ChunkDecoder::~ChunkDecoder() = default;
+
+void ChunkDecoder::decode(std::span<std::byte> records) {
+  if (!records.empty() && first_.empty()) {
+    // The first point is not compressed.
+    const std::size_t record_bytes = layout_.record_bytes();
+    if (bytes_.size() < record_bytes)
+      throw Corrupt("a chunk of compressed points is shorter than its first point");
+    first_ = read_all(bytes_, 0, record_bytes);
+    std::copy(first_.begin(), first_.end(), records.begin());
+    records = records.subspan(record_bytes);
   }
+  if (records.empty()) return;
+  if (!rest_) {
+    rest_ = layout_.compressor == compressor::kLayeredChunked ? layered_decoder(layout_, bytes_, first_)
+                                                              : pointwise_decoder(layout_, bytes_, first_);
+  }
+  rest_->decode(records);
+}
+
+std::uint64_t decoder_bytes(const Layout& layout) {
+  // Models of all values of three fields, in four scanner channels.
+  constexpr std::uint64_t kPoints = std::uint64_t{2} << 20;
+  // A model for each scanner channel and one to copy, and the decoder of the layer.
+  constexpr std::uint64_t kLayeredByte = 5 * sizeof(SymbolModel<256>) + 128;
+  constexpr std::uint64_t kPointwiseByte = sizeof(SymbolModel<256>);
+  std::uint64_t bytes = kPoints;
+  for (const Item& item : layout.items) {
+    if (item.type == item_type::kByte) bytes += item.size * kPointwiseByte;
+    if (item.type == item_type::kByte14) bytes += item.size * kLayeredByte;
+  }
+  return bytes;
+}
+
+std::size_t stream_count(const Layout& layout) {
+  return layout.compressor == compressor::kLayeredChunked ? layer_count(layout) : 1;
 }
 
 }  // namespace lacuna::laz

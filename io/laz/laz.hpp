@@ -1,4 +1,4 @@
-// Decompresses the points of LAZ files: pure functions over bytes in memory, no file access.
+// Decompresses the points of LAZ files, whose bytes the caller provides: no file access.
 //
 // The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
 // Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -92,11 +93,57 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
 // file, or what is there.
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 
-// Decompresses the `points` records of a chunk, record_bytes() each, as they are in an uncompressed LAS file.
-// `records` holds exactly these. Thread-safe. Throws `Corrupt` where the chunk is cut or cannot be right;
-// never reads beyond `chunk`. Changed bytes inside a chunk are not always noticed: the format has no
-// checksum. Memory besides `records`: below 2 MB, and 2 KB for each extra byte and scanner channel.
-void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
-                  std::span<std::byte> records);
+// The compressed bytes of a chunk: in memory, or read piece by piece.
+class ChunkBytes {
+ public:
+  virtual ~ChunkBytes() = default;
+  virtual std::uint64_t size() const = 0;
+  // Bytes from `begin` on: at least one, at most up to `end`, which is behind `begin` and within the size.
+  // They may lie in `buffer`, which the caller leaves unchanged as long as it uses them.
+  virtual std::span<const std::byte> read(std::uint64_t begin, std::uint64_t end,
+                                          std::vector<std::byte>& buffer) const = 0;
+};
+
+class ChunkInMemory final : public ChunkBytes {
+ public:
+  explicit ChunkInMemory(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  std::span<const std::byte> read(std::uint64_t begin, std::uint64_t end,
+                                  std::vector<std::byte>&) const override {
+    return bytes_.subspan(begin, end - begin);
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+class RecordDecoder;
+
+// Decompresses the records of a chunk, record_bytes() each, as they are in an uncompressed LAS file: front to
+// back, as many at a time as the caller wants. Chunks may be decoded at the same time in several threads.
+// Throws `Corrupt` where the chunk is cut or cannot be right. Changed bytes inside a chunk are not always
+// noticed: the format has no checksum. Memory, whatever the size of the chunk: decoder_bytes(), and a buffer
+// for each stream where the bytes are read piece by piece.
+class ChunkDecoder {
+ public:
+  // Both outlive the decoder.
+  ChunkDecoder(const Layout& layout, const ChunkBytes& bytes);
+  ~ChunkDecoder();
+
+  // The next records, never more than the chunk has.
+  void decode(std::span<std::byte> records);
+
+ private:
+  const Layout& layout_;
+  const ChunkBytes& bytes_;
+  std::vector<std::byte> first_;         // the first record; empty before it was read
+  std::unique_ptr<RecordDecoder> rest_;  // null before the second record
+};
+
+// A bound on the memory of a decoder.
+std::uint64_t decoder_bytes(const Layout& layout);
+
+// The number of streams that a chunk consists of: 1, or one for each layer.
+std::size_t stream_count(const Layout& layout);
 
 }  // namespace lacuna::laz

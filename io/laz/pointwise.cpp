@@ -93,25 +93,32 @@ struct Items {
 };
 
 template <class Items>
-void decode_rest(const Layout& layout, std::span<const std::byte> compressed, std::span<std::byte> records) {
-  const std::size_t record_bytes = layout.record_bytes();
-  Items items(layout, records.data());
-  ArithmeticDecoder decoder(compressed);
-  for (std::size_t at = record_bytes; at < records.size(); at += record_bytes) {
-    items.decode(decoder, records.data() + at);
+class PointwiseDecoder final : public RecordDecoder {
+ public:
+  PointwiseDecoder(const Layout& layout, const ChunkBytes& bytes, std::span<const std::byte> first)
+      : record_bytes_(first.size()),
+        items_(layout, first.data()),
+        decoder_(bytes, record_bytes_, bytes.size()) {}
+
+  void decode(std::span<std::byte> records) override {
+    for (std::size_t at = 0; at < records.size(); at += record_bytes_)
+      items_.decode(decoder_, records.data() + at);
   }
-}
+
+ private:
+  std::size_t record_bytes_;
+  Items items_;
+  ArithmeticDecoder decoder_;
+};
 
 }  // namespace
 
-void decode_pointwise(const Layout& layout, std::span<const std::byte> compressed,
-                      std::span<std::byte> records) {
-  if (layout.items[0].version == 1) {
-    decode_rest<Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>>(
-        layout, compressed, records);
-  } else {
-    decode_rest<Items<Point10, GpsTime11, Rgb12, ExtraBytes>>(layout, compressed, records);
-  }
+std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,
+                                                 std::span<const std::byte> first) {
+  using Version1 = Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>;
+  using Version2 = Items<Point10, GpsTime11, Rgb12, ExtraBytes>;
+  if (layout.items[0].version == 1) return std::make_unique<PointwiseDecoder<Version1>>(layout, bytes, first);
+  return std::make_unique<PointwiseDecoder<Version2>>(layout, bytes, first);
 }
 
 }  // namespace lacuna::laz

@@ -2,6 +2,7 @@
 
 #include "io/line_words.hpp"
 #include "io/number.hpp"
+#include "io/scan_reader.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -15,7 +16,6 @@ namespace {
 
 // More than any real header has, little enough to give up on a file that is none.
 constexpr std::uint64_t kLongestHeader = 1 << 20;
-constexpr std::size_t kMostValues = 65536;
 
 // What has been read so far.
 struct Parser {
@@ -37,7 +37,10 @@ void parse_version(const Parser& parser, LineWords& words) {
 }
 
 void parse_fields(Parser& parser, LineWords& words) {
-  for (std::string_view word; words.next(word);) parser.header.fields.push_back({.name = std::string(word)});
+  for (std::string_view word; words.next(word);) {
+    if (parser.header.fields.size() == kMostColumns) parser.fail(kTooManyColumns);
+    parser.header.fields.push_back({.name = std::string(word)});
+  }
   if (parser.header.fields.empty()) parser.fail("no fields; x, y and z are needed");
 }
 
@@ -140,9 +143,7 @@ void require_types(const Parser& parser) {
       parser.fail("field " + in_quotes(field.name) + " has COUNT 0; at least 1 is needed");
     // Each count is below 2^32 and the sum stops early, so that it cannot overflow.
     values += field.count;
-    if (values > kMostValues) {
-      parser.fail("more than the " + std::to_string(kMostValues) + " values a point that are allowed");
-    }
+    if (values > kMostColumns) parser.fail(kTooManyColumns);
   }
 }
 

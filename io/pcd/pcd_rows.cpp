@@ -13,7 +13,7 @@ namespace lacuna {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
-constexpr std::size_t kMostColumns = 256;  // of a compressed file: each takes a stream
+constexpr std::size_t kMostHeldColumns = 256;  // of a compressed file: each takes a stream
 
 std::uint32_t read_size(InputFile& in) {
   std::array<std::byte, 4> bytes;
@@ -110,9 +110,9 @@ void PcdRows::open_block() {
   }
   const auto columns = std::count_if(header_.fields.begin(), header_.fields.end(),
                                      [](const PcdField& field) { return !field.is_padding(); });
-  if (static_cast<std::size_t>(columns) > kMostColumns) {
+  if (static_cast<std::size_t>(columns) > kMostHeldColumns) {
     in_.fail_at_byte(place, std::to_string(columns) + " fields; compressed files may have " +
-                                std::to_string(kMostColumns));
+                                std::to_string(kMostHeldColumns));
   }
 }
 

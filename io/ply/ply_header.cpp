@@ -82,6 +82,7 @@ void parse_property(Parser& parser, Words words) {
     if (!is_integer(*property.count_type)) parser.fail("the count of a list must have an integer type");
   }
   PlyElement& element = parser.header.elements.back();
+  if (element.properties.size() == kMostColumns) parser.fail(kTooManyColumns);
   if (!parser.properties.insert(property.name).second) {
     parser.fail("a second property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +
                 "; names must differ");

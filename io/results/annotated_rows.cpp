@@ -37,7 +37,7 @@ class JoinedRows final : public InputRows {
         reader_ = scan_.open(file_);
         sources_ = find_sources(reader_->layout(), joined_.properties);
       }
-      if (!reader_->next(rows_, max_rows)) continue;
+      if (!reader_->next(rows_, std::min(max_rows, scan_.batch_rows(file_)))) continue;
       block.resize(rows_.count * stride);
       copy_columns(stride, block.data());
       return rows_.count;

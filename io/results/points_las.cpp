@@ -113,7 +113,7 @@ class LasRows final : public InputRows {
     const auto& file = scan_.files()[file_];
     in_ = std::make_unique<InputFile>(file);
     header_ = read_las_header(*in_);
-    points_ = las_points(file, *in_, header_);
+    points_ = las_points(*in_, header_, scan_.memory());
     left_ = header_.points;
     transfer_.emplace(file.string(), header_, form_, scan_.poses()[file_]);
   }
@@ -125,8 +125,8 @@ class LasRows final : public InputRows {
   }
 
   std::size_t next_records(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) {
-    const std::uint64_t most =
-        std::min<std::uint64_t>(max_rows, std::max<std::size_t>(1, kBatchBytes / header_.record_bytes));
+    const std::uint64_t most = std::min(
+        {max_rows, scan_.batch_rows(file_), std::max<std::size_t>(1, kBatchBytes / header_.record_bytes)});
     const auto count = static_cast<std::size_t>(std::min(left_, most));
     if (count == 0) return 0;
     records_.resize(count * header_.record_bytes);

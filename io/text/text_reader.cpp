@@ -6,7 +6,9 @@
 #include "io/scalar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -93,6 +95,35 @@ bool has_position(const std::vector<std::string>& names) {
   return true;
 }
 
+constexpr std::size_t kSampleBytes = std::size_t{1} << 20;
+
+// Whether the first values of all sampled rows count up by one, as ids do: from 0 or 1 on, or from any number
+// where the three values behind it are no whole numbers. `first` has four fields at least; `others` are the
+// lines behind it, the last one perhaps cut.
+bool counts_rows(const Fields& first, std::string_view others, char separator) {
+  constexpr std::size_t kFewRows = 10;
+  std::array<double, 4> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!parse_number(first[i], values[i]) && !parse_foreign_number(first[i], values[i])) return false;
+  }
+  const auto is_whole = [](double value) { return std::trunc(value) == value; };
+  const bool is_from_start = values[0] == 0 || values[0] == 1;
+  if (!is_whole(values[0]) || (!is_from_start && std::any_of(values.begin() + 1, values.end(), is_whole)))
+    return false;
+  std::size_t rows = 1;
+  for (std::size_t end = others.find('\n'); end != others.npos; end = others.find('\n')) {
+    const std::string_view line = without_blanks(others.substr(0, end));
+    others.remove_prefix(end + 1);
+    if (line.empty() || is_comment(line)) continue;
+    std::string_view rest = line, field;
+    double value = 0;
+    if (!next_field(rest, separator, field) || !parse_number(field, value)) return false;
+    if (value != values[0] + static_cast<double>(rows)) return false;
+    ++rows;
+  }
+  return rows >= kFewRows;
+}
+
 // What stands before the rows.
 struct Preamble {
   std::string comment;                 // the last, without its sign
@@ -134,6 +165,7 @@ class TextReader final : public ScanReader {
     const Preamble preamble = read_preamble(in_);
     separator_ = find_separator(preamble.first);
     const Fields first = split(preamble.first, separator_);
+    if (first.size() > kMostColumns) in_.fail_at_line(in_.line(), kTooManyColumns);
     const bool has_header = !first.empty() && std::none_of(first.begin(), first.end(), is_numeric);
     if (first.empty() && preamble.count != std::uint64_t{0}) {
       in_.fail_at_line(in_.line(), std::string("the file ends here without a row; ") + kAllowed);
@@ -173,17 +205,26 @@ class TextReader final : public ScanReader {
 
  private:
   std::vector<std::string> find_names(const Preamble& preamble, const Fields& first, bool has_header,
-                                      const ReadOptions& options) const {
+                                      const ReadOptions& options) {
     const Fields given = split(options.columns, ' ');
     const bool is_mapping = options.columns.find('=') != std::string::npos;
     if (!given.empty() && !is_mapping) return column_names(given);
     if (has_header) return is_mapping ? mapped_names(column_names(first), given) : column_names(first);
     if (is_mapping)
       in_.fail_at_line(in_.line(), "no header line; names of columns can be given only in their order");
-    const auto in_comment = column_names(split(preamble.comment, find_separator(preamble.comment)));
-    if (in_comment.size() == first.size() && has_position(in_comment)) return in_comment;
+    const Fields comment = split(preamble.comment, find_separator(preamble.comment));
+    if (comment.size() == first.size()) {
+      const std::vector<std::string> in_comment = column_names(comment);
+      if (has_position(in_comment)) return in_comment;
+    }
     if (!first.empty() && first.size() < 3) {
       in_.fail_at_line(in_.line(), std::to_string(first.size()) + " values; at least x y z are needed");
+    }
+    if (first.size() >= 4 && counts_rows(first, in_.peek(kSampleBytes), separator_)) {
+      in_.fail_at_line(in_.line(), "no header line, and the first column counts the rows, in " +
+                                       in_quotes(preamble.first) +
+                                       " first; --columns says what the columns are, such as --columns "
+                                       "id,x,y,z or --columns x,y,z,a");
     }
     return default_names(first.size());
   }

@@ -1,4 +1,5 @@
 // Runs at a resolution: the method on the representatives, with ids and results of the whole input.
+#include "engine/run/error.hpp"
 #include "engine/thin/lattice.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
@@ -149,6 +150,28 @@ TEST_CASE("min_hole sets a fifth of it as resolution, and leaves smaller loops o
   REQUIRE(detected.loops.size() == 2);
   CHECK(detected.loops[0].measures.diameter > 100);  // the outer edge
   CHECK(detected.loops[1].measures.diameter > 30);
+}
+
+TEST_CASE("a resolution as large as the scan is an error that names its size") {
+  Config config;
+  config.scale.min_hole = 1000;
+  const auto error = [&] {
+    try {
+      run_engine(sheet(), config);
+    } catch (const Error& refused) {
+      return std::string(refused.what());
+    }
+    return std::string();
+  };
+  const std::string message = error();
+  CHECK_THAT(message, Catch::StartsWith("a resolution of 200, for holes of 1000, leaves ") &&
+                          Catch::Contains("the scan's size is 1") &&
+                          Catch::EndsWith("allowed: a smaller --min-hole"));
+  config = at_resolution(300);
+  CHECK_THAT(error(), Catch::StartsWith("a resolution of 300 leaves ") &&
+                          Catch::EndsWith("allowed: a smaller --resolution"));
+  config = at_resolution(20);
+  CHECK(error().empty());
 }
 
 // Sweeps with points one apart along them and six apart across; two of them are interrupted.

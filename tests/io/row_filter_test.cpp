@@ -72,13 +72,28 @@ TEST_CASE("classes and returns are chosen by their properties, whatever a progra
 }
 
 TEST_CASE("each row is counted by the first filter that refuses it, in each pass anew") {
-  const Filtered filtered = read_rows(
+  const ScratchFolder folder;
+  const Filtered filtered = read_filtered(
+      {folder.write("a.csv", kRows + "2 1 2 2 2 2\n")},
       {.bounds = {-1, -1, 3, 3}, .classes = {2, 1}, .returns = Returns::kLast, .drop_origin = true});
-  CHECK(filtered.kept.empty());
+  CHECK(filtered.kept == std::vector{6});
   CHECK(filtered.out.origin == 1);   // row 0
   CHECK(filtered.out.bounds == 1);   // row 4
   CHECK(filtered.out.classes == 2);  // rows 2 and 3
   CHECK(filtered.out.returns == 1);  // row 1
+}
+
+TEST_CASE("filters that leave no point are an error that names each of them and what there is") {
+  const auto error = [](const InputConfig& config) { return error_of([&] { read_rows(config); }); };
+  CHECK(
+      error({.classes = {99}}) ==
+      "the filters leave none of the 5 points: --classes leaves out 5, the classes here are 1 (1 points), 2 "
+      "(2 points), 6 (2 points)");
+  CHECK(error({.bounds = {10, 10, 11, 11}}) ==
+        "the filters leave none of the 5 points: --bounds leaves out 5, the scan lies from 0 0 0 to 4 4 4");
+  CHECK(error({.bounds = {-1, -1, 3, 3}, .classes = {1}, .drop_origin = true}) ==
+        "the filters leave none of the 5 points: --drop-origin leaves out 1; --bounds leaves out 1, the scan "
+        "lies from 1 1 1 to 4 4 4; --classes leaves out 3, the classes here are 2 (1 points), 6 (2 points)");
 }
 
 TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD names, before a pose") {

@@ -1,11 +1,15 @@
 // Memory is bounded by the setting, as the operating system measures it.
 #include "engine/config.hpp"
+#include "tests/io/las/las_file.hpp"
 #include "tests/support/hostile.hpp"
+#include "tests/support/laz_encoder.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 #include <catch2/catch.hpp>
 
@@ -167,6 +171,61 @@ TEST_CASE("two million points, most of them at the origin, stay within the memor
 
 TEST_CASE("two million points, one in a hundred far away, stay within the memory limit", "[.slow]") {
   check_limit(one_percent_far(kMany, 1));
+}
+
+// A file of few bytes: LAZ codes points that are alike in next to none.
+std::string laz_of_equal_points(std::uint32_t count, bool has_chunks) {
+  const std::string point = test::las_point(20, 1000, 2000, 3000);
+  laz::Layout layout = test::laz_layout(0, 0, count, 2);
+  if (!has_chunks) layout.compressor = laz::compressor::kPointwise;
+  const auto text = [](const test::LazBytes& bytes) {
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  const test::LasFile las{
+      .points = {point},
+      .records = {test::las_record("laszip encoded", 22204, text(test::laz_record(layout)))}};
+  std::string bytes = las.bytes();
+  bytes.resize(bytes.size() - point.size());
+  test::put(bytes, 104, std::uint8_t{0x80});
+  test::put(bytes, 107, count);
+  std::string points;
+  for (std::uint32_t i = 0; i < count; ++i) points += point;
+  const std::span records = std::as_bytes(std::span(points));
+  return bytes + text(has_chunks ? test::laz_point_data(layout, records, std::array{std::uint64_t{count}},
+                                                        bytes.size())
+                                 : test::laz_chunk(layout, records));
+}
+
+void check_laz_of_one_chunk(std::uint32_t points) {
+  const test::ScratchFolder scratch;
+  for (const bool has_chunks : {true, false}) {
+    const std::string scan = scratch.write("a.laz", laz_of_equal_points(points, has_chunks));
+    const test::ProgramResult result =
+        test::run_program({"info", scan, "--memory-limit", "64MiB", "--threads", "2"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CAPTURE(has_chunks, result.peak_memory >> 20);  // MiB
+    CHECK(result.peak_memory <= 64 << 20);
+  }
+}
+
+TEST_CASE("LAZ of one chunk larger than the memory limit stays within it, with and without a chunk table") {
+  check_laz_of_one_chunk(4'000'000);
+}
+
+TEST_CASE("LAZ of one chunk of 15 million points, 286 MiB, stays within the memory limit", "[.slow]") {
+  check_laz_of_one_chunk(15'000'000);
+}
+
+TEST_CASE("text of 500,000 columns is refused within the memory limit") {
+  const test::ScratchFolder scratch;
+  std::string line = "1";
+  for (int i = 1; i < 500'000; ++i) line += " 1";
+  const test::ProgramResult result =
+      test::run_program({"info", scratch.write("wide.xyz", line + "\n"), "--memory-limit", "64MiB"});
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.err, Catch::Contains("more than the 10,000 columns that are read"));
+  CHECK(result.peak_memory <= 64 << 20);
 }
 
 TEST_CASE("an eps ball that cannot fit in memory is refused in one line, before any is searched") {

@@ -1,4 +1,5 @@
 #include "engine/config.hpp"
+#include "tests/io/las/las_file.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 
@@ -462,6 +463,21 @@ TEST_CASE("info prints the size of the annotated scan, whatever the files hold")
       CHECK(told.at("points_bytes") == points.size() - header);
     }
   }
+}
+
+TEST_CASE("info reads a scan whose columns points.las cannot hold") {
+  const ScratchFolder scratch;
+  test::LasFile las{.minor = 2, .format = 0};
+  std::string descriptors;
+  for (int i = 0; i < 340; ++i) descriptors += test::las_extra_descriptor(std::to_string(i), 1);
+  las.records = {test::las_record("LASF_Spec", 4, descriptors)};
+  for (int i = 0; i < 100; ++i) las.points.push_back(test::las_point(20 + 340, i % 10, i / 10, 0));
+  const std::string scan = scratch.write("wide.las", las.bytes());
+  const ProgramResult info = run_program({"info", scan});
+  CHECK(info.exit_code == 0);
+  CHECK_THAT(info.out, Contains("points.las    cannot hold all columns; --points-format ply can"));
+  CHECK_THAT(run_program({"info", scan, "--json"}).out, Contains("\"points_bytes\": null"));
+  check_failure(run_program({"info", scan, "--points"}), 1, "--points-format ply holds them all");
 }
 
 TEST_CASE("info prints what files hold and what a run would take, and writes nothing") {

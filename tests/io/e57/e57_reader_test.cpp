@@ -371,6 +371,19 @@ TEST_CASE("the coordinate system of E57 is kept as it is written", "[e57]") {
                  "</coordinateMetadata>") == "PROJCS[\"a\",]]><");
 }
 
+TEST_CASE("scans and columns of E57 that take no bytes are refused beyond 64 values in a byte", "[e57]") {
+  const E57Folder folder;
+  const auto same = [](const std::string& name) { return e57_integers(name, 7, 7, {}); };
+  E57TestScan scan{.fields = {same("cartesianX"), same("cartesianY"), same("cartesianZ")}};
+  scan.fields[0].count = 10'000;
+  CHECK(folder.read({scan}).rows.size() == 10'000);
+  scan.fields[0].count = 100'000;
+  CHECK_THAT(folder.error(std::vector<E57TestScan>(200, scan)), Contains("at most 64 in a byte are read"));
+  scan.fields[0].count = 20'000;
+  for (int i = 0; i < 200; ++i) scan.fields.push_back(same("same" + std::to_string(i)));
+  CHECK_THAT(folder.error({scan}), Contains("the scans up to here have 4060000 values, in a file of "));
+}
+
 TEST_CASE("points of E57 without bits are all the same, at most as many as the file has bits", "[e57]") {
   const E57Folder folder;
   std::vector<std::int64_t> same(10'000, 7);

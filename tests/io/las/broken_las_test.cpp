@@ -1,10 +1,12 @@
 // Broken files of every point format, compressed and not.
+#include "engine/run/parallel.hpp"
 #include "io/las/las_header.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/laz_encoder.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <random>
 #include <span>
@@ -99,6 +101,61 @@ TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an
   CHECK(error_of([&] { open_scan(folder.write("a.laz", bytes), {}); })
             .ends_with("a.laz: byte " + std::to_string(points_at) + ": 10000000 points in only " +
                        std::to_string(bytes.size() - points_at) + " bytes"));
+}
+
+TEST_CASE("LAZ with two broken chunks: the error names the first, however many threads decode", "[io]") {
+  constexpr std::size_t kPoints = 20'000;
+  LasFile las = las_file(2, 0, 2 * kPoints);
+  const laz::Layout layout = laz_layout(0, 2, kPoints, 2);
+  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz_record(layout))));
+  std::string bytes = las.bytes();
+  const std::size_t half = kPoints * las.points[0].size(), points_at = bytes.size() - 2 * half;
+  const std::string points = bytes.substr(points_at);
+  bytes.resize(points_at);
+  put(bytes, 104, std::uint8_t{0x80});
+  // The first breaks at its end, the second at its beginning, so that its error comes first.
+  std::string first = as_text(laz_chunk(layout, std::as_bytes(std::span(points).first(half))));
+  std::string second = as_text(laz_chunk(layout, std::as_bytes(std::span(points).last(half))));
+  first.resize(first.size() - 100);
+  put(second, las.points[0].size(), std::uint32_t{0xffffffff});
+  const std::vector<laz::Chunk> chunks = {{0, first.size(), kPoints}, {0, second.size(), kPoints}};
+  put(bytes, points_at, std::uint64_t{points_at + 8 + first.size() + second.size()});
+  bytes += first + second + as_text(laz_chunk_table(layout, chunks));
+
+  const ScratchFolder folder;
+  const auto file = folder.write("a.laz", bytes);
+  for (const std::size_t threads : {1u, 2u, 8u}) {
+    std::string error;
+    TaskArena(threads).for_each(1, [&](std::size_t) { error = read_error(file); });
+    CHECK_THAT(error, Catch::EndsWith("byte " + std::to_string(points_at + 8) +
+                                      ": the compressed points end too early"));
+  }
+}
+
+// Drawn bytes are NaN, too.
+bool same_row(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or not", "[io]") {
+  const ScratchFolder folder;
+  for (const WholeFile& file : {compressed(2, 3, 2, {60'000, 60'000}), compressed(4, 7, 3, {60'000, 5}),
+                                compressed(1, 1, 1, {60'000}, false)}) {
+    const auto path = folder.write("a.laz", file.bytes);
+    INFO(file.name);
+    // Little more than what the models take, and much more than a chunk.
+    const Table blocks = read_table(path, 999, {.columns = "", .memory = 3 << 20});
+    const Table whole = read_table(path, 999, {.columns = "", .memory = 64 << 20});
+    CHECK(blocks.rows.size() == whole.rows.size());
+    CHECK(std::equal(blocks.rows.begin(), blocks.rows.end(), whole.rows.begin(), whole.rows.end(), same_row));
+  }
+}
+
+TEST_CASE("LAZ whose models alone take more than the memory is an error at once", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.laz", compressed(2, 3, 2, kFixed).bytes);
+  CHECK_THAT(error_of([&] { open_scan(file, {.columns = "", .memory = 1 << 20}); }),
+             Catch::Contains("allowed: a higher memory limit"));
 }
 
 TEST_CASE("LAS and LAZ: a broken file gives one error or all its points", "[io]") {

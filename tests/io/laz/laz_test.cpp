@@ -117,11 +117,33 @@ LazBytes random_records(const Layout& layout, std::size_t points, Random& random
   return records;
 }
 
+void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::span<std::byte> records) {
+  const laz::ChunkInMemory bytes(chunk);
+  laz::ChunkDecoder(layout, bytes).decode(records);
+}
+
 LazBytes decoded(const Layout& layout, const LazBytes& chunk, std::uint64_t points) {
   LazBytes records(points * layout.record_bytes());
-  laz::decode_chunk(layout, chunk, points, records);
+  decode_chunk(layout, chunk, records);
   return records;
 }
+
+// Bytes that come a few at a time, into the reader's buffer.
+class ChunkInPieces final : public laz::ChunkBytes {
+ public:
+  ChunkInPieces(const LazBytes& chunk, std::size_t piece) : chunk_(chunk), piece_(piece) {}
+  std::uint64_t size() const override { return chunk_.size(); }
+  std::span<const std::byte> read(std::uint64_t begin, std::uint64_t end,
+                                  std::vector<std::byte>& buffer) const override {
+    const auto all = std::span(chunk_).subspan(begin, std::min<std::uint64_t>(end - begin, piece_));
+    buffer.assign(all.begin(), all.end());
+    return buffer;
+  }
+
+ private:
+  const LazBytes& chunk_;
+  std::size_t piece_;
+};
 
 LazBytes mutated_bytes(const LazBytes& whole, std::uint32_t seed, std::uint32_t number) {
   const std::string changed =
@@ -170,8 +192,8 @@ LazBytes records_of_file(const LazBytes& file) {
        laz::read_chunk_table(layout, std::span(file).subspan(table), data + 8, table, points)) {
     const std::size_t before = records.size();
     records.resize(before + chunk.points * layout.record_bytes());
-    laz::decode_chunk(layout, std::span(file).subspan(chunk.offset, chunk.bytes), chunk.points,
-                      std::span(records).subspan(before));
+    decode_chunk(layout, std::span(file).subspan(chunk.offset, chunk.bytes),
+                 std::span(records).subspan(before));
   }
   return records;
 }
@@ -304,6 +326,31 @@ TEST_CASE("a chunk with changed bytes gives records or an error", "[laz]") {
     }
   }
   CHECK(errors > 0);
+}
+
+TEST_CASE("a chunk has the same points, however few of its bytes and points are decoded at a time", "[laz]") {
+  Random random(7);
+  constexpr std::size_t kPoints = 300;
+  for (const Case& c : kCases) {
+    const Layout layout = layout_of(c);
+    const LazBytes whole = plausible_records(layout, kPoints, random);
+    const LazBytes chunk = laz_chunk(layout, whole);
+    for (const std::size_t piece : {1u, 7u, 512u}) {
+      for (const std::size_t block : {1u, 2u, 77u, 1000u}) {
+        const ChunkInPieces bytes(chunk, piece);
+        laz::ChunkDecoder decoder(layout, bytes);
+        LazBytes records(whole.size());
+        std::span<std::byte> left = records;
+        while (!left.empty()) {
+          const std::size_t count = std::min(left.size(), block * layout.record_bytes());
+          decoder.decode(left.first(count));
+          left = left.subspan(count);
+        }
+        INFO(name(c) << ", pieces of " << piece << " bytes, blocks of " << block << " points");
+        CHECK((records == whole));
+      }
+    }
+  }
 }
 
 TEST_CASE("a chunk with changed sizes of layers gives records or an error", "[laz]") {

@@ -1,6 +1,7 @@
 #include "tests/io/broken_files.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -48,6 +49,50 @@ TEST_CASE("columns are named by the options, else by a header line, else by plac
   CHECK(read_table(file, 10, {.columns = "z y x a b c"}).names == Names{"z", "y", "x", "a", "b", "c"});
   CHECK(read_table(file, 10, {.columns = "z y x a b c"}).rows.size() == 1);
   CHECK(read_table(folder.write("a.csv", "\"x\",\"y\",\"z\"\n1,2,3\n")).names == Names{"x", "y", "z"});
+}
+
+std::string rows(int count, const std::function<std::string(int)>& row) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += row(i) + "\n";
+  return text;
+}
+
+TEST_CASE("a first column that counts the rows is not taken for x", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text) { return read_error(folder.write("a.csv", text)); };
+  const auto number = [](int i) { return std::to_string(i); };
+  const auto places = [&](int i) { return number(i * i) + ".5," + number(7 * i % 5) + ".25,1.75"; };
+  const std::string ids = rows(50, [&](int i) { return number(i) + "," + places(i); });
+  CHECK_THAT(error(ids), Catch::Contains("line 1: no header line, and the first column counts the rows, in "
+                                         "'0,0.5,0.25,1.75' first; --columns"));
+  CHECK_THAT(error(rows(50, [](int i) { return std::to_string(i + 1) + " 3 4 5 6"; })),
+             Catch::Contains("counts the rows"));
+  CHECK_THAT(error(rows(50, [&](int i) { return number(i + 1001) + "," + places(i); })),
+             Catch::Contains("counts the rows"));
+  const auto file = folder.write("a.csv", ids);
+  CHECK(read_table(file, 1000, {.columns = "id x y z"}).rows.size() == 50);
+  CHECK(read_table(folder.write("a.csv", "id,x,y,z\n" + ids)).rows.size() == 50);
+}
+
+TEST_CASE("x on a grid is x", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text) { return read_error(folder.write("a.xyz", text)); };
+  const auto number = [](int i) { return std::to_string(i); };
+  // A depth image without and with a fourth value, a row of a height model, a short profile.
+  CHECK(error(rows(60, [&](int i) { return number(i) + " 0 1.5"; })).empty());
+  CHECK(error(rows(60, [&](int i) { return number(i % 20) + " " + number(i / 20) + " 1.5 7"; })).empty());
+  CHECK(error(rows(60, [&](int i) { return number(500000 + i) + " 5400000 312.5 1"; })).empty());
+  CHECK(error(rows(9, [&](int i) { return number(i) + " 0 1.5 7"; })).empty());
+  CHECK(error(rows(60, [&](int i) { return number(2 * i) + " 0 1.5 7"; })).empty());
+}
+
+TEST_CASE("text of more than 10,000 columns is refused", "[io]") {
+  const ScratchFolder folder;
+  std::string line = "1";
+  for (int i = 1; i < 10'000; ++i) line += " 1";
+  CHECK(read_table(folder.write("a.xyz", line + "\n")).names.size() == 10'000);
+  CHECK_THAT(read_error(folder.write("a.xyz", line + " 1\n")),
+             Catch::Contains("line 1: more than the 10,000 columns that are read"));
 }
 
 TEST_CASE("a header line may be divided by something else than the rows", "[io]") {

@@ -1,0 +1,16 @@
+// What the two kinds of chunks have in common.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace lacuna::laz {
+
+// Decodes the records of a chunk behind the first, front to back.
+class RecordDecoder {
+ public:
+  virtual ~RecordDecoder() = default;
+  virtual void decode(std::span<std::byte> records) = 0;
+};
+
+}  // namespace lacuna::laz
