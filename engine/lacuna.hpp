@@ -44,7 +44,7 @@ struct Holes {
 // holds the workspace, which is gone at the end.
 //
 // Cost: O(n log n) time; in memory the input, the results, and what `run.memory_limit` allows; on disk some
-// 100 bytes per point (`estimate` in engine/pipeline.hpp measures it). Calls from several threads are
+// 100 bytes per point (docs/usage.md says how many). Calls from several threads are
 // independent of each other.
 Holes find_holes(std::span<const Eigen::Vector3d> points, const Config& config = {});
 

@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and those
-// that the config asks for; the annotated scan in its format (io/results/points.hpp).
+// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and
+// those that the config asks for; the annotated scan in its format (io/results/points.hpp).
 std::vector<std::filesystem::path> result_files(const FileScan& scan, const Config& config,
                                                 const std::filesystem::path& folder);
 
@@ -30,8 +30,8 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
 
-// How a report.html begins. It is made of the other results once these have their names (io/report/report.hpp);
-// write_results removes that of an earlier run.
+// How a report.html begins. It is made of the other results once these have their names
+// (io/report/report.hpp); write_results removes that of an earlier run.
 inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
 // How a file of JSON begins: an earlier one is recognised by it.
@@ -65,6 +65,9 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 // these; compressed ones only where a report is wanted.
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
+
+// Bytes of its rows; 4 more from 2^32 points on.
+std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config);
 
 // The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the
 // coordinates of the scan. The same grid gives the same bytes. Throws `Error`.
