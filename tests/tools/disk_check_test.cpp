@@ -62,7 +62,7 @@ TEST_CASE("a disk that is too small for the workspace or for the results is a wa
   REQUIRE(warnings.size() == 2);
   CHECK_THAT(warnings[0], Contains("ws: ") && Contains("are free on this disk, and the run needs about ") &&
                               Contains("--workspace names a folder on another one"));
-  CHECK_THAT(warnings[1], Contains("out: ") && Contains("the run needs about 313 KiB; --out names"));
+  CHECK_THAT(warnings[1], Contains("out: ") && Contains("the run needs about 312 KiB; --out names"));
 }
 
 TEST_CASE("workspace and results on one disk need space for both") {
