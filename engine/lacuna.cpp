@@ -1,8 +1,8 @@
 #include "engine/lacuna.hpp"
 
+#include "engine/points_in_memory.hpp"
 #include "engine/store/temporary_folder.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,34 +11,6 @@ namespace lacuna {
 namespace {
 
 using Vectors = std::span<const Eigen::Vector3d>;
-
-constexpr std::size_t kBatch = 1 << 16;
-
-// Points in memory as a source: batches are copies.
-class PointsInMemory final : public PointSource {
- public:
-  PointsInMemory(Vectors points, Vectors normals) : points_(points), normals_(normals) {}
-
-  void rewind() override { next_ = 0; }
-
-  bool next(PointBatch& batch) override {
-    const std::size_t count = std::min(kBatch, points_.size() - next_);
-    const auto copy = [&](Vectors all) {
-      const Vectors part = all.empty() ? all : all.subspan(next_, count);
-      return std::vector(part.begin(), part.end());
-    };
-    batch = {PointId{next_}, {}, copy(points_), copy(normals_)};
-    next_ += count;
-    return count > 0;
-  }
-
-  std::optional<std::uint64_t> expected_points() const override { return points_.size(); }
-  bool has_normals() const override { return !normals_.empty(); }
-
- private:
-  Vectors points_, normals_;
-  std::size_t next_ = 0;
-};
 
 }  // namespace
 

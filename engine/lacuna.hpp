@@ -44,8 +44,8 @@ struct Holes {
 // holds the workspace, which is gone at the end.
 //
 // Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
-// `run.memory_limit` allows. The disk takes some 100 bytes per point (`estimate` in engine/pipeline.hpp
-// measures it). Calls from several threads are independent of each other.
+// `run.memory_limit` allows. The disk takes some 100 bytes per point (docs/usage.md says how many). Calls
+// from several threads are independent of each other.
 Holes find_holes(std::span<const Eigen::Vector3d> points, const Config& config = {});
 
 // Finds the loops with known normals, one per point, of any length; NaN or zero where one is not known.

@@ -11,10 +11,9 @@
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
+#include "engine/summarise.hpp"
 #include "engine/thin/bucket_input.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -23,72 +22,10 @@
 namespace lacuna {
 namespace {
 
-double diagonal(const Eigen::AlignedBox3d& bounds) {
-  return bounds.isEmpty() ? 0 : std::sqrt(squared_distance(bounds.max(), bounds.min()));
-}
-
-double eps_length(const NeighbourhoodConfig& config, double extent) {
-  return config.eps > 0 ? config.eps : config.eps_fraction * extent;
-}
-
-// Counts and bounds are of the input, not of the representatives.
-Summary summarise(const Bucketed& bucketed, const Job& job) {
-  const auto& [thinned, survey, tile_points, store] = bucketed;
-  Summary summary;
-  summary.counts.points = survey.points;
-  summary.counts.dropped = survey.dropped;
-  summary.bounds = survey.bounds;
-  if (thinned) {
-    summary.resolution = thinned->resolution;
-    summary.counts.points = thinned->points;
-    summary.counts.dropped = thinned->dropped;
-    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
-    summary.bounds = thinned->bounds;
-  }
-  summary.tiles = store.tiling().tiles.size();
-  summary.tile_points = tile_points;
-  summary.threads = job.arena.threads();
-  summary.memory_limit = job.memory.limit;
-  return summary;
-}
-
 // The one place where the method is chosen.
 std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
   if (job.config.loops.method == LoopMethod::kPaper) return std::make_unique<PaperBoundary>(store, job);
   return std::make_unique<TangentialBoundary>(store, job);
-}
-
-// The bytes of a point in the workspace, for a clean scan.
-std::uint64_t bytes_per_point(const PointSource& scan, const Config& config, Precision precision,
-                              std::uint64_t tile_points) {
-  const std::uint64_t stored = precision == Precision::kSingle ? 16 : sizeof(StoredPoint);
-  const std::uint64_t normals = scan.has_normals() ? sizeof(StoredNormal) : 0;
-  // Lists between tiles (halo edges, belts, open stars) hold points along borders: measured on clean
-  // surfaces; noisy scans took up to three times the whole.
-  const auto exchanged = static_cast<std::uint64_t>(16500 / std::sqrt(static_cast<double>(tile_points)));
-  // Normals, the tiles' spanning forests, and all edges of these once more while they are sorted.
-  const std::uint64_t orientation =
-      config.normals.orient ? sizeof(StoredNormal) + 2 * sizeof(OrientationEdge) : 0;
-  const std::uint64_t results = config.output.points ? sizeof(StoredResult) : 0;
-  const std::uint64_t voxels = config.output.vdb ? sizeof(float) + sizeof(ProbabilityVoxel) + 20
-                                                 : 0;  // at most one for each point, sorted
-  const std::uint64_t kept = scan.reads_slowly() ? (scan.has_normals() ? 6 : 3) * sizeof(double) : 0;
-  return stored + normals + std::max(kept, exchanged + orientation + results + voxels);
-}
-
-void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
-  Counts& counts = summary.counts;
-  counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
-  counts.candidates = totals.candidates;
-  counts.undefined_normals = totals.undefined_normals;
-  counts.boundary_edges = found.edges;
-  counts.components = found.components;
-  counts.raw_loops = found.raw;
-  summary.mean_neighbours = totals.mean_neighbours();
-  summary.mean_edge_length = totals.mean_edge_length();
-  summary.probabilities = totals.probabilities;
-  summary.eps = eps;
-  summary.e = found.minimum_loop;
 }
 
 }  // namespace
@@ -102,7 +39,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // Survey and bucket: where the points are, and the points in tiles on disk.
   Bucketed bucketed = bucket_input(scan, job);
   const TileStore& store = bucketed.store;
-  const double extent = diagonal(bucketed.survey.bounds);
+  const double extent = extent_of(bucketed.survey.bounds);
   const double eps = eps_length(config.neighbourhood, extent);
   Summary summary = summarise(bucketed, job);
 
@@ -145,35 +82,6 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
       candidates, store, job);
   if (!bucketed.thinned || !config.output.points) return detection;
   return spread_results(std::move(detection), std::move(*bucketed.thinned->represented), job);
-}
-
-Estimate estimate(PointSource& scan, const Config& given, const std::filesystem::path& workspace,
-                  Progress& progress) {
-  check_config(given);
-  const Config config = with_min_hole(given);
-  Job job(config, workspace, progress);
-  const Bucketed bucketed = bucket_input(scan, job);
-  const Tiling& tiling = bucketed.store.tiling();
-  Estimate estimate{.summary = summarise(bucketed, job)};
-  estimate.summary.phases = job.phases;
-  estimate.cell_size = bucketed.survey.grid.edge();
-  estimate.cells = tiling.cells.size();
-  const std::uint64_t points = bucketed.survey.points - bucketed.survey.dropped;
-  estimate.workspace_bytes =
-      points * bytes_per_point(scan, config, bucketed.survey.precision(), bucketed.tile_points);
-  if (bucketed.thinned) {
-    const std::uint64_t represented = config.output.points ? sizeof(Represented) + sizeof(PointResult) : 0;
-    estimate.workspace_bytes += 2 * points * sizeof(Representative) + bucketed.thinned->points * represented;
-  }
-  return estimate;
-}
-
-std::uint64_t least_workspace_bytes(const PointSource& scan, const Config& config) {
-  constexpr std::uint64_t kTilePoints = 1'000'000;
-  const bool is_thinned = config.scale.resolution > 0 || config.scale.min_hole > 0;
-  return is_thinned ? 0
-                    : scan.expected_points().value_or(0) *
-                          bytes_per_point(scan, config, Precision::kSingle, kTilePoints);
 }
 
 }  // namespace lacuna

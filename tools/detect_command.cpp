@@ -8,6 +8,7 @@
 #include "io/file_scan.hpp"
 #include "io/report/report.hpp"
 #include "io/results/results.hpp"
+#include "tools/disk_check.hpp"
 #include "tools/input_files.hpp"
 #include "tools/log_file.hpp"
 #include "tools/overall_progress.hpp"
@@ -80,7 +81,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
   TemporaryFolder workspace(parent.path(), config.run.workspace.empty() ? kTemporaryPrefix : "lacuna-");
   if (arguments.keep_workspace) workspace.keep();
-  for (const std::string& warning : machine_warnings(scan, config, parent.path()))
+  for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
+  for (const std::string& warning : check_disks(scan, config, parent.path(), out))
     spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress, expected_stages(config));

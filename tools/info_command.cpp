@@ -1,14 +1,14 @@
 #include "tools/info_command.hpp"
 
 #include "engine/config.hpp"
-#include "engine/pipeline.hpp"
+#include "engine/estimate.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
-#include "io/results/results.hpp"
+#include "io/results/result_bytes.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -32,11 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Measured: points per second of a whole `lacuna detect` with default parameters, on two threads.
-constexpr double kPointsPerSecond = 1'900'000;
-constexpr double kMeasuredThreads = 2;
-// Measured: points per second that are read to choose the resolution, and read and thinned out.
-constexpr double kThinnedPerSecond = 4'000'000;
+// Measured: rows per second of sample.ply, of the annotated scan and of the report.
+constexpr double kRowsPerSecond = 4'000'000;
+constexpr double kStartSeconds = 0.06;  // measured: a process without a scan
 
 struct InfoArguments {
   explicit InfoArguments(CLI::App& command) : parameters(command) {}
@@ -57,7 +55,8 @@ struct FileInfo {
 struct RunInfo {
   Estimate estimate;
   std::string points_file;
-  std::optional<std::uint64_t> points_bytes;  // none: it cannot be written
+  std::optional<std::uint64_t> points_bytes;  // with --points; none: they cannot be written
+  ResultBytes results;
   double seconds = 0;
 };
 
@@ -92,14 +91,18 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   run.estimate = estimate(scan, config, workspace.path(), silence);
   const Summary& summary = run.estimate.summary;
+  const Counts& counts = summary.counts;
+  const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
   run.points_file = points_file(scan, config.output);
   run.points_bytes = points_bytes(scan, config.output);
-  if (run.points_bytes) *run.points_bytes *= summary.counts.points;
+  if (run.points_bytes) *run.points_bytes *= counts.points;
+  run.results = result_bytes(scan, config, counts.points, points);
 
-  const double threads = std::max<double>(1, static_cast<double>(summary.threads));
-  const std::uint64_t points = summary.counts.points - summary.counts.thinned_out;
-  run.seconds = static_cast<double>(points) / kPointsPerSecond * kMeasuredThreads / threads +
-                static_cast<double>(summary.counts.thinned_out) / kThinnedPerSecond;
+  const std::uint64_t sampled = std::min(points, static_cast<std::uint64_t>(config.output.sample_points));
+  const std::uint64_t rows =
+      sampled + (config.output.report ? sampled : 0) + (config.output.points ? counts.points : 0);
+  run.seconds = run.estimate.seconds +
+                run.estimate.slowdown * (kStartSeconds + static_cast<double>(rows) / kRowsPerSecond);
   return run;
 }
 
@@ -108,11 +111,6 @@ std::string print_point(const Eigen::Vector3d& point) {
   out.precision(10);
   out << point.x() << " " << point.y() << " " << point.z();
   return out.str();
-}
-
-std::string assumption() {
-  return "assuming " + print_count(static_cast<std::uint64_t>(kPointsPerSecond)) + " points/s on " +
-         std::to_string(static_cast<int>(kMeasuredThreads)) + " threads, and twice that on twice as many";
 }
 
 void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
@@ -144,14 +142,16 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << print_count(summary.tile_points) << " points"
             << "\n  cells         " << print_count(run.estimate.cells) << ", of size "
             << run.estimate.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
-            << "\n  threads       " << summary.threads << "\n  workspace     "
-            << print_size(run.estimate.workspace_bytes)
-            << " on disk; up to three times that if the scan is noisy"
-            << "\n  " << run.points_file << "    "
-            << (run.points_bytes ? print_size(*run.points_bytes) + ", with --points"
+            << "\n  threads       " << summary.threads << "\n  memory        about "
+            << print_size(run.estimate.memory) << " at the peak\n  workspace     about "
+            << print_size(run.estimate.disk.most) << " on disk\n  results       about "
+            << print_size(run.results.all()) << " on disk, and more with more holes\n  " << run.points_file
+            << "    " 
+            << (run.points_bytes ? print_size(*run.points_bytes) +
+                                       (run.results.points > 0 ? ", in these results" : ", with --points")
                                  : "cannot hold all columns; --points-format ply can")
-            << "\n  other output  depends on the holes found"
-            << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
+            << "\n  time          about " << print_duration(run.seconds)
+            << ", with what else this machine does now\n";
 }
 
 void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
@@ -183,11 +183,12 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   root["cell_size"] = run.estimate.cell_size;
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
-  root["workspace_bytes"] = run.estimate.workspace_bytes;
+  root["memory_bytes"] = run.estimate.memory;
+  root["workspace_bytes"] = run.estimate.disk.most;
+  root["results_bytes"] = run.results.all();
   root["points_file"] = run.points_file;
   root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
   root["estimated_seconds"] = run.seconds;
-  root["estimate"] = assumption();
   std::cout << print(root, 2) << "\n";
 }
 

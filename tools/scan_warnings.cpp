@@ -1,6 +1,5 @@
 #include "tools/scan_warnings.hpp"
 
-#include "engine/pipeline.hpp"
 #include "engine/run/machine_memory.hpp"
 #include "io/results/points.hpp"
 #include "tools/summary.hpp"
@@ -51,22 +50,11 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
   return warnings;
 }
 
-std::vector<std::string> machine_warnings(const FileScan& scan, const Config& config,
-                                          const std::filesystem::path& workspace) {
-  std::vector<std::string> warnings;
-  if (const std::uint64_t memory = machine_memory(); config.run.memory_limit > memory) {
-    warnings.push_back("the memory limit of " + print_size(config.run.memory_limit) + " is above the " +
-                       print_size(memory) + " of this machine");
-  }
-  const std::uint64_t needed = least_workspace_bytes(scan, config);
-  std::error_code error;
-  const std::filesystem::space_info space = std::filesystem::space(workspace, error);
-  if (!error && space.available < needed) {
-    warnings.push_back(visible(workspace.string()) + ": " + print_size(space.available) +
-                       " are free on this disk, and the run needs about " + print_size(needed) +
-                       "; --workspace names a folder on another one");
-  }
-  return warnings;
+std::vector<std::string> memory_warnings(const Config& config) {
+  const std::uint64_t memory = machine_memory();
+  if (config.run.memory_limit <= memory) return {};
+  return {"the memory limit of " + print_size(config.run.memory_limit) + " is above the " +
+          print_size(memory) + " of this machine"};
 }
 
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config) {

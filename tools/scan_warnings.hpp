@@ -17,10 +17,8 @@ std::string crs_name(const std::string& crs);
 // whose coordinate reference system is not that of the first.
 std::vector<std::string> input_warnings(const FileScan& scan);
 
-// Before a run: a memory limit above the machine's memory, and a disk with less free space than the run
-// needs.
-std::vector<std::string> machine_warnings(const FileScan& scan, const Config& config,
-                                          const std::filesystem::path& workspace);
+// Before a run: a memory limit above the machine's memory.
+std::vector<std::string> memory_warnings(const Config& config);
 
 // After a run: too few points for their neighbourhoods, coordinates that are too coarse for their spacing,
 // and rows that points.las cannot hold.

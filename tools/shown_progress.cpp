@@ -136,7 +136,10 @@ class PlainProgress final : public ShownProgress {
     print_line(line + " " + print_duration(state.stage_seconds) + ", " +
                print_rate(state.done, state.stage_seconds));
   }
-  void show_end(const ProgressState&, const std::string& line) override { print_line("lacuna: " + line); }
+  void show_end(const ProgressState& state, const std::string& line) override {
+    const double seconds_left = state.overall.seconds_left.value_or(0);
+    print_line("lacuna: " + line + (seconds_left >= 1 ? "; " + time_left(seconds_left) : ""));
+  }
 };
 
 class JsonProgress final : public ShownProgress {

@@ -1,5 +1,6 @@
 #include "tools/summary.hpp"
 
+#include "engine/run/machine_memory.hpp"
 #include "tools/measures_text.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
@@ -9,8 +10,6 @@
 #include <cstdio>
 #include <sstream>
 #include <utility>
-
-#include <sys/resource.h>
 
 namespace lacuna {
 namespace {
@@ -226,26 +225,6 @@ std::string print_count(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
   return text;
-}
-
-std::string print_size(std::uint64_t bytes) {
-  constexpr const char* kNames[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-  if (bytes < 1024) return std::to_string(bytes) + " bytes";
-  double size = static_cast<double>(bytes) / 1024;
-  std::size_t unit = 0;
-  while (size >= 1024) {
-    size /= 1024;
-    ++unit;
-  }
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, size < 10 ? "%.1f %s" : "%.0f %s", size, kNames[unit]);
-  return buffer;
-}
-
-std::uint64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 }  // namespace lacuna

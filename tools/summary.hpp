@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
+#include "engine/run/disk_space.hpp"
 #include "io/file_scan.hpp"
 
 #include <cstdint>
@@ -33,7 +34,5 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered);
 std::string print_table(const std::vector<std::vector<std::string>>& rows);
 
 std::string print_count(std::uint64_t count);  // "1,234,567"
-std::string print_size(std::uint64_t bytes);   // "1.5 GiB", for people; exact: print_bytes
-std::uint64_t peak_memory();                   // bytes resident, as the operating system measures it
 
 }  // namespace lacuna

@@ -1,13 +1,23 @@
 #include "engine/halo/eps_balls.hpp"
 
 #include "engine/halo/distance_bound.hpp"
+#include "engine/model/neighbourhoods.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <sstream>
 
 namespace lacuna {
+
+double extent_of(const Eigen::AlignedBox3d& bounds) {
+  return bounds.isEmpty() ? 0 : std::sqrt(squared_distance(bounds.max(), bounds.min()));
+}
+
+double eps_length(const NeighbourhoodConfig& config, double extent) {
+  return config.eps > 0 ? config.eps : config.eps_fraction * extent;
+}
 
 std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most) {
   // A neighbour is in the list of its ball and in the neighbourhood.

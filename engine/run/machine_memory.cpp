@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include <fcntl.h>
@@ -41,6 +42,18 @@ ResidentMemory resident_memory() {
   const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)),
                       all = std::strtoull(field, &field, 10), mapped = std::strtoull(field, &field, 10);
   return {all * page, mapped * page};
+}
+
+// Not by getrusage, which counts the process that started this one, too.
+std::uint64_t peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    std::istringstream words(line);
+    std::string key;
+    std::uint64_t kilobytes = 0;
+    if (words >> key && key == "VmHWM:" && words >> kilobytes) return kilobytes * 1024;
+  }
+  return 0;
 }
 
 void release_symbol_tables() {

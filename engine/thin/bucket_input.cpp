@@ -2,6 +2,7 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
 #include "engine/survey/survey_scan.hpp"
@@ -15,10 +16,18 @@
 namespace lacuna {
 namespace {
 
+// Raw points of tiles are all written. Those that are set aside may be copies of a few.
+std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
+  std::uint64_t points = 0;
+  for (const Tile& tile : plan.tiles) points += tile.raw;
+  return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
+}
+
 Bucketed bucket_points(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
   const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
   TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
+  require_space(job.workspace, least_store_bytes(plan, survey.precision()));
   TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
   return {{}, std::move(survey), tile_points, std::move(store)};
 }

@@ -66,6 +66,9 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
 
+// Bytes of its rows; 4 more from 2^32 points on.
+std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config);
+
 // The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the
 // coordinates of the scan. Equal grids give equal bytes. Throws `Error`.
 void write_probability_grid(const Detection& detection, OutputFile& out);

@@ -1,8 +1,7 @@
+#include "engine/run/machine_memory.hpp"
 #include "io/results/json.hpp"
 #include "io/results/results.hpp"
 
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 namespace lacuna {
@@ -10,18 +9,6 @@ namespace {
 
 double points_per_second(std::uint64_t points, double seconds) {
   return static_cast<double>(points) / seconds;
-}
-
-// The most memory this process has held so far.
-Json peak_memory_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    std::istringstream words(line);
-    std::string key;
-    std::uint64_t kilobytes = 0;
-    if (words >> key && key == "VmHWM:" && words >> kilobytes) return kilobytes * 1024;
-  }
-  return nullptr;
 }
 
 }  // namespace
@@ -46,7 +33,8 @@ void write_run(const Detection& detection, const Config& config, OutputFile& out
   }
   json["total_seconds"] = total_seconds;
   json["points_per_second"] = points_per_second(summary.counts.points, total_seconds);
-  json["peak_memory_bytes"] = peak_memory_bytes();
+  const std::uint64_t peak = peak_memory();
+  json["peak_memory_bytes"] = peak > 0 ? Json(peak) : Json();
   json["cores"] = std::thread::hardware_concurrency();
   out.write(print(json, 2) + "\n");
 }

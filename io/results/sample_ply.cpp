@@ -5,6 +5,7 @@
 #include "io/results/results.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -17,6 +18,15 @@ namespace {
 bool is_colour(std::string_view property) {
   return std::find(std::begin(kColourNames), std::end(kColourNames), property) != std::end(kColourNames);
 }
+
+RowLayout colour_columns(const FileScan& scan, const OutputConfig& config) {
+  const bool with_colours = config.report || !scan.reads_slowly();
+  return join_layouts(scan.layouts(), [&](const RowLayout& layout, std::size_t i) {
+    return !with_colours || !is_colour(layout.properties[i].name);
+  });
+}
+
+constexpr std::array kComputed = {"nx", "ny", "nz", "scalar_probability"};
 
 // Colours of chosen rows, which are requested in ascending id.
 class ColourRows {
@@ -44,18 +54,20 @@ class ColourRows {
 
 }  // namespace
 
+std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config) {
+  const std::uint64_t position = 3 * (scan.single_precision() ? sizeof(float) : sizeof(double));
+  const std::uint64_t id = sizeof(std::uint32_t);
+  return position + id + kComputed.size() * sizeof(float) + colour_columns(scan, config).stride;
+}
+
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out) {
   PlyElement vertex{
       .name = "vertex", .count = detection.sampled_points(), .properties = position_and_id(detection, scan)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;
-  for (const char* const name : {"nx", "ny", "nz", "scalar_probability"})
-    vertex.properties.push_back({name, Scalar::kFloat32, {}});
-  const bool with_colours = config.report || !scan.reads_slowly();
-  const RowLayout columns = join_layouts(scan.layouts(), [&](const RowLayout& layout, std::size_t i) {
-    return !with_colours || !is_colour(layout.properties[i].name);
-  });
+  for (const char* const name : kComputed) vertex.properties.push_back({name, Scalar::kFloat32, {}});
+  const RowLayout columns = colour_columns(scan, config);
   for (const Property& column : columns.properties)
     vertex.properties.push_back({column.name, column.type, {}});
   PlyWriter writer(out, {vertex});

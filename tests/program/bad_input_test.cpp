@@ -276,7 +276,8 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     }
     ++failed;
     check_failure(result, disk.path().string());
-    CHECK_THAT(result.err, Catch::Matchers::Contains("No space left on device"));
+    CHECK_THAT(result.err, Catch::Matchers::Contains("No space left on device") ||
+                               Catch::Matchers::Contains("the run needs at least"));
     CHECK_FALSE(fs::exists(out));
   }
   CHECK(failed >= 3);
@@ -295,6 +296,62 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     CHECK(count_entries(disk.path()) == 0);
   }
   CHECK(failed >= 3);
+}
+
+TEST_CASE("a disk that cannot hold the points is said once they are counted, before any is stored") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.ply", binary_ply(plane(300).jittered(0.2, 1)));
+  const SmallDisk disk(scratch / "disk", "1m");  // 90,000 points take 1.4 MiB
+  if (!disk.mounted()) {
+    test::skip("cannot mount a small disk");
+    return;
+  }
+  const fs::path out = scratch / "out";
+  const ProgramResult result = detect_quietly(scan, out, {"--workspace", disk.path().string()});
+  check_failure(result, "the run needs at least 1.4 MiB; --workspace names a folder on another one");
+  CHECK_THAT(result.err, Catch::Matchers::Contains("the run needs about "));
+  CHECK(count_entries(disk.path()) == 0);
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("the disk that info names is enough for the run, and not twice too much") {
+  const ScratchFolder scratch;
+  const std::string scan =
+      scratch.write("scan.ply", binary_ply(plane(300).punched({150, 150}, 8).jittered(0.2, 1)));
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--points", "--normals"}, {"--vdb"}, {"--orient-normals"}}) {
+    for (const std::string limit : {"64MiB", "1GiB"}) {
+      std::vector<std::string> arguments = {"info", scan, "--json", "--memory-limit", limit};
+      arguments.insert(arguments.end(), options.begin(), options.end());
+      const auto needs = nlohmann::json::parse(run_program(arguments).out);
+      const auto bytes = needs.at("workspace_bytes").get<std::uint64_t>();
+      INFO((options.empty() ? "default" : options[0]) << ", " << limit << ": " << bytes);
+      std::vector<std::string> more = {"--memory-limit", limit, "--workspace", (scratch / "disk").string()};
+      more.insert(more.end(), options.begin(), options.end());
+      const fs::path out = scratch / "out";
+      {
+        const SmallDisk disk(scratch / "disk", std::to_string(bytes + bytes / 3));
+        if (!disk.mounted()) {
+          test::skip("cannot mount a small disk");
+          return;
+        }
+        const ProgramResult result = detect_quietly(scan, out, more);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+      }
+      {
+        const SmallDisk disk(scratch / "disk", std::to_string(bytes / 2));
+        CHECK(detect_quietly(scan, scratch / "other", more).exit_code == 1);
+      }
+      std::uint64_t written = 0;
+      for (const auto& file : fs::directory_iterator(out)) written += file.file_size();
+      const auto results = needs.at("results_bytes").get<double>();
+      CHECK(static_cast<double>(written) < 1.1 * results);
+      CHECK(static_cast<double>(written) >
+            (options == std::vector<std::string>{"--vdb"} ? 0.6 : 0.9) * results);
+      fs::remove_all(out);
+    }
+  }
 }
 
 }  // namespace

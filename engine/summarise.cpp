@@ -1,0 +1,40 @@
+#include "engine/summarise.hpp"
+
+namespace lacuna {
+
+Summary summarise(const Bucketed& bucketed, const Job& job) {
+  const auto& [thinned, survey, tile_points, store] = bucketed;
+  Summary summary;
+  summary.counts.points = survey.points;
+  summary.counts.dropped = survey.dropped;
+  summary.bounds = survey.bounds;
+  if (thinned) {
+    summary.resolution = thinned->resolution;
+    summary.counts.points = thinned->points;
+    summary.counts.dropped = thinned->dropped;
+    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
+    summary.bounds = thinned->bounds;
+  }
+  summary.tiles = store.tiling().tiles.size();
+  summary.tile_points = tile_points;
+  summary.threads = job.arena.threads();
+  summary.memory_limit = job.memory.limit;
+  return summary;
+}
+
+void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
+  Counts& counts = summary.counts;
+  counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
+  counts.candidates = totals.candidates;
+  counts.undefined_normals = totals.undefined_normals;
+  counts.boundary_edges = found.edges;
+  counts.components = found.components;
+  counts.raw_loops = found.raw;
+  summary.mean_neighbours = totals.mean_neighbours();
+  summary.mean_edge_length = totals.mean_edge_length();
+  summary.probabilities = totals.probabilities;
+  summary.eps = eps;
+  summary.e = found.minimum_loop;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,28 @@
+#include "io/results/result_bytes.hpp"
+
+#include "io/results/points.hpp"
+#include "io/results/results.hpp"
+
+#include <algorithm>
+
+namespace lacuna {
+
+ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
+                         std::uint64_t points) {
+  constexpr std::uint64_t kPage = 200'000, kReportPoint = 15, kMostInReport = 1'000'000;
+  constexpr std::uint64_t kVoxel = 4;  // measured: 2.5 where nearly each point has its own
+  const OutputConfig& output = config.output;
+  const std::uint64_t sample = std::min(points, static_cast<std::uint64_t>(output.sample_points));
+  ResultBytes bytes;
+  if (output.points) bytes.points = rows * point_row_bytes(scan, output);
+  // Text has rows of any size. LAS leaves out rows of other formats that have no finite position.
+  const PointsFormat format = points_format(scan, output);
+  const bool is_las_of_others = format == PointsFormat::kLas && output.points_format != PointsFormat::kInput;
+  if (format != PointsFormat::kCsv && !is_las_of_others) bytes.certain = bytes.points;
+  bytes.sample = sample * sample_row_bytes(scan, output);
+  if (output.report) bytes.report = kPage + std::min(sample, kMostInReport) * kReportPoint;
+  if (output.vdb) bytes.voxels = points * kVoxel;
+  return bytes;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,27 @@
+// What the results of a run take of the disk.
+#pragma once
+
+#include "engine/config.hpp"
+#include "io/file_scan.hpp"
+
+#include <cstdint>
+
+namespace lacuna {
+
+struct ResultBytes {
+  std::uint64_t points = 0;  // the annotated scan; 0 where it is not wanted
+  std::uint64_t sample = 0;  // sample.ply
+  std::uint64_t report = 0;  // report.html without its loops
+  std::uint64_t voxels = 0;  // probability.vdb, at most
+
+  std::uint64_t certain = 0;  // of these: `points`, where its rows have a fixed size and none is left out
+
+  std::uint64_t all() const { return points + sample + report + voxels; }
+};
+
+// Of a scan with so many rows, of which so many points are evaluated. The files of loops and of boundary
+// points are left out: they depend on the holes that are found.
+ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
+                         std::uint64_t points);
+
+}  // namespace lacuna

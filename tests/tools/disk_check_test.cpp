@@ -1,0 +1,104 @@
+#include "tools/disk_check.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run_needs.hpp"
+#include "io/results/result_bytes.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <map>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+using Catch::Matchers::Contains;
+
+constexpr std::uint64_t kPoints = 10'000, kPlenty = 1 << 30;
+
+// A scan of 120,000 bytes.
+std::string ply() {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kPoints) +
+         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n" +
+         std::string(kPoints * 12, '\1');
+}
+
+Config with_limit() {
+  Config config;
+  config.run.memory_limit = 256 << 20;
+  config.run.threads = 1;
+  return config;
+}
+
+struct Disks {
+  std::map<std::string, Disk> of;
+
+  std::optional<Disk> operator()(const std::filesystem::path& folder) const { return of.at(folder.string()); }
+};
+
+std::uint64_t workspace_bytes(const FileScan& scan, const Config& config) {
+  NoProgress silence;
+  const Job job(config, {}, silence);
+  return disk_needs(size_from_headers(scan, job), job).most;
+}
+
+}  // namespace
+
+TEST_CASE("a disk that is too small for the workspace or for the results is a warning that names it") {
+  const ScratchFolder folder;
+  const FileScan scan({folder.write("scan.ply", ply())}, {});
+  const Config config = with_limit();
+  const std::uint64_t workspace = workspace_bytes(scan, config);
+  const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
+  CHECK(workspace > kPoints * (16 + 48));
+  CHECK(results == kPoints * 32);
+
+  const auto check = [&](std::uint64_t free_of_workspace, std::uint64_t free_of_results) {
+    return check_disks(scan, config, "ws", "out",
+                       Disks{{{"ws", {1, free_of_workspace}}, {"out", {2, free_of_results}}}});
+  };
+  CHECK(check(workspace, results).empty());
+  const std::vector<std::string> warnings = check(workspace - 1, results - 1);
+  REQUIRE(warnings.size() == 2);
+  CHECK_THAT(warnings[0], Contains("ws: ") && Contains("are free on this disk, and the run needs about ") &&
+                              Contains("--workspace names a folder on another one"));
+  CHECK_THAT(warnings[1], Contains("out: ") && Contains("the run needs about 312 KiB; --out names"));
+}
+
+TEST_CASE("workspace and results on one disk need space for both") {
+  const ScratchFolder folder;
+  const FileScan scan({folder.write("scan.ply", ply())}, {});
+  Config config = with_limit();
+  config.output.points = true;
+  config.output.normals = true;
+  const std::uint64_t workspace = workspace_bytes(scan, config);
+  const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
+  const std::uint64_t larger = std::max(workspace, results);
+  const auto check = [&](std::uint64_t number_of_results) {
+    return check_disks(scan, config, "ws", "out",
+                       Disks{{{"ws", {1, larger}}, {"out", {number_of_results, larger}}}});
+  };
+  CHECK(check(2).empty());
+  CHECK(check(1).size() == 1);
+}
+
+TEST_CASE("a disk that cannot hold the annotated scan is an error before the run") {
+  const ScratchFolder folder;
+  const FileScan scan({folder.write("scan.ply", ply())}, {});
+  Config config = with_limit();
+  config.output.points = true;
+  const std::uint64_t points = result_bytes(scan, config, kPoints, kPoints).points;
+  const auto check = [&](std::uint64_t free) {
+    return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, kPlenty}}, {"out", {2, free}}}});
+  };
+  CHECK(check(points).size() == 1);
+  CHECK_THROWS_WITH(check(points - 1), Contains("out: ") && Contains("needs at least "));
+}
+
+TEST_CASE("a disk whose space is not known is not checked") {
+  const ScratchFolder folder;
+  const FileScan scan({folder.write("scan.ply", ply())}, {});
+  CHECK(check_disks(scan, with_limit(), "ws", "out", [](const auto&) { return std::nullopt; }).empty());
+}
+
+}  // namespace lacuna::test
