@@ -2,11 +2,11 @@
 
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/results.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -154,12 +155,11 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
                              {"properties", std::move(properties)}});
   }
   const Summary& summary = run.estimate.summary;
-  const bool has_bounds = !summary.bounds.isEmpty();
   root["points"] = summary.counts.points;
   root["dropped"] = summary.counts.dropped - filtered.total();
   root["filtered_out"] = counts_of(filtered);
-  root["bounds"] =
-      has_bounds ? Json({{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}}) : Json();
+  root["bounds"] = corners(summary.bounds);
+  root["strays"] = strays_json(summary.strays);
   root["resolution"] = summary.resolution;
   root["thinned_out"] = summary.counts.thinned_out;
   root["tiles"] = summary.tiles;
@@ -188,6 +188,9 @@ void run_info(const InfoArguments& arguments) {
   } else {
     print_text(files, scan.filtered_out(), run);
   }
+  const Summary& summary = run.estimate.summary;
+  if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+    spdlog::warn("{}", strays);
 }
 
 }  // namespace
