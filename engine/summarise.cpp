@@ -1,5 +1,7 @@
 #include "engine/summarise.hpp"
 
+#include "engine/bucket/strays.hpp"
+
 namespace lacuna {
 
 Summary summarise(const Bucketed& bucketed, const Job& job) {
@@ -15,6 +17,8 @@ Summary summarise(const Bucketed& bucketed, const Job& job) {
     summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
     summary.bounds = thinned->bounds;
   }
+  summary.strays = find_strays(store);
+  if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
   summary.tiles = store.tiling().tiles.size();
   summary.tile_points = tile_points;
   summary.threads = job.arena.threads();
@@ -32,6 +36,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, double eps, Sum
   counts.raw_loops = found.raw;
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
+  summary.median_distance = totals.median_distance();
   summary.probabilities = totals.probabilities;
   summary.eps = eps;
   summary.e = found.minimum_loop;

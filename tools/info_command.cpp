@@ -26,6 +26,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -169,12 +170,11 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
                              {"properties", std::move(properties)}});
   }
   const Summary& summary = run.estimate.summary;
-  const bool has_bounds = !summary.bounds.isEmpty();
   root["points"] = summary.counts.points;
   root["dropped"] = summary.counts.dropped - filtered.total();
   root["filtered_out"] = counts_of(filtered);
-  root["bounds"] =
-      has_bounds ? Json({{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}}) : Json();
+  root["bounds"] = corners(summary.bounds);
+  root["strays"] = strays_json(summary.strays);
   root["resolution"] = summary.resolution;
   root["thinned_out"] = summary.counts.thinned_out;
   root["tiles"] = summary.tiles;
@@ -205,6 +205,9 @@ void run_info(const InfoArguments& arguments) {
   } else {
     print_text(files, scan.filtered_out(), run);
   }
+  const Summary& summary = run.estimate.summary;
+  if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+    spdlog::warn("{}", strays);
 }
 
 }  // namespace

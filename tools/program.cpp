@@ -7,9 +7,9 @@
 #include "tools/info_command.hpp"
 #include "tools/log_file.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/reference_commands.hpp"
 #include "tools/render_command.hpp"
 #include "tools/report_command.hpp"
-#include "tools/reference_commands.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
@@ -109,6 +109,16 @@ std::string usage_hint(const CLI::App& app, const std::vector<std::string>& argu
   return " (see " + words + " --help)";
 }
 
+// The options that help, where the command has them.
+std::string out_of_memory(const CLI::App& app) {
+  std::string text = "out of memory";
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (command->get_option_no_throw("--memory-limit") != nullptr)
+      text += "; a lower --memory-limit or smaller --tile-points may help";
+  }
+  return text;
+}
+
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (char& c : text) {
@@ -166,7 +176,7 @@ int run(int argc, char** argv) {
   } catch (const Error& error) {
     return fail(one_line(error.what()), kFailed);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; a lower --memory-limit or smaller --tile-points may help", kFailed);
+    return fail(out_of_memory(app), kFailed);
   } catch (const std::exception& error) {  // of the file system, mostly
     return fail(one_line(error.what()), kFailed);
   }

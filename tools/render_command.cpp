@@ -5,6 +5,7 @@
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
 #include "io/results/output_set.hpp"
+#include "tools/value_options.hpp"
 #include "tools/visible_text.hpp"
 
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -50,10 +52,16 @@ void run_render(const RenderArguments& arguments) {
   Scene scene = read_scene(arguments.folder);
   if (arguments.most_height) hide_above(scene, *arguments.most_height);
   const View view = find_view(scene, arguments.view, width, height);
+  const PictureSize size{width, height};
   OutputSet set(overwrite);
-  write_png(render(scene, view, width, height, arguments.as_it_came), set.add(arguments.out, picture_mark()));
+  PngWriter png(size, set.add(arguments.out, picture_mark()));
+  render(scene, view, size, arguments.as_it_came, [&](std::span<const Colour> row) { png.write(row); });
+  png.finish();
   set.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
+  if (scene.strays > 0)
+    std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")
+              << " far from all others\n";
 }
 
 }  // namespace
@@ -64,7 +72,10 @@ void add_render_command(CLI::App& app) {
   command->add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
       ->type_name("DIR")
       ->required();
-  command->add_option("--out", arguments->out, "Picture to write, in PNG")->type_name("FILE")->required();
+  command->add_option("--out", arguments->out, "Picture to write, in PNG; its name ends in .png")
+      ->type_name("FILE")
+      ->check(name_ending_in(".png"))
+      ->required();
   command
       ->add_option("--view", arguments->view,
                    "oblique, top (from above), front (along y), side (along -x), or the id of a loop")

@@ -6,10 +6,13 @@
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -19,6 +22,14 @@ double coarsest_step(const Eigen::AlignedBox3d& bounds) {
   const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
   const auto single = static_cast<float>(farthest);
   return static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity()) - single);
+}
+
+// A coordinate in whole steps, a power of ten.
+std::string print_in_steps(double value, double step) {
+  const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(step))));
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value * step + 0.0);
+  return text.data();
 }
 
 bool is_repeated(const std::vector<std::filesystem::path>& files, std::size_t i) {
@@ -57,21 +68,50 @@ std::vector<std::string> memory_warnings(const Config& config) {
           print_size(memory) + " of this machine"};
 }
 
+std::string print_bounds(const Eigen::AlignedBox3d& box, double margin) {
+  constexpr int kDigits = 3;
+  const double extent = box.sizes().maxCoeff() + 2 * margin;
+  const double step = extent > 0 ? std::pow(10, std::floor(std::log10(extent)) + 1 - kDigits) : 1;
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += print_in_steps(std::floor((box.min()[axis] - margin) / step), step) + ",";
+  for (int axis = 0; axis < 3; ++axis)
+    text += print_in_steps(std::ceil((box.max()[axis] + margin) / step), step) + (axis < 2 ? "," : "");
+  return text;
+}
+
+std::string stray_warning(const Strays& strays, double resolution) {
+  if (strays.points == 0) return "";
+  const bool is_one = strays.points == 1;
+  std::ostringstream text;
+  text.precision(10);
+  text << print_count(strays.points) << (is_one ? " point lies" : " points lie") << " far from all others, "
+       << (is_one ? "at " : "such as at ") << strays.example.x() << " " << strays.example.y() << " "
+       << strays.example.z() << "; reports and pictures leave " << (is_one ? "it" : "them") << " out. ";
+  if (strays.has_origin) text << "--drop-origin drops points at 0 0 0";
+  if (strays.has_origin && !is_one) text << "; ";
+  if (!strays.has_origin || !is_one)
+    text << "--bounds=" << print_bounds(strays.rest, resolution) << " keeps the others alone";
+  return text.str();
+}
+
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config) {
   std::vector<std::string> warnings;
+  if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+    warnings.push_back(std::move(strays));
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
   if (points <= static_cast<std::uint64_t>(config.neighbourhood.k)) {
     warnings.push_back(print_count(points) + " distinct " + (points == 1 ? "point" : "points") +
                        "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
   }
-  if (scan.single_precision() && !summary.bounds.isEmpty()) {
-    const double step = coarsest_step(summary.bounds);
-    if (step > summary.mean_edge_length / 4) {
+  const Eigen::AlignedBox3d& bounds = summary.strays.rest;
+  if (scan.single_precision() && !bounds.isEmpty()) {
+    const double step = coarsest_step(bounds);
+    if (step > summary.median_distance / 4) {
       std::ostringstream warning;
       warning << "coordinates of single precision are steps of up to " << step << " here, and neighbours are "
-              << summary.mean_edge_length
-              << " apart; the scan needs double precision, or smaller coordinates";
+              << summary.median_distance << " apart; the scan needs double precision, or smaller coordinates";
       warnings.push_back(warning.str());
     }
   }

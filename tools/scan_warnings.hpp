@@ -20,8 +20,15 @@ std::vector<std::string> input_warnings(const FileScan& scan);
 // Before a run: a memory limit above the machine's memory.
 std::vector<std::string> memory_warnings(const Config& config);
 
-// After a run: too few points for their neighbourhoods, coordinates that are too coarse for their spacing,
-// and rows that points.las cannot hold.
+// A box of the scan as people and --bounds have it: six numbers of three digits of its extent, rounded
+// outwards by at most one step of the last digit; `margin` is added on all sides.
+std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
+
+// How many points lie far from all others, where, and which option leaves them out; empty without any.
+std::string stray_warning(const Strays& strays, double resolution);
+
+// After a run: strays, too few points for their neighbourhoods, coordinates that are too coarse for their
+// spacing, and rows that points.las cannot hold.
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config);
 
 }  // namespace lacuna

@@ -43,7 +43,8 @@ std::string print_input(const Counts& counts, const FileScan& scan) {
 }
 
 double extent_of(const Summary& summary) {
-  return summary.bounds.isEmpty() ? 0 : summary.bounds.sizes().maxCoeff();
+  const Eigen::AlignedBox3d& bounds = summary.strays.rest;
+  return bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
 }
 
 // The loops of one kind, as one sentence has them.
@@ -107,7 +108,7 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
                                          print_count(representatives) + " points are used, one per cell");
   }
   facts.emplace_back("neighbours", print_number(summary.mean_neighbours) + " of a point on average, " +
-                                       print_length(summary.mean_edge_length, unit) + " away");
+                                       print_length(summary.median_distance, unit) + " away (median)");
   if (counts.undefined_normals > 0)
     facts.emplace_back("normals", "none at " + counted(counts.undefined_normals, "point", "points"));
   facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points") + "; " +

@@ -35,8 +35,9 @@ constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, 
 // What both kinds of scan have.
 template <typename Options>
 void add_common(CLI::App& app, Options& options) {
-  app.add_option("OUT", options.out, "the PLY file to write, binary little-endian")
+  app.add_option("OUT", options.out, "the PLY file to write, binary little-endian; its name ends in .ply")
       ->type_name("FILE")
+      ->check(name_ending_in(".ply"))
       ->required();
   app.add_option("--truth", options.truth, "file of the true loops, 0-based point ids")
       ->type_name("FILE")

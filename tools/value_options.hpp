@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -42,6 +43,16 @@ inline CLI::Validator whole_number() {
   const auto check = [](const std::string& text) {
     const bool is_whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
     return is_whole ? std::string() : text + " is not possible; allowed: a whole number, 0 or more";
+  };
+  return CLI::Validator(check, "");
+}
+
+// For files that are written in one format: another ending would be taken for another format. Upper case is
+// allowed.
+inline CLI::Validator name_ending_in(const std::string& ending) {
+  const auto check = [ending](const std::string& text) {
+    const std::string own = CLI::detail::to_lower(std::filesystem::path(text).extension().string());
+    return own == ending ? std::string() : text + " is not possible; allowed: a name that ends in " + ending;
   };
   return CLI::Validator(check, "");
 }

@@ -8,7 +8,9 @@
 #include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -136,27 +138,52 @@ void operator+=(Totals& totals, const Totals& more) {
   totals.edge_length += more.edge_length;
   for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
     totals.probabilities[bin] += more.probabilities[bin];
+  for (const auto& [bin, count] : more.distances.counts) totals.distances.counts[bin] += count;
 }
 
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
 Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
               double unit, std::vector<LocalIndex>& candidates) {
   Totals totals{.points = evaluations.size(), .neighbours = neighbourhoods.indices.size()};
+  std::vector<std::uint32_t> distances(LengthBins::bin_of(std::numeric_limits<double>::infinity()));
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
     const Evaluation& e = evaluations[p];
     if (e.probability > threshold) candidates.push_back(p);
     ++totals.probabilities[std::min(kProbabilityBins - 1,
                                     static_cast<std::size_t>(e.probability * kProbabilityBins))];
     totals.undefined_normals += !e.normal.allFinite();
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
+      ++distances[LengthBins::bin_of(e.mean_distance)];
     const double length = e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / unit;
     constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
     totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
   }
   totals.candidates = candidates.size();
+  for (std::uint32_t bin = 0; bin < distances.size(); ++bin)
+    if (distances[bin] > 0) totals.distances.counts[bin] = distances[bin];
   return totals;
 }
 
 }  // namespace
+
+std::uint32_t LengthBins::bin_of(double length) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(length) >> kShift);
+}
+
+double LengthBins::median() const {
+  std::uint64_t all = 0, before = 0;
+  for (const auto& [bin, count] : counts) all += count;
+  for (const auto& [bin, count] : counts) {
+    if (2 * (before + count) >= all) {
+      const auto bound = [](std::uint32_t of) { return std::bit_cast<double>(std::uint64_t{of} << kShift); };
+      const double part =
+          (static_cast<double>(all) / 2 - static_cast<double>(before)) / static_cast<double>(count);
+      return bound(bin) + part * (bound(bin + 1) - bound(bin));
+    }
+    before += count;
+  }
+  return 0;
+}
 
 double Totals::mean_neighbours() const {
   return points == 0 ? 0 : static_cast<double>(neighbours) / static_cast<double>(points);

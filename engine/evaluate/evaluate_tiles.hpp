@@ -9,11 +9,22 @@
 #include "engine/store/tile_store.hpp"
 
 #include <cstdint>
+#include <map>
 #include <span>
 
 namespace lacuna {
 
 __extension__ using Int128 = __int128;
+
+// Counts of positive numbers in bins, of which each power of two has 64: their order is that of the bits.
+struct LengthBins {
+  static constexpr int kShift = 46;  // bits of a number within a bin
+  std::map<std::uint32_t, std::uint64_t> counts;
+
+  static std::uint32_t bin_of(double length);  // positive
+  // In the middle of all, as if the numbers of a bin were spread evenly over it. 0 without any.
+  double median() const;
+};
 
 // Sums over all distinct points, exact in any order.
 struct Totals {
@@ -24,9 +35,11 @@ struct Totals {
   ProbabilityBins probabilities{};
   Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
   double length_unit = 1;
+  LengthBins distances;  // mean distances to the neighbours, where there are any
 
   double mean_neighbours() const;   // K
   double mean_edge_length() const;  // over the edges of G
+  double median_distance() const { return distances.median(); }
 };
 
 // Consumes the halo. `eps`: a length, 0: off. `extent`: the largest distance between points.

@@ -39,13 +39,24 @@ struct PhaseTime {
 inline constexpr std::size_t kProbabilityBins = 20;
 using ProbabilityBins = std::array<std::uint64_t, kProbabilityBins>;
 
+// Points far from all others (engine/bucket/strays.hpp has the rule), and where the others are. Views,
+// printed digits and the report's positions follow `rest`, so that a stray spoils none of them.
+struct Strays {
+  std::uint64_t points = 0;                           // distinct ones
+  Eigen::Vector3d example = Eigen::Vector3d::Zero();  // the one of the lowest id
+  bool has_origin = false;                            // one lies at 0 0 0
+  Eigen::AlignedBox3d rest;                           // bounds of the others; empty without any
+};
+
 struct Summary {
   Counts counts;
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
+  Strays strays;                    // without any, `rest` is `bounds`
   double resolution = 0;            // in effect; 0: none
   double mean_neighbours = 0;       // K
   double mean_edge_length = 0;      // over the edges of G
+  double median_distance = 0;       // over points, of the mean distance to their neighbours; within 1 %
   double eps = 0;                   // in effect
   std::int64_t e = 0;               // in effect; 0: method tangential
   std::uint64_t tiles = 0;

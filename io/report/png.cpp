@@ -41,30 +41,53 @@ FileMark picture_mark() {
   return {std::string_view("Software\0Lacuna", 15), kText};
 }
 
-void write_png(const Picture& picture, OutputFile& out) {
-  Sink sink{out, nullptr, {}};
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, keep_message, nullptr);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) throw std::bad_alloc();
+struct PngWriter::State {
+  explicit State(OutputFile& out) : sink{out, nullptr, {}} {}
+  ~State() { png_destroy_write_struct(&png, &info); }
+
+  // Calls libpng, and throws what went wrong.
+  template <class Write>
+  void write(Write&& write_with) {
+    if (setjmp(png_jmpbuf(png)) == 0) write_with(png, info);
+    if (sink.failure) std::rethrow_exception(sink.failure);
+    if (!sink.message.empty()) throw Error(sink.out.path().string() + ": " + sink.message);
+  }
+
+  Sink sink;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+};
+
+PngWriter::PngWriter(PictureSize size, OutputFile& out) : state_(std::make_unique<State>(out)) {
+  State& state = *state_;
+  state.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state.sink, keep_message, nullptr);
+  state.info = state.png ? png_create_info_struct(state.png) : nullptr;
+  if (!state.info) throw std::bad_alloc();
   static char software[] = "Software", name[] = "Lacuna " LACUNA_VERSION;
-  png_text text{};
-  text.compression = PNG_TEXT_COMPRESSION_NONE;
-  text.key = software;
-  text.text = name;
-  if (setjmp(png_jmpbuf(png)) == 0) {
-    png_set_write_fn(png, &sink, write_part, nullptr);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
-                 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+  state.write([&](png_structp png, png_infop info) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = software;
+    text.text = name;
+    png_set_write_fn(png, &state.sink, write_part, nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(size.width), static_cast<png_uint_32>(size.height), 8,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     png_set_text(png, info, &text, 1);
     png_write_info(png, info);
-    for (std::size_t row = 0; row < picture.height; ++row)
-      png_write_row(png, reinterpret_cast<png_const_bytep>(&picture.pixels[row * picture.width]));
-    png_write_end(png, nullptr);
-  }
-  png_destroy_write_struct(&png, &info);
-  if (sink.failure) std::rethrow_exception(sink.failure);
-  if (!sink.message.empty()) throw Error(out.path().string() + ": " + sink.message);
+  });
+}
+
+PngWriter::~PngWriter() = default;
+
+void PngWriter::write(std::span<const Colour> row) {
+  state_->write([row](png_structp png, png_infop) {
+    png_write_row(png, reinterpret_cast<png_const_bytep>(row.data()));
+  });
+}
+
+void PngWriter::finish() {
+  state_->write([](png_structp png, png_infop) { png_write_end(png, nullptr); });
 }
 
 }  // namespace lacuna

@@ -15,30 +15,38 @@ namespace {
 
 constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
 constexpr float kMargin = 1.05f;
+constexpr const char* kUndrawn = "the loop runs through points far from all others, and is not drawn";
 constexpr float kLineWidth = 2.5f;  // pixels
 const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(0, 84, 74);
 
-// Colours and depths of a picture's parts. A larger depth is nearer.
+// Colours and depths of the parts of a picture's rows from `first_row` on. A larger depth is nearer.
 class Canvas {
  public:
-  Canvas(std::size_t width, std::size_t height)
-      : width_(static_cast<int>(width) * kFiner),
-        height_(static_cast<int>(height) * kFiner),
-        colours_(width * height * kFiner * kFiner, kPaper),
+  static constexpr std::size_t kPixelBytes = kFiner * kFiner * (sizeof(Eigen::Vector3f) + sizeof(float));
+
+  Canvas(PictureSize size, std::size_t first_row, std::size_t rows)
+      : width_(static_cast<int>(size.width) * kFiner),
+        height_(static_cast<int>(size.height) * kFiner),
+        first_(static_cast<int>(first_row) * kFiner),
+        end_(static_cast<int>(first_row + rows) * kFiner),
+        colours_(size.width * rows * kFiner * kFiner, kPaper),
         depths_(colours_.size(), -std::numeric_limits<float>::infinity()) {}
 
-  int height() const { return height_; }
+  int height() const { return height_; }  // of the whole picture
+  // Whether anything between these heights may be on the canvas.
+  bool reaches(float top, float bottom) const { return bottom >= float(first_) && top <= float(end_); }
 
   // At (x, y) in parts from the top left corner. What is nearer already stays.
   void disc(float x, float y, float radius, float depth, const Eigen::Vector3f& colour) {
-    const int top = std::max(0, static_cast<int>(std::ceil(y - radius)));
-    const int bottom = std::min(height_ - 1, static_cast<int>(std::floor(y + radius)));
+    if (!reaches(y - radius, y + radius)) return;
+    const int top = std::max(first_, static_cast<int>(std::ceil(y - radius)));
+    const int bottom = std::min(end_ - 1, static_cast<int>(std::floor(y + radius)));
     for (int row = top; row <= bottom; ++row) {
       const float half = std::sqrt(std::max(0.0f, radius * radius - (float(row) - y) * (float(row) - y)));
       const int left = std::max(0, static_cast<int>(std::ceil(x - half)));
       const int right = std::min(width_ - 1, static_cast<int>(std::floor(x + half)));
       for (int column = left; column <= right; ++column) {
-        const std::size_t at = std::size_t(row) * std::size_t(width_) + std::size_t(column);
+        const std::size_t at = std::size_t(row - first_) * std::size_t(width_) + std::size_t(column);
         if (depth < depths_[at]) continue;
         depths_[at] = depth;
         colours_[at] = colour;
@@ -46,23 +54,24 @@ class Canvas {
     }
   }
 
-  Picture picture() const {
-    Picture picture{std::size_t(width_ / kFiner), std::size_t(height_ / kFiner), {}};
-    for (int row = 0; row < height_; row += kFiner) {
+  void take_rows(const std::function<void(std::span<const Colour>)>& take_row) const {
+    std::vector<Colour> pixels;
+    for (int row = 0; row < end_ - first_; row += kFiner) {
+      pixels.clear();
       for (int column = 0; column < width_; column += kFiner) {
         Eigen::Vector3f sum(0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner);
         for (int i = 0; i < kFiner * kFiner; ++i)
           sum += colours_[std::size_t(row + i / kFiner) * std::size_t(width_) +
                           std::size_t(column + i % kFiner)];
         const Eigen::Vector3f mean = sum / (kFiner * kFiner);
-        picture.pixels.push_back({std::uint8_t(mean.x()), std::uint8_t(mean.y()), std::uint8_t(mean.z())});
+        pixels.push_back({std::uint8_t(mean.x()), std::uint8_t(mean.y()), std::uint8_t(mean.z())});
       }
+      take_row(pixels);
     }
-    return picture;
   }
 
  private:
-  int width_, height_;
+  int width_, height_, first_, end_;  // parts
   std::vector<Eigen::Vector3f> colours_;
   std::vector<float> depths_;
 };
@@ -70,10 +79,10 @@ class Canvas {
 // From the scan to the canvas: x and y in parts, z the depth in units of the scan.
 class Projection {
  public:
-  Projection(const View& view, std::size_t width, std::size_t height)
+  Projection(const View& view, PictureSize size)
       : view_(view),
-        scale_(static_cast<float>(height * kFiner) / (2 * view.half_height)),
-        corner_(static_cast<float>(width * kFiner) / 2, static_cast<float>(height * kFiner) / 2) {}
+        scale_(static_cast<float>(size.height * kFiner) / (2 * view.half_height)),
+        corner_(static_cast<float>(size.width * kFiner) / 2, static_cast<float>(size.height * kFiner) / 2) {}
 
   float scale() const { return scale_; }
   Eigen::Vector3f operator()(const Eigen::Vector3f& p) const {
@@ -103,7 +112,7 @@ void draw_points(const Scene::Points& points, const View& view, const Projection
   const float radius = std::clamp(0.9f * points.spacing * project.scale(), 0.8f, 12.0f);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3f at = project(points.positions[i]);
-    if (!project.is_drawn(at.z())) continue;
+    if (!project.is_drawn(at.z()) || !canvas.reaches(at.y() - radius, at.y() + radius)) continue;
     const Eigen::Vector3f& normal = points.normals[i];
     const float light = normal.isZero() ? 0.8f : 0.35f + 0.65f * std::abs(normal.dot(view.towards));
     canvas.disc(at.x(), at.y(), radius, at.z(), light * colour_of(points, i, as_it_came));
@@ -123,6 +132,8 @@ void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
       const Eigen::Vector3f b = project(loops.vertices[i + 1 < end ? i + 1 : first]);
       const float length = std::max((b - a).head<2>().norm(), 1.0f);
       if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
+      const float reach = kLineWidth * kFiner;
+      if (!canvas.reaches(std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach)) continue;
       for (float along = 0; along <= length; along += 1) {
         const Eigen::Vector3f at = a + along / length * (b - a);
         if (project.is_drawn(at.z()))
@@ -177,6 +188,7 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
       looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
   const auto first = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop]);
   const auto end = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop + 1]);
+  if (first == end) throw Error("view '" + std::string(name) + "': " + kUndrawn);
   fit({first, end}, aspect, view);
   const auto diameter = static_cast<float>(measures.diameter);
   view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
@@ -204,12 +216,16 @@ View find_view(const Scene& scene, std::string_view name, std::size_t width, std
   return view;
 }
 
-Picture render(const Scene& scene, const View& view, std::size_t width, std::size_t height, bool as_it_came) {
-  Canvas canvas(width, height);
-  const Projection project(view, width, height);
-  draw_points(scene.points, view, project, as_it_came, canvas);
-  draw_loops(scene, project, canvas);
-  return canvas.picture();
+void render(const Scene& scene, const View& view, PictureSize size, bool as_it_came,
+            const std::function<void(std::span<const Colour> row)>& take_row, std::size_t band_bytes) {
+  const Projection project(view, size);
+  const std::size_t band = std::max<std::size_t>(1, band_bytes / (size.width * Canvas::kPixelBytes));
+  for (std::size_t row = 0; row < size.height; row += band) {
+    Canvas canvas(size, row, std::min(band, size.height - row));
+    draw_points(scene.points, view, project, as_it_came, canvas);
+    draw_loops(scene, project, canvas);
+    canvas.take_rows(take_row);
+  }
 }
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 #include "io/report/report.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/number.hpp"
 #include "io/report/base64.hpp"
 #include "io/report/page.hpp"
 #include "io/results/loop_measures.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -96,14 +98,30 @@ Json run_of(const Json& run) {
           {"seconds", run.at("total_seconds")}};
 }
 
-// Six digits are more than a reader wants, and keep the page small.
-double rounded(double value) {
-  if (!std::isfinite(value) || value == 0) return value;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5);
-  return std::round(value / unit) * unit;
+// The number of the shortest digits: 0.1 + 0.2 rounded by arithmetic would be 0.30000000000000004.
+std::string printed(const char* format, int digits, double value) {
+  std::array<char, 800> text;
+  std::snprintf(text.data(), text.size(), format, digits, value);
+  return text.data();
+}
+double parse(const std::string& text) {
+  double value = 0;
+  parse_number(text, value);
+  return value;
 }
 
-Json loops_of(const Scene::Loops& loops) {
+// Six digits are more than a reader wants, and keep the page small.
+double rounded(double value) {
+  return std::isfinite(value) ? parse(printed("%.*g", 6, value)) : value;
+}
+
+// Decimals of places, down to a thousandth of the distance of neighbours.
+int place_decimals(const Json& holes) {
+  const double distance = holes.at("median_distance").get<double>();
+  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
+}
+
+Json loops_of(const Scene::Loops& loops, int decimals) {
   Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
   const auto add = [&](std::string_view name, auto&& value_of) {
     Json& column = json[std::string(name)] = Json::array();
@@ -114,7 +132,11 @@ Json loops_of(const Scene::Loops& loops) {
     add(measure.name, [&](const LoopMeasures& loop) {
       return measure.is_count ? Json(loop.points) : Json(rounded(measure.of(loop)));
     });
-  add("centroid", [](const LoopMeasures& loop) { return list(loop.centroid); });
+  add("centroid", [decimals](const LoopMeasures& loop) {
+    return list(loop.centroid.unaryExpr([decimals](double value) {
+      return std::isfinite(value) ? parse(printed("%.*f", decimals, value)) : value;
+    }));
+  });
   add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });
   json["first"] = loops.first;
   return json;
@@ -129,9 +151,10 @@ Json report_of(const Scene& scene) {
           {"unit", holes.at("unit")},
           {"inputs", inputs_of(holes.at("inputs"))},
           {"counts", holes.at("counts")},
-          {"bounds", holes.at("bounds")},
+          {"bounds", corners(scene.bounds)},
+          {"strays", scene.strays},
           {"resolution", holes.at("resolution")},
-          {"mean_edge_length", holes.at("mean_edge_length")},
+          {"median_distance", holes.at("median_distance")},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},
@@ -141,9 +164,10 @@ Json report_of(const Scene& scene) {
           {"sample",
            {{"points", points.positions.size()},
             {"of", holes.at("counts").at("points")},
+            {"spacing", points.spacing},
             {"has_normals", true},
             {"has_colours", !points.colours.empty()}}},
-          {"loops", loops_of(scene.loops)}};
+          {"loops", loops_of(scene.loops, place_decimals(holes))}};
 }
 
 // No text of it ends the element that it stands in.

@@ -71,10 +71,12 @@ void read_holes(const fs::path& file, Scene& scene) {
       throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
                   std::string(kHolesSchema) + "\" is read");
     }
-    if (const Json& bounds = scene.holes.at("bounds"); !bounds.is_null()) {
-      const Eigen::Vector3d min = vector(bounds.at("min")), max = vector(bounds.at("max"));
-      scene.origin = min;
-      if (const double edge = (max - min).maxCoeff(); edge > 0) scene.edge = edge;
+    const Json& strays = scene.holes.at("strays");
+    scene.strays = strays.at("points").get<std::uint64_t>();
+    if (const Json& rest = strays.at("rest"); !rest.is_null()) {
+      scene.bounds = {vector(rest.at("min")), vector(rest.at("max"))};
+      scene.origin = scene.bounds.min();
+      if (const double edge = scene.bounds.sizes().maxCoeff(); edge > 0) scene.edge = edge;
     }
   } catch (const nlohmann::json::exception& error) {
     throw Error(file.string() + ": is not as lacuna detect writes it: " + error.what());
@@ -101,6 +103,10 @@ const Property& find(const fs::path& file, const RowLayout& layout, std::string_
   return *property;
 }
 
+bool is_stray(const Scene& scene, const Eigen::Vector3d& position) {
+  return scene.strays > 0 && !scene.bounds.contains(position);
+}
+
 void read_points(const fs::path& file, std::size_t most, Scene& scene) {
   if (!fs::exists(file)) return;
   const std::unique_ptr<ScanReader> reader = open_scan(file, {});
@@ -121,6 +127,7 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
     colours.load(batch);
     for (; taken < wanted && taken * rows / wanted < before + batch.count; ++taken) {
       const std::size_t i = taken * rows / wanted - before;
+      if (is_stray(scene, positions[i])) continue;
       const Eigen::Vector3f normal = normals[i].cast<float>();
       scene.points.positions.push_back((positions[i] - scene.origin).cast<float>());
       scene.points.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0));
@@ -158,6 +165,7 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
   std::vector<Eigen::Vector3d> positions;
   std::vector<double> loop_of;
   std::vector<std::size_t> lengths(is_shown.size());
+  std::vector<bool> has_stray(is_shown.size());
   for (RowBatch batch; reader->next(batch, kRowsAtATime);) {
     load_vectors(batch, layout, kPositionNames, positions);
     load_column(batch, layout.stride, loop_property, loop_of);
@@ -169,10 +177,12 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
       }
       if (!is_shown[loop]) continue;
       ++lengths[loop];
+      if (is_stray(scene, positions[i])) has_stray[loop] = true;
       loops.vertices.push_back((positions[i] - scene.origin).cast<float>());
     }
   }
   std::size_t kept = 0;
+  auto vertices = loops.vertices.begin(), drawn = vertices;  // read, and kept
   loops.first = {0};
   for (std::size_t loop = 0; loop < is_shown.size(); ++loop) {
     if (!is_shown[loop]) continue;
@@ -183,8 +193,12 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
     }
     loops.ids[kept] = loops.ids[loop];
     loops.measures[kept++] = loops.measures[loop];
-    loops.first.push_back(loops.first.back() + lengths[loop]);
+    const auto end = vertices + static_cast<std::ptrdiff_t>(lengths[loop]);
+    if (!has_stray[loop]) drawn = std::move(vertices, end, drawn);
+    vertices = end;
+    loops.first.push_back(static_cast<std::size_t>(drawn - loops.vertices.begin()));
   }
+  loops.vertices.erase(drawn, loops.vertices.end());
   loops.ids.resize(kept);
   loops.measures.resize(kept);
 }

@@ -16,11 +16,14 @@ namespace lacuna {
 
 using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 
-// Positions are relative to `origin`: single precision keeps 2^-24 of the scan's extent.
+// Positions are relative to `origin`: single precision keeps 2^-24 of the scan's extent. Strays (holes.json
+// names them) are left out, and so are the vertices of loops through strays: these loops have none.
 struct Scene {
   Json holes;                       // holes.json without its loops
   Json run;                         // run.json; null where the folder has none
-  Eigen::Vector3d origin{0, 0, 0};  // least corner of the scan's bounds
+  Eigen::AlignedBox3d bounds;       // of the scan without its strays; empty without points
+  std::uint64_t strays = 0;         // points of the scan that lie outside of them
+  Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
   double edge = 1;                  // of the cube from there that holds everything; above 0
 
   struct Points {

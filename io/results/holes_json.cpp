@@ -68,14 +68,13 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
   json["inputs"] = inputs(scan);
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
-  json["bounds"] = nullptr;
-  if (!summary.bounds.isEmpty()) {
-    json["bounds"] = {{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}};
-  }
+  json["bounds"] = corners(summary.bounds);
+  json["strays"] = strays_json(summary.strays);
   json["probability"] = summary.probabilities;
   json["resolution"] = summary.resolution;
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;
+  json["median_distance"] = summary.median_distance;
   json["eps"] = summary.eps;
   json["e"] = summary.e;
   return json;

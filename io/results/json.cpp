@@ -27,6 +27,16 @@ Json list(const Eigen::Vector3d& vector) {
   return Json::array({vector.x(), vector.y(), vector.z()});
 }
 
+Json corners(const Eigen::AlignedBox3d& box) {
+  return box.isEmpty() ? Json() : Json({{"min", list(box.min())}, {"max", list(box.max())}});
+}
+
+Json strays_json(const Strays& strays) {
+  return {{"points", strays.points},
+          {"example", strays.points > 0 ? list(strays.example) : Json()},
+          {"rest", corners(strays.rest)}};
+}
+
 Json counts_of(const FilteredOut& filtered) {
   return {{"origin", filtered.origin},
           {"bounds", filtered.bounds},

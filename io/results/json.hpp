@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "io/row_filter.hpp"
 
@@ -22,6 +23,8 @@ Json begin_json(std::string_view schema);
 std::string print(const Json& json, int indent);
 
 Json list(const Eigen::Vector3d& vector);
+Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty
+Json strays_json(const Strays& strays);
 Json counts_of(const FilteredOut& filtered);  // by filter
 
 // The values of the sections that `is_wanted` names, by section and key.

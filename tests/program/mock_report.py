@@ -9,6 +9,7 @@ The scan is a bumpy sheet of 10 x 7 m with holes and its outer edge. Needs Debia
 
 import argparse
 import base64
+import hashlib
 import json
 import math
 import random
@@ -66,9 +67,13 @@ def measures(number, is_hole, vertices, confidence, planarity):
         diameter = max(diameter, 2 * math.dist(a, centre))
     area = math.hypot(*normal)
     return {"id": number, "kind": "hole" if is_hole else "outer", "points": len(vertices), "confidence": confidence,
-            "perimeter": perimeter, "area": area, "diameter": diameter, "planarity": planarity,
-            "mean_probability": 0.6 + 0.35 * confidence, "centroid": centre,
-            "normal": [value / (area or 1.0) for value in normal], "vertices": vertices}
+            "perimeter": short(perimeter), "area": short(area), "diameter": short(diameter), "planarity": planarity,
+            "mean_probability": short(0.6 + 0.35 * confidence), "centroid": [round(value, 5) for value in centre],
+            "normal": [short(value / (area or 1.0)) for value in normal], "vertices": vertices}
+
+
+def short(value):
+    return float(f"{value:.6g}")
 
 
 class Sheet:
@@ -209,7 +214,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
                    "thinned_out": 0, "duplicates": 110, "candidates": len(points) // 40, "coherent": len(points) // 60,
                    "boundary_points": first[-1], "boundary_edges": first[-1], "holes": holes,
                    "outer": len(loops) - holes, "loops": len(loops)},
-        "bounds": bounds, "resolution": 0, "mean_edge_length": spacing if points else 0, "method": "tangential",
+        "bounds": bounds, "resolution": 0, "strays": 0, "median_distance": 1.7 * spacing if points else 0, "method": "tangential",
         "parameters": {"neighbours": {"k": 24, "radius": 0}, "criteria": {"angle": True, "halfdisc": True},
                        "loops": {"min_hole": 0.1, "min_confidence": 0, "holes_only": False},
                        "output": {"report": True, "sample_points": 300000}},
@@ -221,7 +226,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
                        {"name": "loops", "seconds": 0.082}], "seconds": 4.69},
         "probability": histogram if points else None,
         "frame": {"origin": frame.origin, "edge": frame.edge},
-        "sample": {"points": len(points), "of": len(points) * (4 if len(points) > 200000 else 1),
+        "sample": {"points": len(points), "spacing": spacing if points else 0, "of": len(points) * (4 if len(points) > 200000 else 1),
                    "has_normals": bool(normals), "has_colours": has_colours},
         "loops": {"shown": len(loops), "all": len(loops), **{name: [loop[name] for loop in loops] for name in columns},
                   "first": first},
@@ -238,7 +243,14 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
     parts = {"/*{style}*/": page_parts("style"), "/*{three}*/": three, "<!--{data}-->": data,
              "/*{script}*/": page_parts("script")}
     lines = (PAGE / "page.html").read_text().split("\n")
-    return "\n".join(parts.get(line, line) for line in lines)
+    page = "\n".join(parts.get(line, line) for line in lines)
+    return page.replace("{scripts}", hashes(page, "script"), 1).replace("{styles}", hashes(page, "style"), 1)
+
+
+def hashes(page, name):
+    """Sources of the page's security policy: elements without attributes."""
+    texts = re.findall(rf"<{name}>(.*?)</{name}>", page, re.DOTALL)
+    return " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in texts)
 
 
 def main():

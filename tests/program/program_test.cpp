@@ -82,10 +82,16 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
                 "bar, plain, json, none");
   check_failure(run_program({"info"}), 2, "SCAN");
   check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
-  check_failure(run_program({"synth", "surface", "d", "--kind", "bottle"}), 2, "torus");
-  check_failure(run_program({"synth", "surface", "d", "--points", "-1"}), 2, "a whole number");
-  check_failure(run_program({"synth", "surface", "d", "--points", "abc"}), 2, "lacuna synth surface --help");
+  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
+  check_failure(run_program({"synth", "surface", "d.ply", "--points", "-1"}), 2, "a whole number");
+  check_failure(run_program({"synth", "surface", "d.ply", "--points", "abc"}), 2,
+                "lacuna synth surface --help");
+  check_failure(run_program({"synth", "surface", "x.las"}), 2,
+                "x.las is not possible; allowed: a name that ends in .ply");
+  check_failure(run_program({"render", "d", "--out", "x.jpg"}), 2, "allowed: a name that ends in .png");
   CHECK_FALSE(fs::exists("d"));
+  CHECK_FALSE(fs::exists("x.las"));
+  CHECK_FALSE(fs::exists("x.jpg"));
 }
 
 TEST_CASE("a mistyped option or command is reported with the one that may be meant") {

@@ -120,6 +120,66 @@ def check_without_webgl(driver):
         wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all loops")
 
 
+def check_policy(driver):
+    policy = driver.execute_script("return document.querySelector('meta[http-equiv=\"Content-Security-Policy\"]').content")
+    require(policy.startswith("default-src 'none';") and "unsafe" not in policy, "a policy allows nothing by default")
+    driver.execute_script("const s = document.createElement('script'); s.textContent = 'window.foreign = true';"
+                          "document.body.append(s); document.body.setAttribute('onclick', 'window.foreign = true');"
+                          "document.body.click(); document.body.removeAttribute('onclick'); s.remove();")
+    require(driver.execute_script("return window.foreign === undefined"), "a script of others does not run")
+    messages = [entry["message"] for entry in driver.get_log("browser")]
+    require(messages and all("Content Security Policy" in message for message in messages), "the browser says why")
+
+
+def type_in(driver, name, text):
+    field = driver.find_element(By.ID, name)
+    field.send_keys(Keys.CONTROL + "a")
+    field.send_keys(text)
+    report_browser.next_picture(driver)
+    return field
+
+
+def check_typed(driver, count):
+    most = driver.execute_script("return Math.max(...Array.from(document.querySelectorAll('#body tr[data-row]'),"
+                                 "row => Number(row.children[4].textContent.replace(/,/g, ''))))")
+    least = f"{most / 2:.4f}"
+    type_in(driver, "size-number", least)
+    with_point = driver.execute_script("return lacuna.visible_loops()")
+    field = type_in(driver, "size-number", least.replace(".", ","))
+    require(driver.execute_script("return lacuna.visible_loops()") == with_point and with_point > 0,
+            f"a comma is a decimal point ({with_point} of {count} loops)")
+    require(field.get_attribute("aria-invalid") == "false", "such a field is valid")
+    type_in(driver, "size-number", "2,5m")
+    require(field.get_attribute("aria-invalid") == "true", "a field with other text is marked")
+    require(driver.execute_script("return lacuna.visible_loops()") == count, "it filters nothing")
+    type_in(driver, "size-number", "0")
+    require(field.get_attribute("aria-invalid") == "false", "a number clears the mark")
+
+
+def check_csv(driver):
+    """Numbers of the saved table have no noise of binary fractions."""
+    driver.execute_script("URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; });"
+                          "return '#'; }; document.getElementById('csv').click();")
+    wait_for(driver, "window.saved", "a table is saved")
+    words = [word for line in driver.execute_script("return window.saved").split("\n")[1:] for word in line.split(",")]
+    require(all(len(word.replace("-", "").replace(".", "").lstrip("0")) <= 12 for word in words if "e" not in word),
+            f"{len(words)} saved values have short digits")
+
+
+def check_facts(driver):
+    names = driver.find_elements(By.CSS_SELECTOR, ".files bdi")
+    require(names and all(name.get_attribute("dir") == "ltr" for name in names), "file names are read from the left")
+
+
+def check_place(driver):
+    """Where the table is the widest part: nothing of it is cut."""
+    if driver.execute_script("return innerWidth") < 1280:
+        return
+    require(driver.execute_script("const rows = document.getElementById('rows');"
+                                  "return rows.scrollWidth <= rows.clientWidth && Array.from(rows.querySelectorAll('td.place'))"
+                                  ".every((place) => place.scrollWidth <= place.clientWidth)"), "places are whole")
+
+
 def check_console(driver):
     entries = [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
     require(not entries, "no error in the console" + (f": {entries[0]}" if entries else ""))
@@ -132,7 +192,13 @@ def run(driver, arguments):
     times = driver.execute_script("return lacuna.times")
     print(f"ready: {arguments.report.stat().st_size / 1e6:.1f} MB in {time.monotonic() - begin:.2f} s; in the page: "
           + ", ".join(f"{name} {value / 1000:.2f} s" for name, value in times.items()))
+    # The software driver of tests has warnings of its own.
+    messages = [entry["message"] for entry in driver.get_log("browser") if "GPU stall" not in entry["message"]
+                and "GL Driver Message" not in entry["message"]]
+    require(not messages, "no message in the console" + (f": {messages[0]}" if messages else ""))
     if not arguments.no_checks:
+        check_policy(driver)
+        check_facts(driver)
         if arguments.no_webgl:
             check_without_webgl(driver)
         else:
@@ -143,6 +209,9 @@ def run(driver, arguments):
                 report_section.check(driver, count)
             if count > 0:
                 check_filter(driver, count)
+                check_typed(driver, count)
+                check_place(driver)
+                check_csv(driver)
                 check_flight(driver)
                 check_keys(driver)
     if arguments.run:

@@ -1,5 +1,6 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
+#include "io/report/render.hpp"
 #include "io/report/scene.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
@@ -220,6 +221,78 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   CHECK_THAT(refused(out), Contains("loops.ply"));
   fs::remove(made.out() / "holes.json");
   CHECK_THAT(refused(out), Contains("holes.json: cannot be opened"));
+}
+
+TEST_CASE("a stray point spoils neither the report, the picture nor the printed digits, and is named") {
+  const Cloud scan = sheet().translated(kUtm);
+  const Cloud stray{{Eigen::Vector3d::Zero()}, {}};
+  const Made clean(scan, {"--report"});
+  test::ScratchFolder scratch;
+  std::ostringstream text;
+  text.precision(17);
+  for (const Eigen::Vector3d& p : scan.joined(stray).positions) text << p.transpose() << "\n";
+  const std::string file = scratch.write("stray.txt", text.str()), out = (scratch / "out").string();
+  const auto run = run_program({"detect", file, "--out", out, "--report", "--progress", "none"});
+  REQUIRE(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("1 point lies far from all others, at 0 0 0") && Contains("--drop-origin"));
+  CHECK_THAT(run.out, Contains("500020.0 5400019.7 300.0"));  // the centre of a hole
+  CHECK_THAT(run_program({"info", file}).err, Contains("1 point lies far from all others, at 0 0 0"));
+
+  const json with = json::parse(element(read_file(fs::path(out) / "report.html"), "report"));
+  const json without = json::parse(element(clean.page(), "report"));
+  for (const char* const key : {"frame", "bounds"}) CHECK(with.at(key) == without.at(key));
+  CHECK(with.at("strays") == 1);
+  CHECK(with.at("sample").at("points") == without.at("sample").at("points"));
+  CHECK(with.at("sample").at("spacing").get<double>() ==
+        Approx(without.at("sample").at("spacing").get<double>()).epsilon(0.02));
+  const std::string page = read_file(fs::path(out) / "report.html");
+  // The stray is a neighbour of the sheet's nearest corner: the outer curve changes there.
+  for (const char* const key : {"area", "diameter", "centroid"})
+    for (const std::size_t hole : {1, 2})
+      CHECK(with.at("loops").at(key)[hole] == without.at("loops").at(key)[hole]);
+  CHECK((element(page, "positions") == element(clean.page(), "positions")));
+
+  const Scene scene = read_scene(out), clean_scene = read_scene(clean.out());
+  CHECK(scene.points.spacing == Approx(clean_scene.points.spacing).epsilon(0.02));
+  CHECK(find_view(scene, "top", 300, 200).half_height == find_view(clean_scene, "top", 300, 200).half_height);
+  const auto render =
+      run_program({"render", out, "--out", (scratch / "x.png").string(), "--size", "300x200"});
+  CHECK_THAT(render.out, Contains("left out: 1 point far from all others"));
+}
+
+TEST_CASE("the bounds that a warning names leave strays out, and nothing else") {
+  const Cloud scan = sheet().translated({-30, -30, 7});
+  std::ostringstream text;
+  for (const Eigen::Vector3d& p : scan.positions) text << p.transpose() << "\n";
+  text << "1e5 0 0\n0 0 -2e5\n";
+  test::ScratchFolder scratch;
+  const std::string file = scratch.write("scan.txt", text.str());
+  const std::string warning = run_program({"info", file}).err;
+  CHECK_THAT(warning, Contains("2 points lie far from all others, such as at 100000 0 0"));
+  const std::size_t at = warning.find("--bounds=");
+  REQUIRE(at != warning.npos);
+  const std::string option = warning.substr(at, warning.find(' ', at) - at);
+  INFO(option);
+  const auto bounded = run_program({"info", file, option, "--json"});
+  CHECK(bounded.err.empty());
+  CHECK(json::parse(bounded.out).at("filtered_out").at("bounds") == 2);
+}
+
+TEST_CASE("numbers of a report have the digits that a reader needs") {
+  const Made made(sheet().translated(kUtm), {"--report"});
+  const json loops = json::parse(element(made.page(), "report")).at("loops");
+  for (const char* const name : {"diameter", "area", "perimeter", "confidence", "planarity"})
+    for (const json& value : loops.at(name)) CHECK(value.dump().size() <= 8);
+  for (const json& place : loops.at("centroid"))
+    for (const json& value : place) CHECK(value.dump().size() <= 11);  // 5400000.123
+}
+
+TEST_CASE("a large picture takes bounded memory") {
+  const Made made(sheet());
+  const auto run = run_program({"render", made.out().string(), "--out",
+                                (made.scratch() / "large.png").string(), "--size", "9000x9000"});
+  CHECK(run.exit_code == 0);
+  CHECK(run.peak_memory < std::uint64_t{400} << 20);
 }
 
 }  // namespace

@@ -62,13 +62,18 @@ std::string Detected::bytes() const {
   }
   const Counts& c = summary.counts;
   for (const std::uint64_t count :
-       {c.points, c.dropped, c.thinned_out, c.duplicates, c.candidates, c.coherent, c.boundary_points, c.boundary_edges,
-        c.components, c.raw_loops, c.undefined_normals}) {
+       {c.points, c.dropped, c.thinned_out, c.duplicates, c.candidates, c.coherent, c.boundary_points,
+        c.boundary_edges, c.components, c.raw_loops, c.undefined_normals}) {
     put(bytes, count);
   }
   put(bytes, summary.resolution);
   put(bytes, summary.mean_neighbours);
   put(bytes, summary.mean_edge_length);
+  put(bytes, summary.median_distance);
+  put(bytes, summary.strays.points);
+  put(bytes, summary.strays.example);
+  put(bytes, summary.strays.rest.min());
+  put(bytes, summary.strays.rest.max());
   put(bytes, summary.e);
   return bytes;
 }

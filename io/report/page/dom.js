@@ -21,7 +21,9 @@ function drawing(name, attributes = {}, ...children) {
 
 function set_attributes(to, attributes) {
   for (const [key, value] of Object.entries(attributes)) {
-    if (value !== null && value !== undefined && value !== false) to.setAttribute(key, value === true ? "" : value);
+    if (value === null || value === undefined || value === false) continue;
+    // The page's security policy allows no style attributes in text, but this way of setting them.
+    if (key === "style") to.style.cssText = value; else to.setAttribute(key, value === true ? "" : value);
   }
 }
 

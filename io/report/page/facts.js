@@ -25,20 +25,21 @@ function scan_facts(data, units) {
   const sample = report.sample || {};
   const rows = [["Points", format_count(counts.points)]];
   if (sample.of > 0 || data.points.count > 0) {
-    const is_all = data.points.count >= sample.of;
+    const is_all = data.points.count + (report.strays || 0) >= sample.of;
     rows.push(["Drawn here", is_all ? "all" : `${format_count(data.points.count)}, spread evenly`]);
   }
+  if (report.strays > 0) rows.push(["Far from all others, not drawn", format_count(report.strays)]);
   for (const [name, value] of left_out(counts)) rows.push([name, format_count(value)]);
   if (report.bounds) {
     const {min, max} = report.bounds;
     rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × "), "wide"]);
-    const decimals = place_decimals(report.mean_edge_length);
+    const decimals = place_decimals(report.median_distance);
     const corner = (values) => values.map((value) => format_place(value, decimals)).join("  ");
     rows.push(["Least x y z", corner(min), "wide"], ["Largest x y z", corner(max), "wide"]);
   } else {
     rows.push(["Extent", "none: no points"]);
   }
-  if (report.mean_edge_length > 0) rows.push(["Mean edge", units.length(report.mean_edge_length)]);
+  if (report.median_distance > 0) rows.push(["Distance of neighbours", units.length(report.median_distance)]);
   rows.push(["Resolution", report.resolution > 0 ? units.length(report.resolution) : "not thinned"]);
   rows.push(["Unit", units.name || "not stated"]);
   const crs = report.crs ? crs_name(report.crs) : "not stated";
@@ -62,7 +63,7 @@ function left_out(counts) {
 function file_list(inputs) {
   const list = element("ul", {class: "files"});
   for (const {file, points} of inputs) {
-    list.append(element("li", {}, element("span", {title: file}, file), element("span", {class: "number"}, format_count(points))));
+    list.append(element("li", {}, element("span", {title: file}, element("bdi", {dir: "ltr"}, file)), element("span", {class: "number"}, format_count(points))));
   }
   return element("details", {open: inputs.length <= 4},
                  element("summary", {}, plural(inputs.length, "file", "files")), list);

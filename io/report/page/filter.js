@@ -29,10 +29,11 @@ class LoopFilter {
       this.size = part === 0 ? 0 : least * Math.pow((most * 1.02) / least, part);
       const shown = Number((this.size * this.scale.factor).toPrecision(3));
       number.value = shown;
+      typed_number(number);
       this.changed();
     });
     number.addEventListener("input", () => {
-      this.size = Math.max(0, Number(number.value) || 0) / this.scale.factor;
+      this.size = Math.max(0, typed_number(number) || 0) / this.scale.factor;
       slider.value = this.size <= least || !(most > least) ? 0
           : Math.round((1000 * Math.log(this.size / least)) / Math.log((most * 1.02) / least));
       this.changed();
@@ -41,10 +42,11 @@ class LoopFilter {
     confidence.addEventListener("input", () => {
       this.confidence = Number(confidence.value);
       field.value = confidence.value;
+      typed_number(field);
       this.changed();
     });
     field.addEventListener("input", () => {
-      this.confidence = Math.max(0, Number(field.value) || 0);
+      this.confidence = Math.max(0, typed_number(field) || 0);
       confidence.value = this.confidence;
       this.changed();
     });
@@ -53,6 +55,7 @@ class LoopFilter {
 
   reset() {
     find("filters").reset();
+    for (const name of ["size-number", "confidence-number"]) typed_number(find(name));
     this.kind = "all";
     this.size = this.confidence = 0;
     this.changed();

@@ -29,6 +29,17 @@ function format_number(value, digits = 3) {
   return value.toLocaleString("en-US", {minimumSignificantDigits: shown, maximumSignificantDigits: shown});
 }
 
+// The number in a text field, with a comma or a point before the decimals. NaN for an empty field, and for any other
+// text, which marks the field as invalid.
+function typed_number(field) {
+  const text = field.value.trim().replace(",", ".").replace("−", "-");
+  const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(text) ? Number(text) : NaN;
+  const is_invalid = text !== "" && !Number.isFinite(value);
+  field.setAttribute("aria-invalid", String(is_invalid));
+  field.title = is_invalid ? "Not a number: digits, and a point or a comma before the decimals" : "";
+  return value;
+}
+
 function format_fraction(value) {
   return is_number(value) ? value.toFixed(3) : kMissing;
 }

@@ -11,7 +11,7 @@ function connect_keys({navigation, press}) {
     "+": (s) => navigation.zoom(Math.exp(-zoom * s)), "=": (s) => navigation.zoom(Math.exp(-zoom * s)),
     "-": (s) => navigation.zoom(Math.exp(zoom * s)), "_": (s) => navigation.zoom(Math.exp(zoom * s)),
   } : {};
-  const is_typing = (target) => target.matches("input[type=number], textarea, select");
+  const is_typing = (target) => target.matches("input[inputmode=decimal], textarea, select");
   const needs_arrows = (target) => target.matches("input, [role=tab]") || target.closest(".rows, .side");
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || find("help").open) return;

@@ -7,7 +7,7 @@ class Page {
     const {report, loops} = this.data;
     this.times = {decode: performance.now() - begin};
     this.units = new Units(report.unit);
-    this.decimals = place_decimals(report.mean_edge_length);
+    this.decimals = place_decimals(report.median_distance);
     this.theme = document.documentElement.dataset.theme;
     this.colouring = "probability";
     this.selected = -1;
@@ -224,7 +224,7 @@ class Page {
     find("back").lastChild.textContent = this.former ? "Back" : "Deselect";
     find("chip-text").textContent = this.selected < 0 ? ""
         : `${loop_name(loops, this.selected)} · ⌀ ${this.units.length(loops.diameter[this.selected])} · ` +
-          `${this.units.area(loops.area[this.selected])}`;
+          `area ${this.units.area(loops.area[this.selected])}`;
   }
 }
 

@@ -47,12 +47,11 @@ class Navigation {
   }
 
   loop_pose(index) {
-    const {loops, frame} = this.data;
+    const {loops} = this.data;
     const box = loop_box(loops, index);
-    const target = box ? box.low.map((value, axis) => (value + box.high[axis]) / 2)
-                       : to_scene(frame, Array.from(loops.centroid.subarray(3 * index, 3 * index + 3)));
-    if (!target.every(Number.isFinite)) return this.pose();
-    const size = box ? Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2 : 0.01;
+    if (!box) return this.pose();  // a loop through strays: it is not drawn
+    const target = box.low.map((value, axis) => (value + box.high[axis]) / 2);
+    const size = Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2;
     const tall = Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance = Math.max((2.1 * size) / tall, 12 * this.spacing);
     const normal = Array.from(loops.normal.subarray(3 * index, 3 * index + 3)).map((v) => (Number.isFinite(v) ? v : 0));

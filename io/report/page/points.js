@@ -2,11 +2,10 @@
 
 const kColourings = ["probability", "height", "colour", "plain"];
 
-// Mean distance of neighbouring sample points in scene units.
+// Mean distance of a sample point to its dozen of neighbours, in scene units: 1.7 times the edge of the square that each
+// stands for.
 function sample_spacing({report, frame, points}) {
-  const sample = report.sample || {};
-  const sparse = sample.of > 0 && points.count > 0 ? Math.sqrt(Math.max(1, sample.of / points.count)) : 1;
-  const spacing = ((report.mean_edge_length || 0) * sparse) / frame.edge;
+  const spacing = (1.7 * ((report.sample || {}).spacing || 0)) / frame.edge;
   return spacing > 0 ? spacing : 1 / Math.sqrt(Math.max(16, points.count));
 }
 

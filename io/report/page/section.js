@@ -12,12 +12,10 @@ class HeightLimit {
     this.slider = find(`${name}-slider`);
     this.number = find(`${name}-number`);
     find(`${name}-unit`).textContent = units.name;
-    for (const input of [this.slider, this.number]) {
-      Object.assign(input, {min: this.text(low), max: this.text(high), step: this.text(step)});
-    }
+    Object.assign(this.slider, {min: this.text(low), max: this.text(high), step: this.text(step)});
     this.slider.addEventListener("input", () => { this.set(Number(this.slider.value)); on_change(); });
     this.number.addEventListener("input", () => {
-      const value = this.number.valueAsNumber;
+      const value = typed_number(this.number);
       this.set(Number.isNaN(value) ? off : value, true);
       on_change();
     });
@@ -29,7 +27,10 @@ class HeightLimit {
   set(value, is_typed = false) {
     this.value = Math.min(this.high, Math.max(this.low, value));
     this.slider.value = this.text(this.value);
-    if (!is_typed) this.number.value = this.text(this.value);
+    if (!is_typed) {
+      this.number.value = this.text(this.value);
+      typed_number(this.number);
+    }
     this.number.classList.toggle("quiet", !this.is_active());
     this.slider.setAttribute("aria-valuetext", this.is_active() ? this.words() : "off");
   }

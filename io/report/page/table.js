@@ -124,7 +124,11 @@ class LoopTable {
     const made = element("tr", {"data-row": row, "data-id": this.loops.id[i], tabindex: row === this.focused ? 0 : -1,
                                 "aria-rowindex": row + 2, "aria-current": is_selected ? "true" : null,
                                 class: is_selected ? "selected" : null});
-    for (const column of kColumns) made.append(this.cell(column, i));
+    for (const column of kColumns) {
+      const cell = this.cell(column, i);
+      cell.classList.add(`column-${column.key}`);
+      made.append(cell);
+    }
     return made;
   }
 
@@ -198,7 +202,7 @@ class LoopTable {
     return this.shown[(row + direction + this.shown.length) % this.shown.length];
   }
 
-  // Comma-separated values of the rows shown, with all digits, as holes.csv has them.
+  // Comma-separated values of the rows shown, with the digits of the report: holes.csv has all of them.
   csv() {
     const {loops} = this;
     const text = (value) => (Number.isFinite(value) ? String(value) : "");

@@ -33,6 +33,20 @@ Scene sheet() {
   return scene;
 }
 
+struct Picture {
+  std::size_t width, height;
+  std::vector<Colour> pixels;  // row by row from the top
+};
+
+Picture draw(const Scene& scene, const View& view, PictureSize size, std::size_t band_bytes = kBandBytes) {
+  Picture picture{size.width, size.height, {}};
+  const auto take = [&](std::span<const Colour> row) {
+    picture.pixels.insert(picture.pixels.end(), row.begin(), row.end());
+  };
+  render(scene, view, size, false, take, band_bytes);
+  return picture;
+}
+
 bool is_reddish(Colour c) {
   return c[0] > c[1] + 60 && c[0] > c[2] + 40;
 }
@@ -54,7 +68,7 @@ Colour colour_at(const Picture& picture, const View& view, double x, double y) {
 TEST_CASE("a picture from above has the surface, its hole and the loop where they are") {
   const Scene scene = sheet();
   const View view = find_view(scene, "top", 400, 300);
-  const Picture picture = render(scene, view, 400, 300, false);
+  const Picture picture = draw(scene, view, {400, 300});
   REQUIRE(picture.pixels.size() == 400 * 300);
   CHECK(is_white(colour_at(picture, view, 15, 5)));
   CHECK_FALSE(is_white(colour_at(picture, view, 5, 5)));
@@ -83,7 +97,7 @@ TEST_CASE("what lies before a loop at some distance does not hide it") {
     }
   }
   const View view = find_view(scene, "7", 300, 300);
-  CHECK(is_white(colour_at(render(scene, view, 300, 300, false), view, 15, 5)));
+  CHECK(is_white(colour_at(draw(scene, view, {300, 300}), view, 15, 5)));
 }
 
 TEST_CASE("a view of another name is an error that says what is allowed") {
@@ -92,9 +106,28 @@ TEST_CASE("a view of another name is an error that says what is allowed") {
   CHECK_THROWS_WITH(find_view(sheet(), "8", 100, 100), Contains("view '8'"));
 }
 
+TEST_CASE("a picture is the same in one band and in bands of one row") {
+  const Scene scene = sheet();
+  for (const char* const name : {"oblique", "top", "7"}) {
+    const View view = find_view(scene, name, 123, 77);
+    const Picture whole = draw(scene, view, {123, 77});
+    REQUIRE(whole.pixels.size() == 123 * 77);
+    CHECK(draw(scene, view, {123, 77}, 1).pixels == whole.pixels);
+    CHECK(draw(scene, view, {123, 77}, 50'000).pixels == whole.pixels);
+  }
+}
+
+TEST_CASE("a loop without vertices, since it runs through strays, has no view of its own") {
+  Scene scene = sheet();
+  scene.loops.vertices.clear();
+  scene.loops.first = {0, 0};
+  CHECK_THROWS_WITH(find_view(scene, "7", 100, 100), Contains("far from all others"));
+  CHECK_NOTHROW(draw(scene, find_view(scene, "top", 100, 100), {100, 100}));
+}
+
 TEST_CASE("a scene without anything is a white picture") {
   const Scene scene;
-  const Picture picture = render(scene, find_view(scene, "oblique", 64, 48), 64, 48, false);
+  const Picture picture = draw(scene, find_view(scene, "oblique", 64, 48), {64, 48});
   CHECK(std::all_of(picture.pixels.begin(), picture.pixels.end(), is_white));
 }
 

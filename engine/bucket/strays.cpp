@@ -1,0 +1,93 @@
+#include "engine/bucket/strays.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint64_t kMostPassedOver = 1024;
+
+// The smallest of `key(point)` after `passed_over` smaller ones. `least(cell)` is a lower bound of the keys
+// in a cell: cells come in its order, until none can hold a smaller key.
+template <class Least, class Key>
+double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&& least, Key&& key) {
+  struct Outermost {
+    double least;
+    std::uint32_t cell;
+    bool operator>(const Outermost& other) const { return least > other.least; }
+  };
+  const std::vector<Cell>& cells = store.tiling().cells;
+  std::vector<Outermost> order;
+  order.reserve(cells.size());
+  for (std::uint32_t cell = 0; cell < cells.size(); ++cell) order.push_back({least(cells[cell].box), cell});
+  std::make_heap(order.begin(), order.end(), std::greater<>());
+
+  std::priority_queue<double> smallest;  // the largest of them on top
+  while (!order.empty() && (smallest.size() <= passed_over || order.front().least < smallest.top())) {
+    for (const StoredPoint& point : store.cell(order.front().cell)) {
+      smallest.push(key(point.position()));
+      if (smallest.size() > passed_over + 1) smallest.pop();
+    }
+    std::pop_heap(order.begin(), order.end(), std::greater<>());
+    order.pop_back();
+  }
+  return smallest.top();
+}
+
+// Of the points that are not passed over.
+Eigen::AlignedBox3d usual_box(const TileStore& store, std::uint64_t passed_over) {
+  Eigen::AlignedBox3d box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min()[axis] = smallest_after(
+        store, passed_over, [&](const Eigen::AlignedBox3d& cell) { return cell.min()[axis]; },
+        [&](const Eigen::Vector3d& point) { return point[axis]; });
+    box.max()[axis] = -smallest_after(
+        store, passed_over, [&](const Eigen::AlignedBox3d& cell) { return -cell.max()[axis]; },
+        [&](const Eigen::Vector3d& point) { return -point[axis]; });
+  }
+  return box;
+}
+
+}  // namespace
+
+Strays find_strays(const TileStore& store) {
+  Strays strays;
+  const std::vector<Cell>& cells = store.tiling().cells;
+  for (const Cell& cell : cells) strays.rest.extend(cell.box);
+  const std::uint64_t points = store.tiling().points();
+  if (points < kFewestPoints) return strays;
+  const Eigen::AlignedBox3d usual =
+      usual_box(store, std::clamp<std::uint64_t>(points / 1024, 1, kMostPassedOver));
+  const double grown = kFarFromRest * usual.sizes().maxCoeff();
+  if (!(grown > 0)) return strays;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(grown);
+  const Eigen::AlignedBox3d near(usual.min() - margin, usual.max() + margin);
+  if (near.contains(strays.rest)) return strays;
+
+  strays.rest.setEmpty();
+  PointId first{};
+  for (std::uint32_t cell = 0; cell < cells.size(); ++cell) {
+    if (near.contains(cells[cell].box)) {
+      strays.rest.extend(cells[cell].box);
+      continue;
+    }
+    for (const StoredPoint& point : store.cell(cell)) {
+      if (near.contains(point.position())) {
+        strays.rest.extend(point.position());
+        continue;
+      }
+      strays.has_origin |= point.position().isZero(0);
+      if (strays.points++ == 0 || point.id < first) {
+        first = point.id;
+        strays.example = point.position();
+      }
+    }
+  }
+  return strays;
+}
+
+}  // namespace lacuna

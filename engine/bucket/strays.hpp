@@ -1,0 +1,21 @@
+// Strays: a few points far from all others, such as returns at 0 0 0 in a scan of map coordinates.
+#pragma once
+
+#include "engine/model/detection.hpp"
+#include "engine/store/tile_store.hpp"
+
+namespace lacuna {
+
+// The rule. Of n distinct points, the n / 1024 outermost ones of each side of each axis are passed over, from
+// 1 to 1024 of them. The others have a box. A stray lies outside of that box grown on all sides by
+// `kFarFromRest` times its longest edge. With fewer than `kFewestPoints` points, and where all others
+// coincide, there are none.
+//
+// The result depends on the distinct points alone. Cost: linear in cells, and a read of the outermost ones;
+// where there are strays, of all cells that reach out of the box.
+Strays find_strays(const TileStore& store);
+
+inline constexpr double kFarFromRest = 2;
+inline constexpr std::uint64_t kFewestPoints = 64;
+
+}  // namespace lacuna
