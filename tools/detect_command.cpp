@@ -5,7 +5,6 @@
 #include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
-#include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "tools/input_files.hpp"
 #include "tools/log_file.hpp"
@@ -86,9 +85,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  write_results(*detection, scan, config, out, overwrite);
-  std::vector<fs::path> written = result_files(scan, config, out);
-  if (config.output.report) written.push_back(write_report(out, overwrite));
+  const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
     spdlog::warn("{}", warning);
@@ -98,10 +95,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
-  for (const fs::path& file : written) {
-    if (!fs::exists(file)) continue;  // loops.prj, without a coordinate reference system
-    summary += "written: " + visible(file.string()) + "\n";
-  }
+  for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }

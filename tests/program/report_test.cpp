@@ -1,5 +1,6 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
+#include "engine/store/temporary_folder.hpp"
 #include "io/report/scene.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
@@ -7,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -44,6 +47,7 @@ class Made {
     REQUIRE(run.exit_code == 0);
   }
   fs::path out() const { return scratch_ / "out"; }
+  const std::string& scan() const { return scan_; }
   std::string page() const { return read_file(out() / "report.html"); }
   const test::ScratchFolder& scratch() const { return scratch_; }
 
@@ -101,6 +105,33 @@ std::vector<Eigen::Vector3d> positions(const std::string& page, const std::strin
 }
 
 TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
+TEST_CASE("a signal while the report is made leaves the earlier results and their report") {
+  const Made made(sheet(), {"--report"});
+  const auto contents = [&] {
+    std::map<fs::path, std::string> files;
+    for (const auto& entry : fs::directory_iterator(made.out())) {
+      if (entry.is_regular_file()) files[entry.path()] = read_file(entry.path());
+    }
+    return files;
+  };
+  const auto before = contents();
+  const auto is_at_report = [&] {  // the other results are complete
+    for (const fs::path& folder : find_folders(made.out(), kTemporaryPrefix)) {
+      std::error_code error;
+      if (const auto size = fs::file_size(folder / "new/holes.json", error); !error && size > 0) return true;
+    }
+    return false;
+  };
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    const auto ended = test::run_program_until(
+        {"detect", made.scan(), "--out", made.out().string(), "--report", "--quiet", "--k", "16"}, signal,
+        is_at_report);
+    if (ended.exit_code == 0) continue;  // a busy machine: the signal came too late
+    CHECK(ended.exit_code == 128 + signal);
+    CHECK(contents() == before);
+  }
+}
+
   const Made made(sheet().translated(kUtm), {"--report"});
   const std::string page = made.page();
   const json report = json::parse(element(page, "report"));
