@@ -17,6 +17,7 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace lacuna {
 namespace {
@@ -46,8 +47,8 @@ class Made {
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
   }
-  fs::path out() const { return scratch_ / "out"; }
   const std::string& scan() const { return scan_; }
+  fs::path out() const { return scratch_ / "out"; }
   std::string page() const { return read_file(out() / "report.html"); }
   const test::ScratchFolder& scratch() const { return scratch_; }
 
@@ -104,7 +105,6 @@ std::vector<Eigen::Vector3d> positions(const std::string& page, const std::strin
   return points;
 }
 
-TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
 TEST_CASE("a signal while the report is made leaves the earlier results and their report") {
   const Made made(sheet(), {"--report"});
   const auto contents = [&] {
@@ -132,6 +132,7 @@ TEST_CASE("a signal while the report is made leaves the earlier results and thei
   }
 }
 
+TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
   const Made made(sheet().translated(kUtm), {"--report"});
   const std::string page = made.page();
   const json report = json::parse(element(page, "report"));
@@ -250,7 +251,34 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   fs::resize_file(made.out() / "loops.ply", fs::file_size(made.out() / "loops.ply") - 9);
   CHECK_THAT(refused(out), Contains("loops.ply"));
   fs::remove(made.out() / "holes.json");
-  CHECK_THAT(refused(out), Contains("holes.json: cannot be opened"));
+  CHECK_THAT(refused(out), Contains("holes.json: is not there"));
+}
+
+TEST_CASE("JSON that is a pipe, or nested without end, is refused by every command that reads it") {
+  const Made made(sheet());
+  const std::string out = made.out().string();
+  const std::string truth = made.scratch().write("truth.txt", "0 1 2\n");
+  const std::vector<std::vector<std::string>> commands = {{"report", out},
+                                                          {"render", out, "--out", out + ".png"},
+                                                          {"evaluate", out, truth, "--scan", made.scan()}};
+  const auto check_refused = [&](const std::string& reason) {
+    for (const auto& command : commands) {
+      const auto run = run_program(command);
+      INFO(command.front() << ": " << run.err);
+      CHECK(run.exit_code == 1);
+      CHECK_THAT(run.err, Contains("holes.json: " + reason));
+      CHECK(test::count_lines(run.err) == 1);
+    }
+  };
+  const std::string holes = read_file(made.out() / "holes.json");
+  for (const std::string key : {"crs", "loops", "counts", "schema"}) {
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    std::ofstream(made.out() / "holes.json") << "{\"" + key + "\": " + deep + "," + holes.substr(1);
+    check_refused("is nested deeper than 32 levels");
+  }
+  fs::remove(made.out() / "holes.json");
+  REQUIRE(mkfifo((made.out() / "holes.json").c_str(), 0600) == 0);
+  check_refused("is not a regular file; a result of lacuna detect is needed");
 }
 
 }  // namespace
