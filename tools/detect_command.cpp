@@ -86,6 +86,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
+  note_complete_results();
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
     spdlog::warn("{}", warning);
