@@ -12,8 +12,9 @@ namespace lacuna {
 class CsvWriter {
  public:
   // Writes the header line. Names that this project's reader, or another, would take for something else are
-  // changed or quoted: ',' ';' and '"' become '_'; what could be a number or a comment is put in quotes. A
-  // second equal name gets a number.
+  // changed or quoted: ',' ';' '"' and control characters become '_', and '_' comes before = + - and @ at the
+  // start, which are formulas to a spreadsheet. Bytes that are not UTF-8 become U+FFFD. What could be a
+  // number or a comment is put in quotes. A second equal name gets a number.
   CsvWriter(OutputFile& out, RowLayout layout);
 
   // Rows of the layout, one after the other. Each number is the shortest text that reads back as the same

@@ -259,6 +259,9 @@ TEST_CASE(
   check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
   check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
   check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
+  fs::create_symlink(scratch / "made", scratch / "link");
+  check_failure(detect(scan, (scratch / "link").string()), 1, "link: is a symbolic link to nothing");
+  CHECK_FALSE(fs::exists(scratch / "made"));
   CHECK(test::read_file(scan) == sheet(20));
 }
 
