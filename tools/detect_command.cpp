@@ -19,6 +19,7 @@
 #include "tools/visible_text.hpp"
 #include "tools/workspace.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -59,6 +60,16 @@ void require(const CLI::App& command, const std::string& option) {
   if (command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
 }
 
+// Empty where every program reads what was written.
+std::string readers_note(const FileScan& scan, const std::vector<fs::path>& written) {
+  if (scan.single_precision()) return "";
+  const bool has_pcd = std::any_of(written.begin(), written.end(),
+                                   [](const fs::path& file) { return file.extension() == ".pcd"; });
+  return std::string("note: PCL takes the 64-bit coordinates of ") + (has_pcd ? "PLY and PCD" : "PLY") +
+         " files for 0 0 0" + (has_pcd ? ", Open3D those of PCD" : "") +
+         "; --points --points-format las or csv helps\n";
+}
+
 // Writes the results; returns their summary.
 std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
@@ -97,6 +108,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
+  summary += readers_note(scan, written);
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }
