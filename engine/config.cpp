@@ -4,6 +4,7 @@
 #include "engine/criteria/criteria.hpp"
 #include "engine/parameter_values.hpp"
 #include "engine/run/error.hpp"
+#include "engine/run/regular_file.hpp"
 #include "engine/unknown_key.hpp"
 
 #include <algorithm>
@@ -78,9 +79,9 @@ struct SetFromToml {
 };
 
 std::string read_text(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw Error(file.string() + ": a folder, not a config file");
+  check_regular_file(file, "a config file");
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file.string() + ": cannot open the config file: " + std::strerror(errno));
+  if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
   std::string text(kLargestConfigFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) throw Error(file.string() + ": cannot read the config file: " + std::strerror(errno));

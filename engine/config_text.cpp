@@ -53,12 +53,25 @@ std::optional<std::string> bare_text(std::string_view line) {
   return bare;
 }
 
+// toml++ goes down one level for each part of a dotted name, without a bound of its own.
+bool is_name_too_deep(std::string_view bare) {
+  constexpr std::ptrdiff_t kMostDots = 15;  // Lacuna's own names have none
+  while (!bare.empty()) {
+    const std::size_t end = std::min(bare.find_first_of(",=[]{}"), bare.size());
+    const std::string_view name = bare.substr(0, end);
+    if (std::count(name.begin(), name.end(), '.') > kMostDots) return true;
+    bare.remove_prefix(std::min(end + 1, bare.size()));
+  }
+  return false;
+}
+
 // Empty: nothing is wrong.
 std::string fault_of(std::string_view line) {
   if (!is_utf8(line)) return "is not UTF-8; a config file must be";
   if (is_section_without_name(line)) return "a section without a name; [name] is needed";
   const auto bare = bare_text(line);
   if (!bare) return "a string of several lines; strings of one line are allowed";
+  if (is_name_too_deep(*bare)) return "a name of more than 16 parts; sections and keys have one part";
   const auto is_allowed = [](char c) { return c == '\t' || (c >= ' ' && c <= '~'); };
   if (std::all_of(bare->begin(), bare->end(), is_allowed)) return "";
   return "a character outside of quotes that is not ASCII text; keys and values have none";

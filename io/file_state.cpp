@@ -12,6 +12,10 @@
 namespace lacuna {
 namespace {
 
+std::int64_t nanoseconds(const timespec& time) {
+  return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
+}
+
 // None where the file cannot be looked up; errno says why.
 std::optional<FileState> look_up(const std::filesystem::path& file) {
   struct stat status {};
@@ -19,7 +23,8 @@ std::optional<FileState> look_up(const std::filesystem::path& file) {
   return FileState{.device = status.st_dev,
                    .inode = status.st_ino,
                    .size = static_cast<std::uint64_t>(status.st_size),
-                   .mtime = status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
+                   .mtime = nanoseconds(status.st_mtim),
+                   .ctime = nanoseconds(status.st_ctim)};
 }
 
 // Empty: nothing differs.
@@ -29,7 +34,8 @@ std::string difference(const FileState& before, const std::optional<FileState>& 
   if (now->size != before.size) {
     return "it had " + std::to_string(before.size) + " bytes and has " + std::to_string(now->size) + " now";
   }
-  return now->mtime != before.mtime ? "it was written to" : "";
+  if (now->mtime != before.mtime) return "it was written to";
+  return now->ctime != before.ctime ? "its content, names, owner or permissions were changed" : "";
 }
 
 }  // namespace

@@ -10,15 +10,15 @@ struct FileState {
   std::uint64_t device = 0;
   std::uint64_t inode = 0;
   std::uint64_t size = 0;  // bytes
-  std::int64_t mtime = 0;  // nanoseconds since 1970
+  std::int64_t mtime = 0;  // nanoseconds since 1970, as ctime
+  std::int64_t ctime = 0;  // of the last change to content, name, owner or permissions; no program sets it
 };
 
 // Throws `Error` if there is no such file.
 FileState file_state(const std::filesystem::path& file);
 
 // Throws `Error`, with what differs, unless the file has the state that it had `before`. Content of the same
-// length written within the clock tick of `before` (milliseconds), or under a time that was set back, is not
-// noticed.
+// length written within the clock tick of `before` (milliseconds) is not noticed.
 void check_unchanged(const std::filesystem::path& file, const FileState& before);
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 #include "io/input_file.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/run/regular_file.hpp"
 #include "engine/run/utf8.hpp"
 
 #include <algorithm>
@@ -36,13 +37,11 @@ std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_
 
 InputFile::InputFile(std::filesystem::path file, std::size_t buffer_bytes)
     : file_(std::move(file)), buffer_bytes_(buffer_bytes) {
-  // Looked at before it is opened: to open a named pipe would wait for a writer.
-  struct stat status {};
-  if (::stat(file_.c_str(), &status) != 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) fail("is a folder; a scan file is needed");
-  if (!S_ISREG(status.st_mode)) fail("is not a regular file; a scan is read several times");
+  check_regular_file(file_, "a scan file");
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
+  struct stat status {};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0)
+    fail(std::string("cannot be opened: ") + std::strerror(errno));
   size_ = static_cast<std::uint64_t>(status.st_size);
   buffer_ = std::make_unique_for_overwrite<char[]>(buffer_bytes);
 }

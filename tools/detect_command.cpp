@@ -6,7 +6,6 @@
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
-#include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "tools/disk_check.hpp"
 #include "tools/input_files.hpp"
@@ -22,6 +21,7 @@
 #include "tools/visible_text.hpp"
 #include "tools/workspace.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -62,6 +62,16 @@ void require(const CLI::App& command, const std::string& option) {
   if (command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
 }
 
+// Empty where every program reads what was written.
+std::string readers_note(const FileScan& scan, const std::vector<fs::path>& written) {
+  if (scan.single_precision()) return "";
+  const bool has_pcd = std::any_of(written.begin(), written.end(),
+                                   [](const fs::path& file) { return file.extension() == ".pcd"; });
+  return std::string("note: PCL takes the 64-bit coordinates of ") + (has_pcd ? "PLY and PCD" : "PLY") +
+         " files for 0 0 0" + (has_pcd ? ", Open3D those of PCD" : "") +
+         "; --points --points-format las or csv helps\n";
+}
+
 // Writes the results; returns their summary.
 std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Clock::time_point start = Clock::now();
@@ -90,9 +100,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  write_results(*detection, scan, config, out, overwrite);
-  std::vector<fs::path> written = result_files(scan, config, out);
-  if (config.output.report) written.push_back(write_report(out, overwrite));
+  const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
+  note_complete_results();
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
     spdlog::warn("{}", warning);
@@ -102,10 +111,8 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
-  for (const fs::path& file : written) {
-    if (!fs::exists(file)) continue;  // loops.prj, without a coordinate reference system
-    summary += "written: " + visible(file.string()) + "\n";
-  }
+  for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
+  summary += readers_note(scan, written);
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }

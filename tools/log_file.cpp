@@ -68,7 +68,10 @@ bool is_log(const fs::path& file) {
 void check_log_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) return;
+  if (!fs::exists(status)) {
+    if (!fs::is_symlink(fs::symlink_status(file, error))) return;
+    throw Error(file.string() + ": is a symbolic link to nothing; --log-file needs a new file or a log");
+  }
   if (!fs::is_regular_file(status)) throw Error(file.string() + ": not a regular file; --log-file needs one");
   if (::access(file.c_str(), R_OK | W_OK) != 0)
     throw Error(file.string() + ": cannot be written to: " + std::strerror(errno));

@@ -1,6 +1,7 @@
 #include "tools/program.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "engine/unknown_key.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
@@ -30,6 +31,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -39,15 +41,21 @@ enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
 
 int fail(const std::string& reason, ExitCode code) {
   wait_if_interrupted();  // the signal says how the program ends
-  print_error(reason);
+  print_error(reason + complete_results());
   return code;
 }
 
-// A full disk or a closed pipe behind stdout is a failure like any other.
+// A full disk behind stdout is a failure like any other. Where a reader has closed the pipe, as `head` does,
+// it has all that it wants.
 int flush_output() {
   std::cout.flush();
-  if (std::cout) return kDone;
-  return fail("cannot write to standard output", kFailed);
+  if (std::cout || output_failure() == EPIPE) return kDone;
+  return fail("cannot write to standard output: " + std::string(std::strerror(output_failure())), kFailed);
+}
+
+void warn_of_remaining_folders() {
+  for (const auto& [folder, reason] : remaining_folders())
+    spdlog::warn("{}: is not needed any more, but cannot be removed: {}", folder.string(), reason);
 }
 
 const CLI::App* find_command(const CLI::App& app, const std::string& name) {
@@ -95,6 +103,7 @@ void check_names(const CLI::App& app, std::span<const std::string> arguments) {
 int run_command(CLI::App& app, const std::vector<std::string>& arguments) {
   check_names(app, arguments);
   app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  warn_of_remaining_folders();
   return flush_output();
 }
 

@@ -47,18 +47,22 @@ struct Identity {
 struct WatchedResults {
   std::filesystem::path folder, report;
   Identity before;
+  bool are_complete = false;
 };
 
 std::mutex watched_mutex;
 std::optional<WatchedResults> watched;
 
+std::string completeness(const WatchedResults& results) {
+  return "; the results in " + results.folder.string() + " are complete";
+}
+
 std::string last_line() {
   const std::lock_guard lock(watched_mutex);
   std::string line = "lacuna: interrupted";
   if (!watched) return line;
-  const std::string folder = watched->folder.string();
-  if (Identity(watched->report) == watched->before) return line + "; " + folder + " is as it was";
-  return line + "; the results in " + folder + " are complete";
+  const bool is_complete = watched->are_complete || !(Identity(watched->report) == watched->before);
+  return line + (is_complete ? completeness(*watched) : "; " + watched->folder.string() + " is as it was");
 }
 
 void wait_for_signal(sigset_t signals) {
@@ -94,6 +98,16 @@ void handle_signals() {
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report) {
   const std::lock_guard lock(watched_mutex);
   watched = {.folder = folder, .report = report, .before = Identity(report)};
+}
+
+void note_complete_results() {
+  const std::lock_guard lock(watched_mutex);
+  watched->are_complete = true;
+}
+
+std::string complete_results() {
+  const std::lock_guard lock(watched_mutex);
+  return watched && watched->are_complete ? completeness(*watched) : "";
 }
 
 void wait_if_interrupted() {

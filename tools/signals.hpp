@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace lacuna {
 
@@ -16,6 +17,11 @@ void handle_signals();
 // whether that has happened. From now on the line about a signal says so: "lacuna: interrupted; DIR is as it
 // was".
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report);
+
+// The results have replaced what was in the folder of watch_results.
+void note_complete_results();
+// For the line of an error that comes later: "; the results in DIR are complete"; empty before.
+std::string complete_results();
 
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
 void wait_if_interrupted();

@@ -3,6 +3,7 @@
 #include "engine/run/utf8.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <iostream>
 #include <streambuf>
 
@@ -13,6 +14,13 @@ void append_hexadecimal(std::string& text, unsigned char byte) {
   constexpr char kDigits[] = "0123456789abcdef";
   text += kDigits[byte >> 4];
   text += kDigits[byte & 15];
+}
+
+int first_failure = 0;
+
+bool succeeded(bool is_done) {
+  if (!is_done && first_failure == 0) first_failure = errno;
+  return is_done;
 }
 
 // Collects whole lines, so that no character is cut.
@@ -34,7 +42,7 @@ class VisibleBuffer final : public std::streambuf {
     if (line_end == std::string_view::npos || text_.size() < kEnough) return count;
     return write(before + line_end + 1) ? count : 0;
   }
-  int sync() override { return write(text_.size()) && std::fflush(file_) == 0 ? 0 : -1; }
+  int sync() override { return write(text_.size()) && succeeded(std::fflush(file_) == 0) ? 0 : -1; }
 
  private:
   static constexpr std::size_t kEnough = std::size_t{1} << 16;
@@ -49,7 +57,7 @@ class VisibleBuffer final : public std::streambuf {
       left.remove_prefix(std::min(length + 1, left.size()));
     }
     text_.erase(0, count);
-    return std::fwrite(shown.data(), 1, shown.size(), file_) == shown.size();
+    return succeeded(std::fwrite(shown.data(), 1, shown.size(), file_) == shown.size());
   }
 
   std::FILE* file_;
@@ -78,6 +86,10 @@ void show_output_visibly(std::FILE* file) {
   static auto* const buffer =
       new VisibleBuffer(file);  // never destroyed: std::cout is flushed at the very end
   std::cout.rdbuf(buffer);
+}
+
+int output_failure() {
+  return first_failure;
 }
 
 }  // namespace lacuna

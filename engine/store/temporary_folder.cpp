@@ -43,15 +43,26 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
 
 TemporaryFolder::~TemporaryFolder() {
   if (is_kept_) return;
-  std::error_code error;  // there is nobody to report it to
+  std::error_code error;
   fs::remove_all(folder_, error);
-  keep();
+  if (!error) keep();  // else it is a remaining folder
 }
 
 void TemporaryFolder::keep() {
   const std::lock_guard lock(mutex);
   std::erase(folders, fs::absolute(folder_));
   is_kept_ = true;
+}
+
+std::vector<RemainingFolder> remaining_folders() {
+  const std::lock_guard lock(mutex);
+  std::vector<RemainingFolder> remaining;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    fs::remove_all(folder, error);
+    if (error) remaining.push_back({folder, error.message()});
+  }
+  return remaining;
 }
 
 void remove_temporary_folders() {

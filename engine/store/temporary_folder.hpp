@@ -15,7 +15,7 @@ class TemporaryFolder {
  public:
   // A new folder in `parent`, for this user alone: `prefix` and six random characters. Throws `Error`.
   TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
-  ~TemporaryFolder();  // removes it with everything in it
+  ~TemporaryFolder();  // removes it with everything in it, if that is possible
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
@@ -27,6 +27,15 @@ class TemporaryFolder {
   std::filesystem::path folder_;
   bool is_kept_ = false;
 };
+
+struct RemainingFolder {
+  std::filesystem::path folder;
+  std::string reason;
+};
+
+// Folders that could not be removed, after one more try each. For the end of a program, where no
+// TemporaryFolder lives.
+std::vector<RemainingFolder> remaining_folders();
 
 // For the thread that handles signals: removes all temporary folders. No folder can be made afterwards: a
 // thread that tries stops there, as the process is about to end.

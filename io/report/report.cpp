@@ -185,7 +185,7 @@ void write_report(const Scene& scene, OutputFile& out) {
   Json report;
   try {
     report = report_of(scene);
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     throw Error(out.path().string() +
                 ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
   }

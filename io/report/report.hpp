@@ -5,8 +5,12 @@
 #include "io/results/output_set.hpp"
 
 #include <filesystem>
+#include <string_view>
 
 namespace lacuna {
+
+// How a report.html begins: an earlier one is recognised by it.
+inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
 // Writes the page of io/report/page with the scene as data. Positions are 21 bits along each axis, of the
 // cube of the scene. About 15 bytes for each point, 11 for each vertex of a loop.

@@ -11,7 +11,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -20,15 +19,9 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
-using Event = nlohmann::detail::parse_event_t;
+using Event = Json::parse_event_t;
 
 constexpr std::size_t kRowsAtATime = 1 << 16;
-
-std::ifstream open_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file.string() + ": cannot be opened; the folder of a lacuna detect has it");
-  return in;
-}
 
 double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -54,7 +47,7 @@ LoopMeasures measures_of(const Json& record) {
 
 // The head of holes.json and the measures of all loops; one loop is in memory at a time, without its points.
 void read_holes(const fs::path& file, Scene& scene) {
-  std::ifstream in = open_text(file);
+  if (!fs::exists(file)) throw Error(file.string() + ": is not there; the folder of a lacuna detect has it");
   bool is_in_loops = false;
   const auto keep = [&](int depth, Event event, Json& parsed) {
     if (depth == 1 && event == Event::key) is_in_loops = parsed == "loops";
@@ -66,7 +59,7 @@ void read_holes(const fs::path& file, Scene& scene) {
     return false;
   };
   try {
-    scene.holes = Json::parse(in, keep);
+    scene.holes = read_json(file, keep);
     if (scene.holes.at("schema") != kHolesSchema) {
       throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
                   std::string(kHolesSchema) + "\" is read");
@@ -78,20 +71,10 @@ void read_holes(const fs::path& file, Scene& scene) {
       scene.origin = scene.bounds.min();
       if (const double edge = scene.bounds.sizes().maxCoeff(); edge > 0) scene.edge = edge;
     }
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     throw Error(file.string() + ": is not as lacuna detect writes it: " + error.what());
   }
   scene.loops.all = scene.loops.ids.size();
-}
-
-void read_run(const fs::path& file, Scene& scene) {
-  if (!fs::exists(file)) return;
-  std::ifstream in = open_text(file);
-  try {
-    scene.run = Json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(file.string() + ": is not JSON: " + error.what());
-  }
 }
 
 const Property& find(const fs::path& file, const RowLayout& layout, std::string_view name) {
@@ -238,7 +221,7 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
     throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
   Scene scene;
   read_holes(folder / "holes.json", scene);
-  read_run(folder / "run.json", scene);
+  if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run);
   read_loops(folder / "loops.ply", limits, scene);
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);

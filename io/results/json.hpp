@@ -6,6 +6,7 @@
 #include "engine/model/points.hpp"
 #include "io/row_filter.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,11 @@ Json begin_json(std::string_view schema);
 
 // With the indent of nlohmann::json: -1 for one line. A path need not be UTF-8, the text is.
 std::string print(const Json& json, int indent);
+
+// The content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does it.
+// Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: to print or to
+// copy such values is recursive.
+Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {});
 
 Json list(const Eigen::Vector3d& vector);
 Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty

@@ -10,6 +10,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -22,6 +23,10 @@ constexpr std::size_t kLongestLine = std::size_t{1} << 20;  // of a mark in the 
 
 [[noreturn]] void fail(const fs::path& name, const std::string& what, int reason) {
   throw Error(name.string() + ": " + what + ": " + std::strerror(reason));
+}
+
+void make_folder(const fs::path& folder) {
+  if (::mkdir(folder.c_str(), 0700) != 0) fail(folder, "cannot be made", errno);
 }
 
 // What has the name, itself if it is a link; none where nothing has it.
@@ -83,7 +88,8 @@ bool is_own_file(const fs::path& file, const FileMark& mark) {
       ::pread(descriptor, begin.data(), begin.size(), is_in_line ? 0 : static_cast<off_t>(mark.offset));
   ::close(descriptor);
   begin.resize(length < 0 ? 0 : static_cast<std::size_t>(length));
-  if (is_in_line) return std::string_view(begin).substr(0, begin.find('\n')).find(mark.text) != std::string_view::npos;
+  if (is_in_line)
+    return std::string_view(begin).substr(0, begin.find('\n')).find(mark.text) != std::string_view::npos;
   return begin.starts_with(mark.text) && (!mark.fits || mark.fits(begin));
 }
 
@@ -116,16 +122,21 @@ void OutputSet::drop(const fs::path& file, const FileMark& mark) {
 
 OutputSet::Member& OutputSet::join(const fs::path& file, const std::optional<struct stat>& found) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const auto [at, is_made] = private_folders_.try_emplace(folder, folder, kTemporaryPrefix);
+  const fs::path staging = at->second.path() / "new", aside = at->second.path() / "old";
+  if (is_made) {
+    for (const fs::path& part : {staging, aside}) make_folder(part);
+  }
   Member& member = members_.emplace_back();
   member.name = file;
   member.found = found;
-  member.folder = &private_folders_.try_emplace(folder, folder, kTemporaryPrefix).first->second;
-  member.staged = member.folder->path() / ("new-" + file.filename().string());
-  member.older = member.folder->path() / ("old-" + file.filename().string());
+  member.folder = &at->second;
+  member.staged = staging / file.filename();
+  member.older = aside / file.filename();
   return member;
 }
 
-void OutputSet::commit() {
+std::vector<fs::path> OutputSet::commit() {
   for (Member& member : members_) {
     if (member.content && !member.content->close()) member.content.reset();
   }
@@ -137,6 +148,11 @@ void OutputSet::commit() {
   } catch (const Error& error) {
     throw Error(std::string(error.what()) + put_back());
   }
+  std::vector<fs::path> written;
+  for (const Member& member : members_) {
+    if (member.is_in_place) written.push_back(member.name);
+  }
+  return written;
 }
 
 void OutputSet::set_aside(Member& member) {

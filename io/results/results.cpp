@@ -4,6 +4,7 @@
 #include "engine/run/parallel.hpp"
 #include "io/pcd/pcd_header.hpp"
 #include "io/ply/ply_writer.hpp"
+#include "io/report/report.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/loops_dxf.hpp"
@@ -25,6 +26,7 @@ struct ResultFile {
   void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
   bool (*is_wanted)(const Config&);
   Writer writer = Writer::kThis;
+  bool is_of_others = false;  // made of the other results, once these are complete
 };
 
 using D = const Detection&;
@@ -32,9 +34,6 @@ using S = const FileScan&;
 using C = const Config&;
 bool always(C) {
   return true;
-}
-bool never(C) {
-  return false;
 }
 
 template <PointsFormat format>
@@ -52,7 +51,7 @@ bool needs_gis_library(const Config& config) {
   return config.output.gpkg || config.output.geojson || config.output.shp;
 }
 
-// In the order in which they appear: the report comes last, and stands for all the others.
+// In the order in which they appear: holes.json comes last, and stands for all the others.
 const std::vector<ResultFile>& all_results() {
   static const std::vector<ResultFile> results = {
       {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }, always},
@@ -77,7 +76,6 @@ const std::vector<ResultFile>& all_results() {
        [](C c) { return c.output.dxf; }},
       {"loops.vtp", kVtpMark, [](D d, S, C, OutputFile& out) { write_loops_vtp(d, out); },
        [](C c) { return c.output.vtp; }},
-      {"report.html", kReportMark, nullptr, never},
       {"loops.gpkg", geopackage_mark(),
        [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kGeoPackage, out); },
        [](C c) { return c.output.gpkg; }, Writer::kLibrary},
@@ -91,6 +89,9 @@ const std::vector<ResultFile>& all_results() {
       shapefile_part("loops.dbf"),
       shapefile_part("loops.prj"),  // with a crs
       shapefile_part("loops.cpg"),
+      {"report.html", kReportMark,
+       [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
+       [](C c) { return c.output.report; }, Writer::kThis, true},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
@@ -130,14 +131,6 @@ void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> result_files(const FileScan& scan, const Config& config,
-                                                const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const ResultFile& result : results_of(with_points_format(config, scan)))
-    files.push_back(folder / result.name);
-  return files;
-}
-
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
   const Config chosen = with_points_format(config, scan);
@@ -147,14 +140,14 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
   }
-  if (config.output.report) check_output(folder / "report.html", kReportMark, overwrite);
   for (const ResultFile& result : unwanted_results(chosen)) {
     if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
   }
 }
 
-void write_results(const Detection& detection, const FileScan& scan, const Config& config,
-                   const std::filesystem::path& folder, Overwrite overwrite) {
+std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
+                                                 const Config& config, const std::filesystem::path& folder,
+                                                 Overwrite overwrite) {
   check_output_folder(scan, config, folder, overwrite);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -167,11 +160,19 @@ void write_results(const Detection& detection, const FileScan& scan, const Confi
   for (const ResultFile& result : results)
     files.push_back(&set.add(folder / result.name, result.mark, result.writer));
   for (const ResultFile& result : unwanted_results(chosen)) set.drop(folder / result.name, result.mark);
+  const auto write = [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); };
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(results.size(),
-                 [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); });
+  arena.for_each(results.size(), [&](std::size_t i) {
+    if (!results[i].is_of_others) write(i);
+  });
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].is_of_others) files[i]->close();
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].is_of_others) write(i);
+  }
   scan.check_unchanged();
-  set.commit();
+  return set.commit();
 }
 
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan) {

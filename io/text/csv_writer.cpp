@@ -1,6 +1,7 @@
 #include "io/text/csv_writer.hpp"
 
 #include "engine/run/parallel.hpp"
+#include "engine/run/utf8.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -17,6 +18,8 @@
 namespace lacuna {
 namespace {
 
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
+
 bool is_plain(const std::string& name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   std::string lower;
@@ -25,12 +28,32 @@ bool is_plain(const std::string& name) {
   return !name.empty() && is_letter(name.front()) && !is_number;
 }
 
+// Text that stays one cell, in UTF-8, and that no program takes for a formula.
+std::string safe_name(std::string_view name) {
+  constexpr std::string_view kFormulas = "=+-@";
+  std::string safe;
+  while (!name.empty()) {
+    const std::size_t length = utf8_length(name);
+    const std::string_view character = name.substr(0, std::max<std::size_t>(length, 1));
+    if (length == 0) {
+      safe += kReplacement;
+    } else if (is_control(character) || character == "," || character == ";" || character == "\"") {
+      safe += '_';
+    } else {
+      safe += character;
+    }
+    name.remove_prefix(character.size());
+  }
+  const std::size_t begin = safe.find_first_not_of(' ');
+  const bool is_formula = begin != safe.npos && kFormulas.find(safe[begin]) != kFormulas.npos;
+  return is_formula ? "_" + safe : safe;
+}
+
 std::vector<std::string> header_names(const RowLayout& layout) {
   std::vector<std::string> names;
   std::set<std::string> given;
   for (const Property& property : layout.properties) {
-    std::string name = property.name;
-    for (char& c : name) c = c == ',' || c == ';' || c == '"' ? '_' : c;
+    const std::string name = safe_name(property.name);
     std::string unique = name;
     for (int i = 2; !given.insert(unique).second; ++i) unique = name + '_' + std::to_string(i);
     names.push_back(is_plain(unique) ? unique : '"' + unique + '"');

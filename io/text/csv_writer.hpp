@@ -12,8 +12,9 @@ namespace lacuna {
 class CsvWriter {
  public:
   // Writes the header line. Names are changed or quoted where this project's reader, or another, would
-  // mistake them. The characters ',' ';' and '"' become '_'. A name that could be a number or a comment is
-  // put in quotes. A second equal name gets a number.
+  // mistake them. The characters ',' ';' '"' and control characters become '_'. A '_' comes before = + - and @
+  // at the start, which are formulas to a spreadsheet. Bytes that are not UTF-8 become U+FFFD. A name that
+  // could be a number or a comment is put in quotes. A second equal name gets a number.
   CsvWriter(OutputFile& out, RowLayout layout);
 
   // Rows of the layout, one after the other. Each number is the shortest text that reads back as the same

@@ -7,6 +7,7 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 namespace lacuna {
 namespace {
@@ -275,9 +276,28 @@ TEST_CASE("every prefix of the default config is read or refused, never more") {
 TEST_CASE("a config file that cannot be read is named") {
   const ScratchFolder scratch;
   Config config;
-  REQUIRE_THROWS_WITH(read_config(scratch / "none.toml", config), Contains("none.toml: cannot open"));
+  REQUIRE_THROWS_WITH(read_config(scratch / "none.toml", config), Contains("none.toml: cannot be opened"));
   REQUIRE_THROWS_WITH(read_config(scratch / ".", config), Contains("a folder"));
-  REQUIRE_THROWS_WITH(read_config("/dev/zero", config), Contains("too large"));
+  REQUIRE_THROWS_WITH(read_config("/dev/zero", config), Contains("not a regular file"));
+  REQUIRE(mkfifo((scratch / "pipe").c_str(), 0600) == 0);
+  REQUIRE_THROWS_WITH(read_config(scratch / "pipe", config),
+                      Contains("pipe: is not a regular file; a config file is needed"));
+  const std::string large = scratch.write("large.toml", std::string((1 << 20) + 1, '#'));
+  REQUIRE_THROWS_WITH(read_config(large, config), Contains("too large"));
+}
+
+TEST_CASE("a name of thousands of parts in a config file is refused with its line") {
+  std::string name = "a";
+  for (int i = 0; i < 100'000; ++i) name += i % 2 == 0 ? ".a" : " . \"a\"";
+  for (const std::string& text : {"[" + name + "]", "[[" + name + "]]", name + " = 1",
+                                  "a = {" + name + " = 1}", "a = [\n{b = 1, " + name + " = 1}]"}) {
+    INFO(text.substr(0, 20));
+    CHECK_THAT(error_of_file("# Parts.\n" + text), Contains("a name of more than 16 parts"));
+  }
+  Config config;
+  const ScratchFolder scratch;
+  read_config(scratch.write("c.toml", "[input]\nbounds = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5]  # " + name), config);
+  CHECK(config.input.bounds.size() == 6);
 }
 
 TEST_CASE("values that contradict each other are refused") {

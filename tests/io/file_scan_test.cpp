@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -120,7 +122,13 @@ TEST_CASE("a file that is not the one that was opened first is an error that say
     const auto time = std::filesystem::last_write_time(file);
     std::filesystem::last_write_time(file, time + std::chrono::milliseconds(milliseconds));
   };
+  const auto write_with_time_set_back = [](const auto& file) {
+    const auto time = std::filesystem::last_write_time(file);
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(-2, std::ios::end) << "9";
+    std::filesystem::last_write_time(file, time);
+  };
   const std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> changes = {
+      {"its content, names, owner or permissions", write_with_time_set_back},
       {"another file", replace_by_copy},
       {"bytes", [&](const auto&) { folder.write("b.ply", kNormals + "\n"); }},
       {"written to", [&](const auto& file) { later(file, 1); }},
@@ -131,6 +139,8 @@ TEST_CASE("a file that is not the one that was opened first is an error that say
     FileScan scan({folder.write("a.ply", kNormals), file}, {});
     CHECK(error_of([&] { scan.check_unchanged(); }).empty());
     CHECK(read_all(scan).positions.size() == 2);
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(20));  // more than a tick of the file system's clock
     change(file);
     for (const std::string& error :
          {error_of([&] { scan.check_unchanged(); }), error_of([&] { scan.open(1); }), error_of([&] {

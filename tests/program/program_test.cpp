@@ -266,7 +266,28 @@ TEST_CASE(
   check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
   check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
   check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
+  fs::create_symlink(scratch / "made", scratch / "link");
+  check_failure(detect(scan, (scratch / "link").string()), 1, "link: is a symbolic link to nothing");
+  CHECK_FALSE(fs::exists(scratch / "made"));
   CHECK(test::read_file(scan) == sheet(20));
+}
+
+TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {
+  const ScratchFolder scratch;
+  const auto output = [&](const std::string& scan, const std::string& format) {
+    return run_program({"detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format",
+                        format, "--overwrite"})
+        .out;
+  };
+  const std::string doubles = scratch.write("scan.txt", sheet(20));
+  const std::string note = "note: PCL takes the 64-bit coordinates of PLY ";
+  CHECK_THAT(output(doubles, "pcd"), Contains(note + "and PCD files for 0 0 0, Open3D those of PCD; "));
+  CHECK_THAT(output(doubles, "csv"), Contains(note + "files for 0 0 0; "));
+  const std::string floats = scratch.write(
+      "scan.ply",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n");
+  CHECK_THAT(output(floats, "pcd"), Contains("written: ") && !Contains("note:"));
 }
 
 TEST_CASE("a workspace elsewhere is used, and kept with --keep-workspace") {
@@ -376,7 +397,7 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
   const auto is_writing = [&] {
     const auto entries = fs::recursive_directory_iterator(out, fs::directory_options::skip_permission_denied);
     return std::any_of(begin(entries), end(entries),
-                       [](const auto& entry) { return entry.path().filename() == "new-holes.json"; });
+                       [](const auto& entry) { return entry.path().string().ends_with("new/holes.json"); });
   };
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const auto written = fs::last_write_time(out / "holes.json");

@@ -1,5 +1,6 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
+#include "engine/store/temporary_folder.hpp"
 #include "io/report/render.hpp"
 #include "io/report/scene.hpp"
 #include "tests/support/clouds.hpp"
@@ -8,13 +9,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace lacuna {
 namespace {
@@ -44,6 +48,7 @@ class Made {
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
   }
+  const std::string& scan() const { return scan_; }
   fs::path out() const { return scratch_ / "out"; }
   std::string page() const { return read_file(out() / "report.html"); }
   const test::ScratchFolder& scratch() const { return scratch_; }
@@ -99,6 +104,33 @@ std::vector<Eigen::Vector3d> positions(const std::string& page, const std::strin
     }
   }
   return points;
+}
+
+TEST_CASE("a signal while the report is made leaves the earlier results and their report") {
+  const Made made(sheet(), {"--report"});
+  const auto contents = [&] {
+    std::map<fs::path, std::string> files;
+    for (const auto& entry : fs::directory_iterator(made.out())) {
+      if (entry.is_regular_file()) files[entry.path()] = read_file(entry.path());
+    }
+    return files;
+  };
+  const auto before = contents();
+  const auto is_at_report = [&] {  // the other results are complete
+    for (const fs::path& folder : find_folders(made.out(), kTemporaryPrefix)) {
+      std::error_code error;
+      if (const auto size = fs::file_size(folder / "new/holes.json", error); !error && size > 0) return true;
+    }
+    return false;
+  };
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    const auto ended = test::run_program_until(
+        {"detect", made.scan(), "--out", made.out().string(), "--report", "--quiet", "--k", "16"}, signal,
+        is_at_report);
+    if (ended.exit_code == 0) continue;  // a busy machine: the signal came too late
+    CHECK(ended.exit_code == 128 + signal);
+    CHECK(contents() == before);
+  }
 }
 
 TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
@@ -220,7 +252,34 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   fs::resize_file(made.out() / "loops.ply", fs::file_size(made.out() / "loops.ply") - 9);
   CHECK_THAT(refused(out), Contains("loops.ply"));
   fs::remove(made.out() / "holes.json");
-  CHECK_THAT(refused(out), Contains("holes.json: cannot be opened"));
+  CHECK_THAT(refused(out), Contains("holes.json: is not there"));
+}
+
+TEST_CASE("JSON that is a pipe, or nested without end, is refused by every command that reads it") {
+  const Made made(sheet());
+  const std::string out = made.out().string();
+  const std::string truth = made.scratch().write("truth.txt", "0 1 2\n");
+  const std::vector<std::vector<std::string>> commands = {{"report", out},
+                                                          {"render", out, "--out", out + ".png"},
+                                                          {"evaluate", out, truth, "--scan", made.scan()}};
+  const auto check_refused = [&](const std::string& reason) {
+    for (const auto& command : commands) {
+      const auto run = run_program(command);
+      INFO(command.front() << ": " << run.err);
+      CHECK(run.exit_code == 1);
+      CHECK_THAT(run.err, Contains("holes.json: " + reason));
+      CHECK(test::count_lines(run.err) == 1);
+    }
+  };
+  const std::string holes = read_file(made.out() / "holes.json");
+  for (const std::string key : {"crs", "loops", "counts", "schema"}) {
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    std::ofstream(made.out() / "holes.json") << "{\"" + key + "\": " + deep + "," + holes.substr(1);
+    check_refused("is nested deeper than 32 levels");
+  }
+  fs::remove(made.out() / "holes.json");
+  REQUIRE(mkfifo((made.out() / "holes.json").c_str(), 0600) == 0);
+  check_refused("is not a regular file; a result of lacuna detect is needed");
 }
 
 TEST_CASE("a stray point spoils neither the report, the picture nor the printed digits, and is named") {

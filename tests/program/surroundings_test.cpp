@@ -1,6 +1,8 @@
 // What the system, the terminal and other programs may do to a run.
+#include "engine/store/temporary_folder.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
+#include "tests/support/skip.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -13,6 +15,7 @@
 #include <catch2/catch.hpp>
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -134,6 +137,62 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       CHECK_FALSE(fs::exists(out));
     }
   }
+}
+
+TEST_CASE("where the summary cannot be written, the error says that the results are complete") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(30));
+  const std::string out = (scratch / "out").string();
+  for (const std::string redirection : {"> /dev/full", ">&-"}) {
+    const ProgramResult result =
+        run_in_shell("", {"detect", scan, "--out", out, "--progress", "none"}, redirection);
+    check_failure(result, "cannot write to standard output: ");
+    CHECK_THAT(result.err, Contains("; the results in " + out + " are complete\n"));
+    CHECK(count_entries(out) == 6);
+  }
+  check_failure(run_in_shell("", {"info", scan}, "> /dev/full"),
+                "standard output: No space left on device\n");
+}
+
+TEST_CASE("a reader that closes the pipe early, as head does, ends no run with an error") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(30));
+  const std::string out = (scratch / "out").string();
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"detect", scan, "--out", out, "--progress", "none"}, {"info", scan}}) {
+    const ProgramResult result = run_in_shell("set -o pipefail; exec 3> >(:); sleep 0.1; ", arguments, ">&3");
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+  }
+  CHECK(count_entries(out) == 6);
+}
+
+TEST_CASE("a folder that cannot be removed after a run is named, and the results are complete") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(300));
+  const fs::path out = scratch / "out";
+  fs::path held;
+  bool is_held = true;
+  const auto hold = [&](pid_t) {  // what is mounted cannot be removed
+    const std::vector<fs::path> folders = find_folders(out, kTemporaryPrefix);
+    if (!held.empty() || folders.empty()) return;
+    held = folders.front() / "held";
+    fs::create_directory(held);
+    is_held = ::mount("tmpfs", held.c_str(), "tmpfs", 0, "size=4k") == 0;
+  };
+  const ProgramResult result =
+      test::run_program_beside({"detect", scan, "--out", out.string(), "--quiet"}, hold);
+  if (!is_held) {
+    test::skip("cannot mount a folder");
+    return;
+  }
+  REQUIRE_FALSE(held.empty());
+  ::umount(held.c_str());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.err, StartsWith("lacuna: warning: " + held.parent_path().string()) &&
+                             Contains("is not needed any more, but cannot be removed: "));
+  CHECK(test::count_lines(result.err) == 1);
+  CHECK(count_entries(out) == 7);
 }
 
 TEST_CASE("threads that cannot be started are an error of one line") {

@@ -5,26 +5,23 @@
 #include "io/input_file.hpp"
 #include "io/ply/mesh_reader.hpp"
 #include "io/ply/ply_reader.hpp"
+#include "io/results/json.hpp"
 #include "io/results/loops_reader.hpp"
 #include "tools/accuracy/loop_kind.hpp"
 #include "tools/accuracy/mesh_boundary.hpp"
 #include "tools/accuracy/spacing.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace lacuna::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr std::string_view kLoopsEnding = ".loops.txt";
 
@@ -42,9 +39,8 @@ std::vector<double> confidences(const Json& loops) {
 }
 
 void read_report(const fs::path& file, Result& result) {
-  std::ifstream in(file, std::ios::binary);
+  const Json report = read_json(file);
   try {
-    const Json report = Json::parse(in);
     result.points = report.at("counts").at("points").get<std::uint64_t>();
     result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
     for (const Json& input : report.at("inputs")) {
@@ -60,9 +56,6 @@ void read_report(const fs::path& file, Result& result) {
                   "; both must be of one run");
     }
     result.confidence = confidences(report.at("loops"));
-  } catch (const Json::parse_error& error) {
-    throw Error(file.string() + ": byte " + std::to_string(error.byte) +
-                ": is not JSON; a report of lacuna detect is needed");
   } catch (const Json::exception&) {
     throw Error(file.string() + ": is not a report of lacuna detect, with counts, inputs and loops");
   }

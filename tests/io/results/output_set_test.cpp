@@ -142,15 +142,15 @@ TEST_CASE("names next to those of a set are not touched, as like they are", "[io
   const std::string target = folder.write("target", "precious");
   fs::create_symlink(target, folder / "b.partial");
   REQUIRE(mkfifo((folder / "c.partial").c_str(), 0600) == 0);
-  folder.write("old-a", "precious");
-  folder.write("new-a", "precious");
+  folder.write("old", "precious");
+  folder.write("new", "precious");
   Names expected = folder.names();
   {
     OutputSet set(Overwrite::kOwn);
     for (const std::string name : {"a", "b", "c"}) add(set, folder / name);
     set.commit();
   }
-  for (const std::string name : {"a.partial", "target", "old-a", "new-a"})
+  for (const std::string name : {"a.partial", "target", "old", "new"})
     CHECK(read_file(folder / name) == "precious");
   expected.insert(expected.begin(), {"a", "b", "c"});
   std::sort(expected.begin(), expected.end());
@@ -182,7 +182,7 @@ TEST_CASE("where any file cannot take its name, all older files come back", "[io
       OutputSet set(Overwrite::kOwn);
       for (const std::string& name : names) add(set, folder / name);
       set.drop(folder / "dropped", kMark);
-      fs::remove(private_folder(folder) / ("new-" + failing));
+      fs::remove(private_folder(folder) / "new" / failing);
       CHECK(error_of([&] { set.commit(); }) ==
             (folder / failing).string() + ": cannot be put in place: No such file or directory");
     }
@@ -249,7 +249,7 @@ TEST_CASE("an older file that cannot come back is kept, and the error says where
     add(set, folder / "a");
     error = error_of([&] { set.commit(); });
   }
-  const fs::path kept = private_folder(folder) / "old-a";
+  const fs::path kept = private_folder(folder) / "old" / "a";
   CHECK(error == (folder / "a").string() +
                      ": cannot be put in place: File exists; the earlier a is kept as " + kept.string());
   CHECK(read_file(kept) == "mine: old");

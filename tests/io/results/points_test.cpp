@@ -128,6 +128,19 @@ TEST_CASE("points.csv has every number as the shortest text that reads back as i
   CHECK(table.rows[0][2] == 1e300);
 }
 
+TEST_CASE("names of columns in points.csv are UTF-8, and no formulas to a spreadsheet", "[io][results]") {
+  const ScratchFolder folder;
+  std::string header = "ply\nformat ascii 1.0\nelement vertex 1\n";
+  for (const std::string name : {"x", "y", "z", "=cmd|'/C calc'!A1", "+1", "-x", "@SUM(1)", "a=b",
+                                 "\xff\xc3\xb6", "\x1b[2J", "_=cmd|'/C"}) {
+    header += "property float " + name.substr(0, name.find(' ')) + "\n";
+  }
+  const auto ply = folder.write("a.ply", header + "end_header\n1 2 3 4 5 6 7 8 9 10 11\n");
+  const std::string csv = written(folder, {ply}, 1, "points.csv", with_points(PointsFormat::kCsv));
+  CHECK(csv.substr(0, csv.find(",scalar_")) ==
+        "x,y,z,_=cmd|'/C,_+1,_-x,_@SUM(1),a=b,\"\xef\xbf\xbd\xc3\xb6\",_[2J,_=cmd|'/C_2");
+}
+
 TEST_CASE("points.csv of text files has their columns, and a run on it replaces the results",
           "[io][results]") {
   const ScratchFolder folder;

@@ -4,7 +4,9 @@
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/file_size_limit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -302,6 +304,29 @@ TEST_CASE("an input that was replaced leaves the results of the earlier run as t
   CHECK(read_file(folder / "out" / "holes.json") == earlier);
 }
 
+TEST_CASE("a report that cannot be written leaves the earlier results and their report", "[io]") {
+  constexpr std::size_t kMoreThanOthers = 100'000;
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  Config config;
+  config.output.report = true;
+  const auto contents = [&] {
+    std::map<std::string, std::string> files;
+    for (const std::string& name : folder.names()) files[name] = read_file(folder / name);
+    return files;
+  };
+  const auto written = write_results(FakeDetection().with_results(1), scan, config, folder.path());
+  REQUIRE(std::count(written.begin(), written.end(), folder / "report.html") == 1);
+  const auto before = contents();
+  REQUIRE(before.at("report.html").size() > kMoreThanOthers);
+  CHECK(error_of([&] {
+          const FileSizeLimit full(kMoreThanOthers);
+          write_results(FakeDetection().with_results(1).with_loop({0}, LoopKind::kHole), scan, config,
+                        folder.path());
+        }) == (folder / "report.html").string() + ": cannot be written: File too large");
+  CHECK(contents() == before);
+}
+
 TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1000,
@@ -324,17 +349,17 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
                                                                              {"points.ply", &few},
                                                                              {"holes.json", &many_loops}};
   for (const auto& [name, detection] : largest) {
-    const auto bytes = [&, &detection = *detection] {
-      write_results(detection, scan, config, folder.path());
+    const std::vector<std::filesystem::path> written = write_results(*detection, scan, config, folder.path());
+    const auto bytes = [&] {
       std::uintmax_t most = 0;
-      for (const auto& file : result_files(scan, config, folder.path())) {
+      for (const auto& file : written) {
         most = std::max(most, std::filesystem::file_size(file));
         if (file.filename() != name)
           CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / name));
       }
       return most;
     }();
-    for (const auto& file : result_files(scan, config, folder.path())) std::filesystem::remove(file);
+    for (const auto& file : written) std::filesystem::remove(file);
     CHECK(error_of([&, &detection = *detection] {
             const FileSizeLimit full(bytes - 1);
             write_results(detection, scan, config, folder.path());
