@@ -66,6 +66,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const ReadOptions options{.columns = config.input.columns};
   FileScan scan(expand_inputs(arguments.scans, options), config.input);
+  refuse_degrees(scan);
   for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
 
   const MadeFolder out_folder(arguments.out);

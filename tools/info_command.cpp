@@ -2,11 +2,11 @@
 
 #include "engine/config.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/results.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -47,7 +47,8 @@ struct InfoArguments {
 struct FileInfo {
   fs::path file;
   std::string format;
-  std::string crs;
+  std::string crs, unit;
+  bool is_geographic = false;
   RowLayout layout;
   std::uint64_t points = 0;
 };
@@ -69,7 +70,13 @@ std::uint64_t count_rows(ScanReader& reader) {
 
 FileInfo read_file_info(const fs::path& file, const ReadOptions& options) {
   const std::unique_ptr<ScanReader> reader = open_scan(file, options);
-  return {file, reader->format(), reader->crs(), reader->layout(), count_rows(*reader)};
+  return {.file = file,
+          .format = reader->format(),
+          .crs = reader->crs(),
+          .unit = reader->length_unit(),
+          .is_geographic = reader->is_geographic(),
+          .layout = reader->layout(),
+          .points = count_rows(*reader)};
 }
 
 RunInfo estimate_run(FileScan& scan, const Config& config) {
@@ -102,11 +109,13 @@ std::string assumption() {
          std::to_string(static_cast<int>(kMeasuredThreads)) + " threads, and twice that on twice as many";
 }
 
-void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
+void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
               << print_count(file.points);
     if (!file.crs.empty()) std::cout << "\n  crs         " << crs_name(file.crs);
+    if (file.is_geographic) std::cout << "\n  unit        degrees, which lacuna detect refuses";
+    if (!file.unit.empty()) std::cout << "\n  unit        " << file.unit;
     std::cout << "\n  properties ";
     for (const Property& property : file.layout.properties) {
       std::cout << " " << property.name << " (" << ply_name(property.type) << ")";
@@ -115,7 +124,9 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   }
   const Summary& summary = run.estimate.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
-  std::cout << print_left_out(summary.counts, filtered);
+  std::cout << print_left_out(summary.counts, scan.filtered_out());
+  if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
+  if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
@@ -139,7 +150,7 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << "\n  time          about " << print_duration(run.seconds) << ", " << assumption() << "\n";
 }
 
-void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
+void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
   for (const FileInfo& file : files) {
@@ -151,13 +162,15 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
                              {"format", file.format},
                              {"points", file.points},
                              {"crs", file.crs.empty() ? Json() : Json(file.crs)},
+                             {"unit", file.is_geographic ? "degree" : file.unit},
                              {"properties", std::move(properties)}});
   }
   const Summary& summary = run.estimate.summary;
   const bool has_bounds = !summary.bounds.isEmpty();
+  put_crs(scan, root);
   root["points"] = summary.counts.points;
-  root["dropped"] = summary.counts.dropped - filtered.total();
-  root["filtered_out"] = counts_of(filtered);
+  root["dropped"] = summary.counts.dropped - scan.filtered_out().total();
+  root["filtered_out"] = counts_of(scan.filtered_out());
   root["bounds"] =
       has_bounds ? Json({{"min", list(summary.bounds.min())}, {"max", list(summary.bounds.max())}}) : Json();
   root["resolution"] = summary.resolution;
@@ -184,9 +197,9 @@ void run_info(const InfoArguments& arguments) {
   for (const fs::path& file : scan.files()) files.push_back(read_file_info(file, options));
   const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
-    print_json(files, scan.filtered_out(), run);
+    print_json(files, scan, run);
   } else {
-    print_text(files, scan.filtered_out(), run);
+    print_text(files, scan, run);
   }
 }
 

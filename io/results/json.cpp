@@ -1,5 +1,7 @@
 #include "io/results/json.hpp"
 
+#include "io/file_scan.hpp"
+
 #include <variant>
 
 namespace lacuna {
@@ -32,6 +34,11 @@ Json counts_of(const FilteredOut& filtered) {
           {"bounds", filtered.bounds},
           {"classes", filtered.classes},
           {"returns", filtered.returns}};
+}
+
+void put_crs(const FileScan& scan, Json& json) {
+  json["crs"] = scan.common_crs().empty() ? Json() : Json(scan.common_crs());
+  json["unit"] = scan.length_unit();
 }
 
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted) {

@@ -13,6 +13,8 @@
 
 namespace lacuna {
 
+class FileScan;
+
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 
 // The first keys of each file: the program's version and the form of the file, such as "holes 1".
@@ -23,6 +25,9 @@ std::string print(const Json& json, int indent);
 
 Json list(const Eigen::Vector3d& vector);
 Json counts_of(const FilteredOut& filtered);  // by filter
+
+// The keys `crs`, null where there is none, and `unit`, empty where it is not known.
+void put_crs(const FileScan& scan, Json& json);
 
 // Of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);

@@ -92,7 +92,7 @@ const std::vector<ResultFile>& all_results() {
       shapefile_part("loops.prj"),  // with a crs
       shapefile_part("loops.cpg"),
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
-      {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
+      {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
   return results;
 }

@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and those
-// that the config asks for; the annotated scan in its format (io/results/points.hpp).
+// The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and
+// those that the config asks for; the annotated scan in its format (io/results/points.hpp).
 std::vector<std::filesystem::path> result_files(const FileScan& scan, const Config& config,
                                                 const std::filesystem::path& folder);
 
@@ -30,8 +30,8 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
 void write_results(const Detection& detection, const FileScan& scan, const Config& config,
                    const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kOwn);
 
-// How a report.html begins. It is made of the other results once these have their names (io/report/report.hpp);
-// write_results removes that of an earlier run.
+// How a report.html begins. It is made of the other results once these have their names
+// (io/report/report.hpp); write_results removes that of an earlier run.
 inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
 // How a file of JSON begins: an earlier one is recognised by it.
@@ -43,8 +43,9 @@ inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
 inline constexpr std::string_view kHolesSchema = "holes 1";
 void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
-// run.json: what may differ between runs with the same answer: threads, tiles, times, memory.
-void write_run(const Detection& detection, const Config& config, OutputFile& out);
+// run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
+// coordinate reference system and the unit, too.
+void write_run(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
 std::string_view table_header();

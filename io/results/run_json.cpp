@@ -26,10 +26,11 @@ Json peak_memory_bytes() {
 
 }  // namespace
 
-void write_run(const Detection& detection, const Config& config, OutputFile& out) {
+void write_run(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
   const Summary& summary = detection.summary();
   Json json = begin_json("run 1");
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section == "run"; });
+  put_crs(scan, json);
   json["points"] = summary.counts.points;
   json["tiling"] = {{"tiles", summary.tiles},
                     {"tile_points", summary.tile_points},

@@ -54,6 +54,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"bounds", "2,2,100,300"},
     {"classes", "2"},
     {"returns", "first"},
+    {"crs", "EPSG:25832"},
+    {"unit", "ft"},
     {"points_format", "pcd"},
     {"sample_points", "200"},
     {"threads", "3"},
