@@ -8,6 +8,7 @@
 #include "io/length_unit.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <system_error>
 

@@ -84,8 +84,8 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results. Of files with the parameters or times in them: of holes.json the loops, of the
-  // others the name.
+  // All bytes of the results. Of files with the parameters or times in them: of holes.json the loops,
+  // their system and unit, of the others the name.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
@@ -100,7 +100,8 @@ class Runs {
       bytes += name;
       if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += test::read_file(file);
     }
-    bytes += nlohmann::json::parse(test::read_file(out / "holes.json"))["loops"].dump();
+    const auto holes = nlohmann::json::parse(test::read_file(out / "holes.json"));
+    for (const char* key : {"crs", "unit", "loops"}) bytes += holes[key].dump();
     fs::remove_all(out);
     return bytes;
   }
