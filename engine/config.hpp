@@ -104,12 +104,28 @@ struct SelectionConfig {
 // Which returns of a pulse count.
 enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
 
+// What lengths of the scan are in.
+enum class LengthUnit : std::uint8_t {
+  kInput,  // what the files say
+  kM,
+  kKm,
+  kCm,
+  kMm,
+  kFt,
+  kUsFt,
+  kIn,
+  kYd
+};
+std::string_view name_of(LengthUnit unit);  // as in the config file
+
 struct InputConfig {
   std::string columns;         // names of a text file's columns, space separated; empty: from its header line
   std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
   std::vector<std::int64_t> classes;  // of property classification; empty: all
   Returns returns = Returns::kAll;
   bool drop_origin = false;  // without points at 0 0 0 or at the scanner
+  std::string crs;           // coordinate reference system: a code, WKT or a file; empty: as the files say
+  LengthUnit unit = LengthUnit::kInput;
 };
 
 // How the annotated scan is written.

@@ -14,6 +14,7 @@ constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 // In the order of their enumerations.
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
+constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv"};
 
 template <class Enum>
@@ -34,6 +35,10 @@ constexpr Need kPointsNormals{"--points --normals",
 
 std::string_view name_of(LoopMethod method) {
   return kMethods[static_cast<std::size_t>(method)];
+}
+
+std::string_view name_of(LengthUnit unit) {
+  return kUnits[static_cast<std::size_t>(unit)];
 }
 
 std::vector<Parameter> parameters(Config& config) {
@@ -149,6 +154,12 @@ std::vector<Parameter> parameters(Config& config) {
        "Other returns of a laser pulse do not take part; only: of pulses with one return.", kNothing},
       {"input", "drop_origin", &input.drop_origin, 0, 1, "true or false",
        "Points at 0 0 0, or at the scanner where a file has its place, do not take part.", kNothing},
+      {"input", "crs", &input.crs, 0, 0,
+       "a code such as EPSG:25832, well-known text, or a file that has one of them",
+       "Coordinate reference system of the scan, over what its files state; empty: as they state it.",
+       kNothing},
+      {"input", "unit", named(input.unit, kUnits), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
+       "Unit of the coordinates, over what the files state; input: as they, or --crs, state it.", kNothing},
 
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write the annotated scan too: every point of the input with its probabilities.", kNothing},

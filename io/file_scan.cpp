@@ -5,6 +5,7 @@
 #include "io/vectors.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -12,17 +13,22 @@
 namespace lacuna {
 namespace {
 
-// Empty where they differ.
-std::string common(const std::vector<std::string>& names) {
-  const bool is_common =
-      std::all_of(names.begin(), names.end(), [&](const auto& name) { return name == names.front(); });
-  return is_common && !names.empty() ? names.front() : "";
+// The first of those that are not empty, where the others are the same. Empty where two differ.
+template <class Same>
+std::string common(const std::vector<std::string>& names, const Same& is_same) {
+  std::string first;
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
+    if (first.empty()) first = name;
+    if (!is_same(name, first)) return "";
+  }
+  return first;
 }
 
 }  // namespace
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
-    : config_(std::move(config)), memory_(memory), expected_points_(0) {
+    : config_(std::move(config)), stated_(read_stated_crs(config_)), memory_(memory), expected_points_(0) {
   for (ScanInput& input : inputs) {
     states_.push_back(file_state(input.file));
     files_.push_back(std::move(input.file));
@@ -32,6 +38,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
     units_.push_back(reader->length_unit());
+    is_geographic_.push_back(reader->is_geographic());
     formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
@@ -43,6 +50,20 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
       expected_points_.reset();
     }
   }
+  choose_crs();
+}
+
+void FileScan::choose_crs() {
+  common_crs_ = stated_.crs.empty() ? common(crs_, is_same_crs) : stated_.crs;
+  if (!stated_.unit.empty()) {
+    common_unit_ = stated_.unit;
+    return;
+  }
+  const bool differ = common_crs_.empty() && std::any_of(crs_.begin(), crs_.end(),
+                                                         [](const std::string& crs) { return !crs.empty(); });
+  const bool all_have_one =
+      std::none_of(units_.begin(), units_.end(), [](const std::string& unit) { return unit.empty(); });
+  if (!differ || all_have_one) common_unit_ = common(units_, std::equal_to<>());
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
@@ -114,14 +135,6 @@ std::optional<std::uint64_t> FileScan::expected_points() const {
 
 bool FileScan::has_normals() const {
   return has_normals_;
-}
-
-std::string FileScan::common_crs() const {
-  return common(crs_);
-}
-
-std::string FileScan::length_unit() const {
-  return common(units_);
 }
 
 bool FileScan::reads_slowly() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/model/points.hpp"
+#include "io/crs/stated_crs.hpp"
 #include "io/file_state.hpp"
 #include "io/pose.hpp"
 #include "io/row_filter.hpp"
@@ -51,10 +52,18 @@ class FileScan : public PointSource {
   const std::vector<std::string>& formats() const { return formats_; }
   // The CRS of each file; empty where it names none, or has a pose.
   const std::vector<std::string>& crs() const { return crs_; }
-  // The one that all files share; empty: they differ, or name none.
-  std::string common_crs() const;
-  // The unit of length that all files share; empty: they differ, or name none.
-  std::string length_unit() const;
+  // The unit of length of each file; empty where it names none.
+  const std::vector<std::string>& units() const { return units_; }
+  // Whether positions of a file are longitude and latitude, as it says.
+  bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
+  // What --crs and --unit of the config state; empty: nothing.
+  const StatedCrs& stated_crs() const { return stated_; }
+  // The system that the config states, else the one that all files with a system share; empty: they differ,
+  // or name none.
+  const std::string& common_crs() const { return common_crs_; }
+  // The unit of length that the config states, else the one that all files with a unit share. It is empty
+  // where these differ, where there is none, or where files have different systems and one has no unit.
+  const std::string& length_unit() const { return common_unit_; }
   // The rows of a file: as its header declares, else as many as the last pass has read of it.
   std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   std::uint64_t memory() const { return memory_; }
@@ -70,6 +79,7 @@ class FileScan : public PointSource {
   bool single_precision() const;  // x, y and z are 32-bit floats in every file
 
  private:
+  void choose_crs();
   void refuse_too_far(const PointBatch& batch) const;
 
   std::vector<std::filesystem::path> files_;
@@ -79,6 +89,9 @@ class FileScan : public PointSource {
   std::vector<FileState> states_;
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, formats_;
+  std::vector<bool> is_geographic_;
+  StatedCrs stated_;
+  std::string common_crs_, common_unit_;
   bool has_normals_ = false, reads_slowly_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;

@@ -1,5 +1,6 @@
 #include "io/length_unit.hpp"
 
+#include "io/crs/crs_text.hpp"
 #include "io/number.hpp"
 
 #include <algorithm>
@@ -8,32 +9,29 @@
 namespace lacuna {
 namespace {
 
-// `PROJCS[...]` or what it is called since 2015, wherever it stands in a compound system.
-std::string_view projected_system(std::string_view crs) {
-  for (const std::string_view name : {"PROJCS[", "PROJCRS[", "PROJECTEDCRS[", "LOCAL_CS[", "ENGCRS["}) {
-    const std::size_t begin = crs.find(name);
-    if (begin == crs.npos) continue;
-    std::size_t end = begin + name.size();
-    for (int open = 1; end < crs.size() && open > 0; ++end)
-      open += crs[end] == '[' ? 1 : crs[end] == ']' ? -1 : 0;
-    return crs.substr(begin, end - begin);
-  }
-  return {};
-}
+struct Unit {
+  const char* name;
+  double metres;
+};
+
+constexpr Unit kUnits[] = {{"m", 1},       {"km", 1000},   {"cm", 0.01},
+                           {"mm", 0.001},  {"ft", 0.3048}, {"us-ft", 1200.0 / 3937},
+                           {"in", 0.0254}, {"yd", 0.9144}};
 
 }  // namespace
 
 std::string unit_of_metres(double metres) {
-  const auto is = [&](double unit) { return std::abs(metres - unit) < 1e-9; };
-  if (is(1)) return "m";
-  if (is(0.3048)) return "ft";
-  if (is(1200.0 / 3937)) return "us-ft";
-  return "";
+  constexpr double kTolerance = 1e-7;  // the two feet differ by 2e-6
+  const auto* const unit = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& known) {
+    return std::abs(metres / known.metres - 1) < kTolerance;
+  });
+  return unit == std::end(kUnits) ? "" : unit->name;
 }
 
 std::string length_unit(std::string_view crs) {
+  if (is_geographic(crs)) return "";
   // Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
-  const std::string_view system = projected_system(crs);
+  const std::string_view system = horizontal_system(crs);
   const std::size_t unit = system.rfind("UNIT[\"");
   if (unit == system.npos) return "";
   const std::size_t comma = system.find("\",", unit);

@@ -6,7 +6,8 @@
 
 namespace lacuna {
 
-// By metres in one: "m", "ft" (international foot), "us-ft" (US survey foot); empty: another one.
+// By metres in one: "m", "km", "cm", "mm", "ft" (international foot), "us-ft" (US survey foot), "in", "yd";
+// empty: another one.
 std::string unit_of_metres(double metres);
 
 // The horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162). Empty

@@ -1,5 +1,6 @@
 #include "io/scan_reader.hpp"
 
+#include "io/crs/crs_text.hpp"
 #include "io/e57/e57_reader.hpp"
 #include "io/input_file.hpp"
 #include "io/las/las_reader.hpp"
@@ -16,6 +17,10 @@
 #include <array>
 
 namespace lacuna {
+
+bool ScanReader::is_geographic() const {
+  return lacuna::is_geographic(crs());
+}
 
 std::string ScanReader::length_unit() const {
   return lacuna::length_unit(crs());

@@ -57,7 +57,9 @@ class ScanReader {
   virtual bool is_slow() const { return false; }
   // The coordinate reference system, as well-known text or by a code such as "EPSG:25832"; empty: not known.
   virtual std::string crs() const { return {}; }
-  // The unit of length: "m", "ft", "us-ft"; empty: not known.
+  // Whether positions are longitude and latitude.
+  virtual bool is_geographic() const;
+  // The unit of length, as unit_of_metres (io/length_unit.hpp); empty: not known.
   virtual std::string length_unit() const;
   // Positions that stand for a ray without return: 0 0 0, and the scanner's own where the file has it.
   virtual std::vector<Eigen::Vector3d> no_return_places() const { return {Eigen::Vector3d::Zero()}; }

@@ -79,6 +79,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
   const ReadOptions options{.columns = config.input.columns, .memory = memory};
   FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
+  refuse_degrees(scan);
   for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
 
   const MadeFolder out_folder(arguments.out);

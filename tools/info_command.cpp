@@ -48,7 +48,8 @@ struct InfoArguments {
 struct FileInfo {
   fs::path file;
   std::string format;
-  std::string crs;
+  std::string crs, unit;
+  bool is_geographic = false;
   RowLayout layout;
   std::uint64_t points = 0;
 };
@@ -70,8 +71,13 @@ std::uint64_t count_rows(ScanReader& reader, std::size_t rows_at_a_time) {
 
 FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
   const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file], options);
-  return {scan.files()[file], reader->format(), reader->crs(), reader->layout(),
-          count_rows(*reader, scan.batch_rows(file))};
+  return {.file = scan.files()[file],
+          .format = reader->format(),
+          .crs = reader->crs(),
+          .unit = reader->length_unit(),
+          .is_geographic = reader->is_geographic(),
+          .layout = reader->layout(),
+          .points = count_rows(*reader, scan.batch_rows(file))};
 }
 
 // Some scans have more columns than a format holds with the results.
@@ -114,11 +120,13 @@ std::string print_point(const Eigen::Vector3d& point) {
   return out.str();
 }
 
-void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
+void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
               << print_count(file.points);
     if (!file.crs.empty()) std::cout << "\n  crs         " << crs_name(file.crs);
+    if (file.is_geographic) std::cout << "\n  unit        degrees, which lacuna detect refuses";
+    if (!file.unit.empty()) std::cout << "\n  unit        " << file.unit;
     std::cout << "\n  properties ";
     for (const Property& property : file.layout.properties) {
       std::cout << " " << property.name << " (" << ply_name(property.type) << ")";
@@ -127,7 +135,9 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
   }
   const Summary& summary = run.estimate.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
-  std::cout << print_left_out(summary.counts, filtered);
+  std::cout << print_left_out(summary.counts, scan.filtered_out());
+  if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
+  if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
@@ -155,7 +165,7 @@ void print_text(const std::vector<FileInfo>& files, const FilteredOut& filtered,
             << ", with what else this machine does now\n";
 }
 
-void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered, const RunInfo& run) {
+void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
   for (const FileInfo& file : files) {
@@ -167,12 +177,14 @@ void print_json(const std::vector<FileInfo>& files, const FilteredOut& filtered,
                              {"format", file.format},
                              {"points", file.points},
                              {"crs", file.crs.empty() ? Json() : Json(file.crs)},
+                             {"unit", file.is_geographic ? "degree" : file.unit},
                              {"properties", std::move(properties)}});
   }
   const Summary& summary = run.estimate.summary;
+  put_crs(scan, root);
   root["points"] = summary.counts.points;
-  root["dropped"] = summary.counts.dropped - filtered.total();
-  root["filtered_out"] = counts_of(filtered);
+  root["dropped"] = summary.counts.dropped - scan.filtered_out().total();
+  root["filtered_out"] = counts_of(scan.filtered_out());
   root["bounds"] = corners(summary.bounds);
   root["strays"] = strays_json(summary.strays);
   root["resolution"] = summary.resolution;
@@ -201,9 +213,9 @@ void run_info(const InfoArguments& arguments) {
   for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
   const RunInfo run = estimate_run(scan, config);
   if (arguments.json) {
-    print_json(files, scan.filtered_out(), run);
+    print_json(files, scan, run);
   } else {
-    print_text(files, scan.filtered_out(), run);
+    print_text(files, scan, run);
   }
   const Summary& summary = run.estimate.summary;
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())

@@ -13,8 +13,12 @@ namespace lacuna {
 // The name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
 std::string crs_name(const std::string& crs);
 
+// Throws `Error` where positions are longitude and latitude: nothing of a run fits degrees.
+void refuse_degrees(const FileScan& scan);
+
 // Before a run: one line for each file that is given more than once, also by another name. One, too, for each
-// whose coordinate reference system is not that of the first.
+// whose coordinate reference system is not that of the first. One line for all files without a system where
+// others have one, for those with another unit, and for those that contradict --crs or --unit.
 std::vector<std::string> input_warnings(const FileScan& scan);
 
 // Before a run: a memory limit above the machine's memory.

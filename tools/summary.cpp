@@ -2,6 +2,7 @@
 
 #include "engine/run/machine_memory.hpp"
 #include "tools/measures_text.hpp"
+#include "tools/scan_warnings.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
 
@@ -102,6 +103,7 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
                                                           std::string_view unit) {
   const Counts& counts = summary.counts;
   std::vector<std::pair<std::string, std::string>> facts = {{"input", print_input(counts, scan)}};
+  if (!scan.common_crs().empty()) facts.emplace_back("crs", crs_name(scan.common_crs()));
   if (summary.resolution > 0) {
     const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
     facts.emplace_back("resolution", print_length(summary.resolution, unit) + ": " +

@@ -1,5 +1,6 @@
 #include "io/las/las_crs.hpp"
 
+#include "io/crs/crs_text.hpp"
 #include "io/length_unit.hpp"
 #include "io/little_endian.hpp"
 
@@ -8,10 +9,12 @@
 namespace lacuna {
 namespace {
 
-constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;                  // numbers of records
-constexpr std::uint16_t kGeographic = 2048, kProjected = 3072, kVertical = 4096,  // GeoTIFF keys
-    kLinearUnit = 3076;
-constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
+constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;  // numbers of records
+// Keys of GeoTIFF.
+constexpr std::uint16_t kModel = 1024, kGeographic = 2048, kProjected = 3072, kVertical = 4096,
+                        kLinearUnit = 3076;
+constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2;  // values of kModel
+constexpr std::uint16_t kUserDefined = 32767;                       // codes from here on are not EPSG's
 
 }  // namespace
 
@@ -29,7 +32,10 @@ void LasCrs::take_keys(std::span<const std::byte> data) {
        data = data.subspan(kEntry)) {
     const auto key = load<std::uint16_t>(&data[0]), place = load<std::uint16_t>(&data[2]);
     const auto code = load<std::uint16_t>(&data[6]);
-    if (place != 0 || code >= kUserDefined) continue;
+    if (place != 0) continue;
+    if (key == kModel) model_ = code;
+    if (key == kProjected && code != 0) has_projected_ = true;
+    if (code >= kUserDefined) continue;
     if (key == kGeographic) geographic_ = code;
     if (key == kProjected) projected_ = code;
     if (key == kVertical) vertical_ = code;
@@ -37,12 +43,22 @@ void LasCrs::take_keys(std::span<const std::byte> data) {
   }
 }
 
+bool LasCrs::is_projected() const {
+  return projected_ != 0 || (model_ == 0 ? has_projected_ : model_ == kModelProjected);
+}
+
 std::string LasCrs::text() const {
   if (!well_known_text_.empty()) return well_known_text_;
-  const std::uint16_t horizontal = projected_ != 0 ? projected_ : geographic_;
+  // The geographic system below a projected one is not that of the positions.
+  const std::uint16_t horizontal = is_projected() ? projected_ : geographic_;
   if (horizontal == 0) return "";
   const std::string code = "EPSG:" + std::to_string(horizontal);
   return vertical_ != 0 ? code + "+" + std::to_string(vertical_) : code;
+}
+
+bool LasCrs::is_geographic() const {
+  if (!well_known_text_.empty()) return lacuna::is_geographic(well_known_text_);
+  return !is_projected() && (model_ == kModelGeographic || (model_ == 0 && geographic_ != 0));
 }
 
 std::string LasCrs::length_unit() const {

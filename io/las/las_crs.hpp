@@ -17,14 +17,19 @@ class LasCrs {
   // Well-known text where a record has it, else "EPSG:N" or, with a vertical system, "EPSG:N+M" of the
   // GeoTIFF keys; empty: neither.
   std::string text() const;
+  // Whether positions are longitude and latitude.
+  bool is_geographic() const;
   // "m", "ft", "us-ft"; empty: not known (io/length_unit.hpp).
   std::string length_unit() const;
 
  private:
   void take_keys(std::span<const std::byte> data);
+  bool is_projected() const;  // of the keys
 
   std::string well_known_text_;
   std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0: none
+  std::uint16_t model_ = 0;                                                 // 0: not stated
+  bool has_projected_ = false;                                              // with a code or without
 };
 
 }  // namespace lacuna

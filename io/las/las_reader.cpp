@@ -32,6 +32,7 @@ class LasReader final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
   bool is_slow() const override { return header_.is_compressed; }
   std::string crs() const override { return header_.crs.text(); }
+  bool is_geographic() const override { return header_.crs.is_geographic(); }
   std::string length_unit() const override { return header_.crs.length_unit(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

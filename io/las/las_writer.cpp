@@ -19,11 +19,17 @@ bool goes_over(const LasRecordPlace& record, const LasOrigin& origin) {
   return record.user != kLasSpecification || record.number != kLasExtraBytes;
 }
 
+// Whether `crs` is written, and not the records of the origin.
+bool is_new_crs(const std::optional<LasOrigin>& origin) {
+  return !origin || !origin->has_crs;
+}
+
 // Whether the coordinate reference system of a new file of these points is well-known text. Formats 6 to 10
 // require it, with a text or without (LAS 1.4 R15, 2.4). Keys of GeoTIFF alone stay what they are.
 bool has_text(const std::optional<LasOrigin>& origin, const LasForm& form, std::string_view crs) {
-  if (!is_extended_format(form.point_format)) return false;
-  if (!origin) return !crs.starts_with("EPSG:");
+  const bool is_extended = is_extended_format(form.point_format);
+  if (is_new_crs(origin)) return crs.empty() ? is_extended : !crs.starts_with("EPSG:");
+  if (!is_extended) return false;
   bool has_keys = false;
   for (const auto* records : {&origin->header.records, &origin->header.extended}) {
     for (const LasRecordPlace& record : *records) {
@@ -41,8 +47,9 @@ std::uint16_t encoding_of(std::uint16_t given, const std::optional<LasOrigin>& o
   unsigned encoding = given & ~unsigned{kTimeBit};
   if (form.has_standard_time) encoding |= kTimeBit;
   const bool is_widened =
-      !origin || (is_extended_format(form.point_format) && !is_extended_format(origin->header.point_format));
-  if (is_widened && has_text(origin, form, crs)) encoding |= kTextBit;
+      origin && is_extended_format(form.point_format) && !is_extended_format(origin->header.point_format);
+  if (is_new_crs(origin)) encoding &= ~unsigned{kTextBit};
+  if ((is_widened || is_new_crs(origin)) && has_text(origin, form, crs)) encoding |= kTextBit;
   return static_cast<std::uint16_t>(encoding);
 }
 
@@ -111,10 +118,11 @@ void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::stri
       written_ += copy_las_record(origin_->file, record, out_);
       ++records_;
     }
-  } else if (crs.starts_with("EPSG:")) {
+  }
+  if (is_new_crs(origin_) && crs.starts_with("EPSG:")) {
     if (const std::string keys = geo_keys(crs); !keys.empty())
       write(kLasProjection, kLasGeoKeys, keys, "GeoTIFF GeoKeyDirectoryTag");
-  } else if (!crs.empty()) {
+  } else if (is_new_crs(origin_) && !crs.empty()) {
     const std::string text = std::string(crs) + '\0';
     if (text.size() <= kMostLasRecordData) {
       write(kLasProjection, kLasWellKnownText, text, "OGC coordinate system WKT");

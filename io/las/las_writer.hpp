@@ -27,15 +27,15 @@ inline constexpr std::uint64_t kLasSoftwareAt = 58;
 struct LasOrigin {
   std::filesystem::path file;
   LasHeader header;
-  bool has_crs = true;      // else its records "LASF_Projection" stay away, too: a pose has moved its points
+  bool has_crs = true;      // else its records "LASF_Projection" stay away, too: its system is not the scan's
   bool has_counts = false;  // bounds and numbers of returns go over, since the points are the same
 };
 
 class LasWriter {
  public:
   // Writes the header and the records before the points. `results`: extra bytes behind those of the form.
-  // Without an origin, the file has neither identity nor date. `crs` is then well-known text, or the code of
-  // a projected or geographic (4000 to 4999) system as keys of GeoTIFF.
+  // Without an origin, the file has neither identity nor date. Unless the origin has_crs, `crs` is written:
+  // well-known text, or the code of a projected or geographic (4000 to 4999) system as keys of GeoTIFF.
   LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraBytes> results,
             std::optional<LasOrigin> origin, std::string_view crs);
 

@@ -20,6 +20,13 @@ void register_gdal_drivers() {
   static_cast<void>(done);
 }
 
+bool read_crs(const std::string& text, OGRSpatialReference& crs) {
+  const char* const within_text[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  const bool is_read = crs.SetFromUserInput(text.c_str(), within_text) == OGRERR_NONE;
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return is_read;
+}
+
 GdalSetting::GdalSetting(const char* key, const char* value) : key_(key) {
   CPLSetThreadLocalConfigOption(key, value);
 }

@@ -1,59 +1,19 @@
 #include "io/results/gis_library.hpp"
 
-#include "engine/run/error.hpp"
+#include "io/gis_module.hpp"
 
 #include <mutex>
-#include <system_error>
+#include <string>
 
-#include <dlfcn.h>
 #include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr const char* kUser = "--gpkg, --geojson and --shp";
 
-fs::path find_library() {
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const fs::path installed = folder.parent_path() / "lib" / "lacuna";
-  for (const fs::path& place : {folder, installed}) {
-    if (fs::exists(place / "lacuna_gis.so", error)) return place / "lacuna_gis.so";
-  }
-  throw Error("lacuna_gis.so: is neither in " + folder.string() + " nor in " + installed.string() +
-              "; --gpkg, --geojson and --shp need it");
-}
-
-// It stays loaded until the program ends.
-WriteLoopsGis* load() {
-  const fs::path file = find_library();
-  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw Error(file.string() + ": cannot be loaded: " + ::dlerror());
-  void* const function = ::dlsym(library, kWriteLoopsGis);
-  if (function == nullptr) throw Error(file.string() + ": is not of this version of lacuna");
-  return reinterpret_cast<WriteLoopsGis*>(function);
-}
-
-}  // namespace
-
-void check_gis_library() {
-  find_library();
-}
-
-void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out) {
-  static WriteLoopsGis* const write = load();
-  GisTask task{.detection = detection,
-               .format = format,
-               .crs = scan.common_crs(),
-               .name = out.path(),
-               .place = {},
-               .take = {}};
-  if (format == GisFormat::kGeoJson) {
-    task.take = [&](std::string_view text) { out.write(text); };
-  } else {
-    task.place = out.place();
-  }
-  if (write(task)) return;
+// One warning in a run for all files.
+void warn_not_understood(const FileScan& scan) {
   static std::once_flag warned;
   std::call_once(warned, [&] {
     spdlog::warn(
@@ -61,6 +21,48 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat
         "none",
         scan.files().front().string());
   });
+}
+
+// A GeoJSON without a system is one in longitude and latitude, by RFC 7946.
+void warn_of_degrees(const OutputFile& out, const char* reason) {
+  spdlog::warn("{}: {}; GIS will read its coordinates, which are those of the scan, as degrees",
+               out.path().string(), reason);
+}
+
+}  // namespace
+
+void check_gis_library() {
+  check_gis_module(kUser);
+}
+
+void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out) {
+  static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
+  const bool is_geojson = format == GisFormat::kGeoJson;
+  GisTask task{.detection = detection,
+               .format = format,
+               .crs = scan.common_crs(),
+               .name = out.path(),
+               .place = {},
+               .take = {}};
+  if (is_geojson) {
+    task.take = [&](std::string_view text) { out.write(text); };
+  } else {
+    task.place = out.place();
+  }
+  switch (write(task)) {
+    case GisCrs::kWritten:
+      return;
+    case GisCrs::kNone:
+      if (is_geojson) warn_of_degrees(out, "no coordinate reference system is known, and --crs can state it");
+      return;
+    case GisCrs::kNotUnderstood:
+      warn_not_understood(scan);
+      if (is_geojson) warn_of_degrees(out, "its coordinates are not converted to longitude and latitude");
+      return;
+    case GisCrs::kNotConverted:
+      warn_of_degrees(out,
+                      "GDAL cannot convert its coordinate reference system to longitude and latitude there");
+  }
 }
 
 }  // namespace lacuna

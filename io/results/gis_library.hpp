@@ -1,4 +1,4 @@
-// lacuna_gis.so, found and loaded where a result needs GDAL.
+// The results that lacuna_gis.so writes.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -8,12 +8,11 @@
 
 namespace lacuna {
 
-// Throws `Error` if the library is neither in the program's folder nor in ../lib/lacuna of it. Cheap:
-// loads nothing.
+// Throws `Error` if lacuna_gis.so is missing (io/gis_module.hpp). Cheap: loads nothing.
 void check_gis_library();
 
-// Loads the library on first use and writes the loops. Where GDAL does not understand the crs that the files
-// share, the log has one warning in a run. Throws `Error`.
+// Loads the library on first use and writes the loops. The log has a warning where the file has no coordinate
+// reference system though the scan has one, and where GIS will read metres as degrees. Throws `Error`.
 void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out);
 
 }  // namespace lacuna

@@ -62,9 +62,7 @@ Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
   const Summary& summary = detection.summary();
   Json json = begin_json(kHolesSchema);
-  json["crs"] = nullptr;
-  if (const std::string crs = scan.common_crs(); !crs.empty()) json["crs"] = crs;
-  json["unit"] = scan.length_unit();
+  put_crs(scan, json);
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
   json["inputs"] = inputs(scan);
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());

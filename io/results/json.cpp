@@ -2,6 +2,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/regular_file.hpp"
+#include "io/file_scan.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -68,6 +69,11 @@ Json counts_of(const FilteredOut& filtered) {
           {"bounds", filtered.bounds},
           {"classes", filtered.classes},
           {"returns", filtered.returns}};
+}
+
+void put_crs(const FileScan& scan, Json& json) {
+  json["crs"] = scan.common_crs().empty() ? Json() : Json(scan.common_crs());
+  json["unit"] = scan.length_unit();
 }
 
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted) {

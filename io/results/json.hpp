@@ -15,6 +15,8 @@
 
 namespace lacuna {
 
+class FileScan;
+
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 
 // The first keys of each file: the program's version and the form of the file, such as "holes 1".
@@ -33,6 +35,8 @@ Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is e
 Json strays_json(const Strays& strays);
 Json counts_of(const FilteredOut& filtered);  // by filter
 
+// The keys `crs`, null where there is none, and `unit`, empty where it is not known.
+void put_crs(const FileScan& scan, Json& json);
 // The values of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);
 

@@ -50,8 +50,10 @@ class LoopsWriter {
  public:
   explicit LoopsWriter(const GisTask& task) : task_(task) {}
 
-  bool write() {
-    const bool understands_crs = set_crs();
+  GisCrs write() {
+    GisCrs result = set_crs();
+    if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
+      result = GisCrs::kNotConverted;
     create();
     for (std::size_t id = 0; id < task_.detection.loops().size(); ++id)
       put(id, task_.detection.read_loop(id));
@@ -59,7 +61,7 @@ class LoopsWriter {
     dataset_.reset();
     require(true);
     if (task_.format == GisFormat::kShapefile) check_parts();
-    return understands_crs;
+    return result;
   }
 
  private:
@@ -78,18 +80,36 @@ class LoopsWriter {
     throw Error(name.string() + ": cannot be written: its end is missing; is the disk full?");
   }
 
-  bool set_crs() {
-    if (!task_.crs.empty()) {
-      const char* const kept_in_scan[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
-      has_crs_ = crs_.SetFromUserInput(task_.crs.c_str(), kept_in_scan) == OGRERR_NONE;
-      failures_.forget();
-    }
+  GisCrs set_crs() {
+    if (task_.crs.empty()) return GisCrs::kNone;
+    has_crs_ = read_crs(task_.crs, crs_);
+    failures_.forget();
     if (!has_crs_) crs_.Clear();
-    crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);  // x is east
-    // The driver writes nothing but a code of EPSG. A compound system may have codes for its parts alone.
-    if (has_crs_ && task_.format == GisFormat::kGeoJson && !crs_.GetAuthorityCode(nullptr))
-      crs_.StripVertical();
-    return has_crs_ || task_.crs.empty();
+    return has_crs_ ? GisCrs::kWritten : GisCrs::kNotUnderstood;
+  }
+
+  // To longitude and latitude, where GDAL has a way that holds for all loops.
+  bool convert() {
+    OGRSpatialReference target;
+    const bool is_geocentric = crs_.IsGeocentric() != 0;
+    constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, with z as it is or with the height
+    require(target.importFromEPSG(is_geocentric ? kSolid : kFlat) == OGRERR_NONE);
+    target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (!is_geocentric) crs_.StripVertical();
+    conversion_.reset(OGRCreateCoordinateTransformation(&crs_, &target));
+    if (!converts_all()) conversion_.reset();
+    failures_.forget();
+    has_crs_ = false;  // a GeoJSON names none
+    crs_.Clear();
+    return conversion_ != nullptr;
+  }
+
+  bool converts_all() {
+    if (!conversion_) return false;
+    for (std::size_t id = 0; id < task_.detection.loops().size(); ++id) {
+      if (!line_of(task_.detection.read_loop(id))) return false;
+    }
+    return true;
   }
 
   void create() {
@@ -147,20 +167,31 @@ class LoopsWriter {
         feature.SetField(field++, value);
       }
     }
+    auto line = line_of(loop);
+    require(line != nullptr);
+    feature.SetGeometryDirectly(line.release());
+    require(layer_->CreateFeature(&feature) == OGRERR_NONE);
+  }
+
+  // A closed line; null where a point of it cannot be converted.
+  std::unique_ptr<OGRLineString> line_of(const ReportedLoop& loop) const {
     auto line = std::make_unique<OGRLineString>();
     const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
       const Eigen::Vector3d& at = loop.points[static_cast<std::size_t>(i % count)].position;
-      line->setPoint(i, at.x(), at.y(), at.z());
+      double x = at.x(), y = at.y(), z = at.z();
+      if (conversion_ && !(conversion_->Transform(1, &x, &y, &z) && std::abs(x) <= 180 && std::abs(y) <= 90))
+        return nullptr;
+      line->setPoint(i, x, y, z);
     }
-    feature.SetGeometryDirectly(line.release());
-    require(layer_->CreateFeature(&feature) == OGRERR_NONE);
+    return line;
   }
 
   const GisTask& task_;
   GdalFailures failures_;
   OGRSpatialReference crs_;
+  std::unique_ptr<OGRCoordinateTransformation> conversion_;  // of a GeoJSON
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
   OGRLayer* layer_ = nullptr;  // the dataset's
@@ -168,22 +199,22 @@ class LoopsWriter {
 
 }  // namespace
 
-extern "C" bool lacuna_write_loops_gis(const GisTask& task) {
+extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   register_gdal_drivers();
   const GdalSetting time("OGR_CURRENT_DATE", kTime),
       no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);
-  bool understands_crs = false;
+  GisCrs result = GisCrs::kNone;
   try {
-    understands_crs = writer.write();
+    result = writer.write();
   } catch (const Error&) {
     sink.check();  // GDAL's failure may be that of the sink
     throw;
   }
   sink.check();
-  return understands_crs;
+  return result;
 }
 
 }  // namespace lacuna

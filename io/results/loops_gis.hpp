@@ -28,11 +28,20 @@ struct GisTask {
   std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
 };
 
+// What became of the coordinate reference system of the scan in a file.
+enum class GisCrs : std::uint8_t {
+  kWritten,
+  kNone,           // the scan has none
+  kNotUnderstood,  // by GDAL: the file has none
+  kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
+};
+
 // Writes the loops in order, each a closed line with z and the fields id, kind and the measures, empty where
-// one is not finite. The coordinates are those of the scan, with all digits. Holds one loop in memory. Equal
-// loops give equal bytes. Returns false where GDAL does not understand the crs: the file has none then.
-// Throws `Error` with GDAL's text.
-using WriteLoopsGis = bool(const GisTask& task);
+// one is not finite. The coordinates are those of the scan, with all digits. Those of a GeoJSON are longitude
+// and latitude of WGS 84 where the system is known, as RFC 7946 demands. z stays as it is; for geocentric
+// scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal bytes. Throws `Error`
+// with GDAL's text.
+using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:
 inline constexpr const char* kWriteLoopsGis = "lacuna_write_loops_gis";

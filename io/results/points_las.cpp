@@ -41,8 +41,10 @@ LasInput examine(const FileScan& scan, std::span<const ResultColumn> results) {
     InputFile in(file);
     LasPart part{
         .name = file.string(), .header = read_las_header(in), .has_pose = scan.poses()[i].has_value()};
-    if (!input.origin)
-      input.origin = {.file = file, .header = part.header, .has_crs = !part.has_pose, .has_counts = false};
+    if (!input.origin) {
+      const bool has_crs = !part.has_pose && scan.crs()[i] == scan.common_crs();
+      input.origin = {.file = file, .header = part.header, .has_crs = has_crs, .has_counts = false};
+    }
     input.parts.las.push_back(std::move(part));
   }
   input.others = join_layouts(

@@ -93,7 +93,7 @@ const std::vector<ResultFile>& all_results() {
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
-      {"run.json", kJsonMark, [](D d, S, C c, OutputFile& out) { write_run(d, c, out); }, always},
+      {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};
   return results;
 }

@@ -36,8 +36,9 @@ inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
 inline constexpr std::string_view kHolesSchema = "holes 1";
 void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
-// run.json: what may differ between runs with the same answer: threads, tiles, times, memory.
-void write_run(const Detection& detection, const Config& config, OutputFile& out);
+// run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
+// coordinate reference system and the unit, too.
+void write_run(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
 std::string_view table_header();

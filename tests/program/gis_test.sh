@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: coordinates, measures and the coordinate
-# reference system. The bytes are equal for every tiling. Other cases: what is replaced, and what is refused.
+# reference system. The bytes are equal for every tiling. Other cases: what is replaced, and what is refused. A GeoJSON is
+# in longitude and latitude where the system is known: converted back, it has the coordinates of the scan.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 work=$(mktemp -d)
@@ -14,6 +15,7 @@ formats=(--gpkg --geojson --shp)
 # The scan in UTM, in millimetres, as LAS files with different coordinate reference systems.
 python3 - <<'END'
 import struct
+from pathlib import Path
 
 rows = open("near.ply", "rb").read().split(b"end_header\n", 1)[1]
 points = [(round(x * 100_000), round(y * 100_000), round(z * 100_000)) for x, y, z in struct.iter_unpack("<3f", rows)]
@@ -39,6 +41,14 @@ def keys(*pairs):
 
 write("utm.las", 34735, keys((1024, 1), (3072, 25832)))
 write("heights.las", 34735, keys((1024, 1), (3072, 25832), (4096, 7837)))
+# Without a code of EPSG, as NAD83(HARN) / Oregon GIC Lambert is in many files.
+OWN = """PROJCS["own",GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_1989",
+SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],
+PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",10],
+PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]]"""
+write("own.las", 2112, OWN.encode(), 4, 16)
+Path("own.prj").write_text(OWN)
+write("local.las", 2112, b'LOCAL_CS["site",UNIT["metre",1]]', 4, 16)
 write("nonsense.las", 2112, b'PROJCS["nonsense",', 4, 16)
 with open("none.xyz", "w") as text:
     for x, y, z in points:
@@ -52,10 +62,22 @@ for file in loops.{gpkg,geojson,shp,shx,dbf,prj,cpg}; do
 done
 cp -r utm again
 "$program" detect heights.las --out heights "${formats[@]}" --quiet
-"$program" detect none.xyz --out again "${formats[@]}" --quiet  # replaces own files
-"$program" detect nonsense.las --out nonsense "${formats[@]}" --quiet 2>warnings.txt
+"$program" detect none.xyz --out again "${formats[@]}" --quiet 2>again.txt  # replaces own files
+"$program" detect nonsense.las --out nonsense "${formats[@]}" --quiet 2>nonsense.txt
+"$program" detect local.las --out local "${formats[@]}" --quiet 2>local.txt
+"$program" detect own.las --out own "${formats[@]}" --quiet
+"$program" detect none.xyz --crs EPSG:25832 --out stated "${formats[@]}" --quiet
+"$program" detect none.xyz --crs EPSG:25832 --out stated2 "${formats[@]}" --quiet --threads 3 --tile-points 900
+for file in loops.{gpkg,geojson,shp,prj}; do
+  cmp "stated/$file" "stated2/$file"
+done
 
-for run in utm heights again nonsense; do
+for run in utm heights own stated; do  # back to the scan's system
+  srs=EPSG:25832
+  [[ $run != own ]] || srs=own.prj
+  ogr2ogr -f GeoJSON "$run.back.json" "$run/loops.geojson" -t_srs "$srs" -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
+done
+for run in utm heights own stated again nonsense local; do
   for format in gpkg geojson shp; do
     ogr2ogr -f GeoJSON "$run.$format.json" "$run/loops.$format" -lco SIGNIFICANT_FIGURES=17
     ogrinfo -so -al "$run/loops.$format" >"$run.$format.txt"
@@ -73,29 +95,55 @@ def is_near(a, b):
     return a == b if isinstance(b, str) else math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-14)
 
 
-for run in ("utm", "heights", "again", "nonsense"):
+def distance(line, coordinates):
+    return max(abs(a - b) for p, q in zip(line, coordinates, strict=True) for a, b in zip(p, q, strict=True))
+
+
+CONVERTED = ("utm", "heights", "own", "stated")
+for run in (*CONVERTED, "again", "nonsense", "local"):
     loops = json.loads(Path(run, "holes.json").read_text(encoding="utf-8"))["loops"]
     assert len(loops) == 5 and loops[0]["coordinates"][0][1] > 5e6
+    assert '"crs"' not in Path(run, "loops.geojson").read_text(encoding="utf-8")
+    if run in CONVERTED:
+        features = json.loads(Path(f"{run}.back.json").read_text(encoding="utf-8"))["features"]
+        for feature, loop in zip(features, loops, strict=True):
+            assert distance(feature["geometry"]["coordinates"][:-1], loop["coordinates"]) < 1e-6, run
     for format in ("gpkg", "geojson", "shp"):
         features = json.loads(Path(f"{run}.{format}.json").read_text(encoding="utf-8"))["features"]
         for feature, loop in zip(features, loops, strict=True):
             line = feature["geometry"]["coordinates"]
             assert feature["geometry"]["type"] == "LineString" and line[0] == line[-1]
-            assert line[:-1] == loop["coordinates"], (run, format)
+            if format == "geojson" and run in CONVERTED:
+                longitude = 10 if run == "own" else 9
+                assert all(abs(x - longitude) < 0.01 and abs(y - 48.75) < 0.01 for x, y, z in line), line
+                assert [z for x, y, z in line[:-1]] == [z for x, y, z in loop["coordinates"]], run
+            else:
+                assert line[:-1] == loop["coordinates"], (run, format)
             names = MEASURES | {"mean_prob" if format == "shp" else "mean_probability": "mean_probability"}
             assert feature["properties"].keys() == names.keys(), feature["properties"]
             for name, key in names.items():
                 assert is_near(feature["properties"][name], loop[key]), (run, format, name)
         info = Path(f"{run}.{format}.txt").read_text(encoding="utf-8")
         assert "3D Line String" in info
-        has_crs = run in ("utm", "heights")
-        assert ("UTM zone 32N" in info.replace("_", " ")) == has_crs, info
+        has_crs = run in ("utm", "heights", "stated")
+        if format == "geojson":
+            assert "WGS 84" in info, info
+        else:
+            assert ("UTM zone 32N" in info.replace("_", " ")) == has_crs, info
+            assert ('"own"' in info) == (run == "own") and ('"site"' in info) == (run == "local"), info
         if run == "heights" and format == "gpkg":
             assert 'ID["EPSG",25832]' in info and 'ID["EPSG",7837]' in info, info
-        if format == "gpkg" and not has_crs:
+        if format == "gpkg" and run in ("again", "nonsense"):
             assert "Undefined Cartesian SRS" in info, info
-warning = Path("warnings.txt").read_text(encoding="utf-8")
-assert warning.count("\n") == 1 and "GDAL does not understand the coordinate reference system" in warning, warning
+DEGREES = "GIS will read its coordinates, which are those of the scan, as degrees"
+for name, reasons in {
+    "again": ["loops.geojson: no coordinate reference system is known, and --crs can state it; " + DEGREES],
+    "nonsense": ["GDAL does not understand the coordinate reference system", DEGREES],
+    "local": ["loops.geojson: GDAL cannot convert its coordinate reference system", DEGREES],
+}.items():
+    warning = Path(f"{name}.txt").read_text(encoding="utf-8")
+    assert all(reason in warning for reason in reasons), warning
+    assert warning.count("\n") == (2 if name == "nonsense" else 1), warning
 END
 for run in again nonsense; do
   [[ ! -e $run/loops.prj ]] || { echo "$run: a .prj without a coordinate reference system"; exit 1; }
@@ -127,6 +175,11 @@ if bin/lacuna detect utm.las --out out --gpkg --quiet 2>missing.txt; then exit 1
 grep -q "lacuna_gis.so: is neither in $work/bin nor in $work/lib/lacuna" missing.txt
 [[ ! -e out ]]
 bin/lacuna detect utm.las --out out --quiet
+# A stated code stays one without the library, and a line says so.
+bin/lacuna detect none.xyz --crs EPSG:25832 --out coded --quiet 2>coded.txt
+grep -q -- "--crs EPSG:25832: is not checked, since lacuna_gis.so is missing; results have the code alone" coded.txt
+grep -q '"crs": "EPSG:25832"' coded/holes.json
+grep -q '"unit": ""' coded/holes.json
 cp "$(dirname "$program")/lacuna_gis.so" lib/lacuna
 bin/lacuna detect utm.las --out out --gpkg --quiet
 cmp out/loops.gpkg utm/loops.gpkg

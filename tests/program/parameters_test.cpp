@@ -54,6 +54,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"bounds", "2,2,100,300"},
     {"classes", "2"},
     {"returns", "first"},
+    {"crs", "EPSG:25832"},
+    {"unit", "ft"},
     {"points_format", "pcd"},
     {"sample_points", "200"},
     {"threads", "3"},
@@ -83,7 +85,7 @@ class Runs {
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
   // All bytes of the results. Some files have parameters or times in them: then it takes the loops of
-  // holes.json, and the names of the others.
+  // holes.json with their system and unit, and the names of the others.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
@@ -98,7 +100,8 @@ class Runs {
       bytes += name;
       if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += test::read_file(file);
     }
-    bytes += nlohmann::json::parse(test::read_file(out / "holes.json"))["loops"].dump();
+    const auto holes = nlohmann::json::parse(test::read_file(out / "holes.json"));
+    for (const char* key : {"crs", "unit", "loops"}) bytes += holes[key].dump();
     fs::remove_all(out);
     return bytes;
   }

@@ -35,9 +35,33 @@ TEST_CASE("GeoTIFF keys give codes of EPSG, the projected before the geographic,
   CHECK(crs_of_keys({{2048, 0, 1, 4258}}) == "EPSG:4258");
   CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}) == "EPSG:25832");
   CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}) == "EPSG:25832+7837");
-  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}) == "EPSG:4258");  // user-defined
-  CHECK(crs_of_keys({{3072, 34736, 1, 5}}).empty());                             // its value is elsewhere
+  CHECK(crs_of_keys({{3072, 34736, 1, 5}}).empty());  // its value is elsewhere
   CHECK(crs_of_keys({{4096, 0, 1, 7837}}).empty());
+}
+
+TEST_CASE("a projected system without a code is not the geographic one that it rests on") {
+  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}).empty());
+  CHECK(crs_of_keys({{1024, 0, 1, 1}, {2048, 0, 1, 4258}}).empty());
+  CHECK(crs_of_keys({{1024, 0, 1, 2}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}) == "EPSG:4258");
+}
+
+TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude and latitude") {
+  const auto is_geographic = [](const std::vector<Key>& keys, const std::string& text = "") {
+    LasCrs crs;
+    take(crs, 34735, geo_keys(keys));
+    if (!text.empty()) take(crs, 2112, text);
+    return crs.is_geographic();
+  };
+  CHECK_FALSE(is_geographic({}));
+  CHECK(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}));
+  CHECK(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 32767}}));  // without a code
+  CHECK(is_geographic({{2048, 0, 1, 4326}}));                    // without a model
+  CHECK_FALSE(is_geographic({{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 25832}}));
+  CHECK_FALSE(is_geographic({{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}));
+  CHECK_FALSE(is_geographic({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}));
+  CHECK_FALSE(is_geographic({{1024, 0, 1, 3}, {2048, 0, 1, 4978}}));  // geocentric
+  CHECK(is_geographic({{1024, 0, 1, 1}, {3072, 0, 1, 25832}}, "GEOGCS[\"WGS 84\"]"));
+  CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, "PROJCS[\"a\",GEOGCS[\"b\"]]"));
 }
 
 TEST_CASE("well-known text counts over keys, up to its first zero") {

@@ -171,6 +171,43 @@ TEST_CASE("a pose moves the points of points.las and leaves all else", "[io][res
   CHECK_THAT(out, !Contains("PROJCS") && Contains("kept"));
 }
 
+TEST_CASE("points.las has the system that holds for the scan, not the records of its first file",
+          "[io][results]") {
+  const std::string here = "PROJCS[\"here\",UNIT[\"metre\",1]]",
+                    there = "PROJCS[\"there\",UNIT[\"foot\",0.3048]]";
+  const auto crs_of = [&](int format, const std::string& crs, const std::vector<std::string>& other_crs,
+                          const std::string& stated) {
+    const ScratchFolder folder;
+    const auto write = [&](const std::string& name, const std::string& text) {
+      LasFile las = file_of(format, format < 6 ? 2 : 4);
+      las.records = {las_record("kept", 1, "kept")};
+      if (!text.empty()) las.records.push_back(las_record("LASF_Projection", 2112, text));
+      return folder.write(name + ".las", las.bytes());
+    };
+    std::vector<ScanInput> inputs = {write("a", crs)};
+    for (const std::string& other : other_crs) inputs.emplace_back(write("b", other));
+    Config config = las_config();
+    config.input.crs = stated;
+    FileScan scan(inputs, config.input);
+    const std::string out = detect_to(folder, scan, 5 * inputs.size(), config);
+    CHECK_THAT(out, Contains("kept"));
+    const std::string written = open_scan(folder / "out" / "points.las", {})->crs();
+    const bool has_text_bit = (at<std::uint16_t>(out, 6) & 16) != 0;
+    if (!stated.empty()) CHECK(has_text_bit == (stated == there));
+    return written;
+  };
+  for (const int format : {1, 6}) {
+    INFO("point format " << format);
+    CHECK(crs_of(format, here, {}, "") == here);
+    CHECK(crs_of(format, here, {}, there) == there);
+    CHECK(crs_of(format, "", {}, there) == there);
+    CHECK(crs_of(format, here, {}, "EPSG:25832") == "EPSG:25832");
+    CHECK(crs_of(format, "", {here}, "") == here);
+    CHECK(crs_of(format, here, {there}, "").empty());
+    CHECK(crs_of(format, here, {there}, there) == there);
+  }
+}
+
 TEST_CASE("rows of other formats become LAS points, and nothing of them is lost", "[io][results]") {
   const ScratchFolder folder;
   const std::string header =

@@ -1,0 +1,27 @@
+#include "io/crs/crs_lookup.hpp"
+
+#include "io/results/gdal_session.hpp"
+
+#include <cpl_conv.h>
+#include <ogr_spatialref.h>
+
+namespace lacuna {
+
+extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
+  register_gdal_drivers();
+  const GdalFailures failures;
+  OGRSpatialReference crs;
+  char* text = nullptr;
+  if (read_crs(lookup.given, crs) && crs.exportToWkt(&text) == OGRERR_NONE) lookup.known_text = text;
+  CPLFree(text);
+  lookup.reason = failures.first();
+}
+
+extern "C" bool lacuna_is_same_crs(const std::string& a, const std::string& b) {
+  register_gdal_drivers();
+  const GdalFailures failures;
+  OGRSpatialReference first, second;
+  return read_crs(a, first) && read_crs(b, second) && first.IsSame(&second) != 0;
+}
+
+}  // namespace lacuna

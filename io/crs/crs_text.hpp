@@ -1,0 +1,15 @@
+// What a coordinate reference system says of itself in well-known text (OGC 01-009; ISO 19162).
+#pragma once
+
+#include <string_view>
+
+namespace lacuna {
+
+// The part that positions are in, such as `PROJCS[...]` of a compound system. Empty where the text is a code,
+// and where it has none.
+std::string_view horizontal_system(std::string_view crs);
+
+// Whether positions are longitude and latitude. False where the text is a code.
+bool is_geographic(std::string_view crs);
+
+}  // namespace lacuna

@@ -1,0 +1,106 @@
+#include "io/crs/stated_crs.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/crs/crs_lookup.hpp"
+#include "io/crs/crs_text.hpp"
+#include "io/gis_module.hpp"
+#include "io/input_file.hpp"
+#include "io/length_unit.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == text.npos) return "";
+  return std::string(text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin));
+}
+
+// As messages name it: of well-known text the beginning, in one line.
+std::string shown(const std::string& given) {
+  constexpr std::size_t kMost = 60;
+  const std::string text = trimmed(given);
+  const std::size_t end =
+      std::min(text.find_first_of("\r\n"), text.find('[') == text.npos ? text.npos : kMost);
+  return end < text.size() ? text.substr(0, end) + "..." : text;
+}
+
+// The text of a .prj or .wkt file, where the given text names a file.
+std::string text_of(const std::string& given) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  std::error_code error;
+  if (!fs::exists(given, error)) return trimmed(given);
+  InputFile in(given, kMostBytes);
+  if (in.remaining() >= kMostBytes) in.fail("too large for a coordinate reference system (1 MiB)");
+  return trimmed(in.peek(kMostBytes));
+}
+
+// "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
+bool is_code(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon != text.npos && colon > 0 && colon + 1 < text.size() &&
+         text.find_first_not_of("0123456789+", colon + 1) == text.npos &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+[[noreturn]] void refuse_crs(const std::string& given, const std::string& reason) {
+  throw Error("--crs " + shown(given) + ": " + reason +
+              "; allowed: a code such as EPSG:25832, well-known text of a system of positions, or a file "
+              "that has one of them");
+}
+
+// The system as well-known text.
+std::string look_up(const std::string& given, const std::string& text) {
+  if (!is_code(text) && horizontal_system(text).empty())
+    refuse_crs(given, "is no coordinate reference system");
+  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
+  if (look_up_crs == nullptr) {
+    spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing{}", shown(given),
+                 is_code(text) ? "; results have the code alone, and no unit unless --unit states it" : "");
+    return text;
+  }
+  CrsLookup lookup{.given = text, .known_text = {}, .reason = {}};
+  look_up_crs(lookup);
+  if (lookup.known_text.empty())
+    refuse_crs(given,
+               "GDAL knows no such system" + (lookup.reason.empty() ? "" : " (" + lookup.reason + ")"));
+  if (horizontal_system(lookup.known_text).empty()) refuse_crs(given, "is no system of positions");
+  return is_code(text) ? lookup.known_text : text;
+}
+
+}  // namespace
+
+StatedCrs read_stated_crs(const InputConfig& config) {
+  StatedCrs stated;
+  if (!config.crs.empty()) stated.crs = look_up(config.crs, text_of(config.crs));
+  stated.unit = length_unit(stated.crs);
+  if (config.unit == LengthUnit::kInput) return stated;
+  const std::string unit(name_of(config.unit));
+  if (!stated.unit.empty() && stated.unit != unit)
+    throw Error("--unit " + unit + ": contradicts --crs " + shown(config.crs) + ", which has lengths in " +
+                stated.unit + "; one of the two is enough");
+  stated.unit = unit;
+  return stated;
+}
+
+bool is_same_crs(const std::string& a, const std::string& b) {
+  if (a == b || a.empty() || b.empty()) return a == b;
+  auto* const is_same = reinterpret_cast<IsSameCrs*>(find_gis_function(kIsSameCrs));
+  return is_same != nullptr && is_same(a, b);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,23 @@
+// The coordinate reference system and the unit that the user states, `--crs` and `--unit`.
+#pragma once
+
+#include "engine/config.hpp"
+
+#include <string>
+
+namespace lacuna {
+
+struct StatedCrs {
+  std::string crs;   // well-known text, or a code that is not looked up; empty: not stated
+  std::string unit;  // "m" and so on, stated or that of the system; empty: neither is known
+};
+
+// A code is looked up in the database of PROJ. Without lacuna_gis.so it stays as it is, and the log says what
+// that leaves out. Throws `Error` where there is no such system, and where system and unit contradict.
+StatedCrs read_stated_crs(const InputConfig& config);
+
+// Whether two texts name the same system. Different texts are compared by GDAL; without lacuna_gis.so they
+// are not the same.
+bool is_same_crs(const std::string& a, const std::string& b);
+
+}  // namespace lacuna

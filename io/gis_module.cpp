@@ -1,0 +1,50 @@
+#include "io/gis_module.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <dlfcn.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_module(const char* user) {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path installed = folder.parent_path() / "lib" / "lacuna";
+  for (const fs::path& place : {folder, installed}) {
+    if (fs::exists(place / "lacuna_gis.so", error)) return place / "lacuna_gis.so";
+  }
+  throw Error("lacuna_gis.so: is neither in " + folder.string() + " nor in " + installed.string() + "; " +
+              user + " need it");
+}
+
+}  // namespace
+
+void check_gis_module(const char* user) {
+  find_module(user);
+}
+
+void* load_gis_function(const char* name, const char* user) {
+  const fs::path file = find_module(user);
+  void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (module == nullptr) throw Error(file.string() + ": cannot be loaded: " + ::dlerror());
+  void* const function = ::dlsym(module, name);
+  if (function == nullptr) throw Error(file.string() + ": is not of this version of lacuna");
+  return function;
+}
+
+void* find_gis_function(const char* name) {
+  try {
+    return load_gis_function(name, "");
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,17 @@
+// lacuna_gis.so: what needs GDAL, found and loaded where it is wanted.
+#pragma once
+
+namespace lacuna {
+
+// Throws `Error` if the module is neither next to the program nor in ../lib/lacuna of its folder; `user` is
+// what needs it, "--gpkg" and so on. Cheap: loads nothing.
+void check_gis_module(const char* user);
+
+// A function of the module, which stays loaded until the program ends. Throws `Error` as above, and where
+// the module cannot be loaded.
+void* load_gis_function(const char* name, const char* user);
+
+// The same; null where the module is missing or cannot be loaded.
+void* find_gis_function(const char* name);
+
+}  // namespace lacuna

@@ -1,0 +1,68 @@
+#include "io/crs/crs_text.hpp"
+
+#include "io/length_unit.hpp"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+namespace {
+
+const std::string kGeogcs =
+    "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+    "84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+    "UNIT[\"degree\",0.0174532925199433]]";
+const std::string kVertical = "VERT_CS[\"height\",VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048]]";
+
+std::string projcs(const std::string& unit) {
+  return "PROJCS[\"a [b] (c)\"," + kGeogcs + ",PROJECTION[\"Transverse_Mercator\"],UNIT[\"" + unit + "]," +
+         "AXIS[\"Easting\",EAST]]";
+}
+
+}  // namespace
+
+TEST_CASE("well-known text of both kinds says whether positions are longitude and latitude") {
+  CHECK(is_geographic(kGeogcs));
+  CHECK(is_geographic("COMPD_CS[\"both\"," + kGeogcs + "," + kVertical + "]"));
+  CHECK(is_geographic("GEOGCRS[\"WGS 84\",CS[ellipsoidal,2]]"));
+  CHECK(is_geographic("geogcrs(\"WGS 84\",cs(ellipsoidal,3))"));
+  CHECK(is_geographic("GEODCRS[\"WGS 84\",DATUM[\"d\"],CS[ellipsoidal,3]]"));
+  CHECK(is_geographic("BOUNDCRS[SOURCECRS[GEOGCRS[\"a\"]],TARGETCRS[GEOGCRS[\"b\"]]]"));
+
+  CHECK_FALSE(is_geographic(projcs("metre\",1")));
+  CHECK_FALSE(is_geographic("COMPD_CS[\"both\"," + projcs("metre\",1") + "," + kVertical + "]"));
+  CHECK_FALSE(is_geographic("PROJCRS[\"a\",BASEGEOGCRS[\"b\"],CS[Cartesian,2]]"));
+  CHECK_FALSE(is_geographic("BOUNDCRS[SOURCECRS[PROJCRS[\"a\"]],TARGETCRS[GEOGCRS[\"b\"]]]"));
+  CHECK_FALSE(is_geographic("GEODCRS[\"WGS 84\",DATUM[\"d\"],CS[Cartesian,3]]"));
+  CHECK_FALSE(is_geographic("GEOCCS[\"WGS 84\"]"));
+  CHECK_FALSE(is_geographic("LOCAL_CS[\"GEOGCS[site]\",UNIT[\"metre\",1]]"));
+  for (const char* none : {"", "EPSG:4326", "GEOGCS", "\"GEOGCS[\"", "[", "]]", "MY_GEOGCS[\"a\"]"})
+    CHECK_FALSE(is_geographic(none));
+}
+
+TEST_CASE("the horizontal part of a compound system is a node of its own, also where the text is cut") {
+  const std::string flat = projcs("metre\",1");
+  CHECK(horizontal_system("COMPD_CS[\"both\"," + flat + "," + kVertical + "]") == flat);
+  CHECK(horizontal_system(kVertical).empty());
+  CHECK(horizontal_system("EPSG:25832").empty());
+  for (std::size_t length = 0; length < flat.size(); ++length)
+    CHECK(horizontal_system(flat.substr(0, length)) == (length < 7 ? "" : flat.substr(0, length)));
+}
+
+TEST_CASE("the unit of a system is that of its lengths, by its size") {
+  CHECK(length_unit(projcs("metre\",1")) == "m");
+  CHECK(length_unit(projcs("foot\",0.3048")) == "ft");
+  CHECK(length_unit(projcs("US survey foot\",0.304800609601219")) == "us-ft");
+  CHECK(length_unit(projcs("US survey foot\",0.3048006")) == "us-ft");
+  CHECK(length_unit(projcs("millimetre\",0.001")) == "mm");
+  CHECK(length_unit(projcs("fathom\",1.8288")).empty());
+  CHECK(length_unit("COMPD_CS[\"both\"," + projcs("metre\",1") + "," + kVertical + "]") == "m");
+  CHECK(length_unit("GEOCCS[\"WGS 84\",DATUM[\"d\"],PRIMEM[\"Greenwich\",0],UNIT[\"metre\",1]]") == "m");
+  CHECK(length_unit(kGeogcs).empty());
+  CHECK(length_unit("GEOGCRS[\"a\",DATUM[\"d\",ELLIPSOID[\"e\",6378137,298,LENGTHUNIT[\"metre\",1]]]]")
+            .empty());
+  CHECK(length_unit("EPSG:25832").empty());
+}
+
+}  // namespace lacuna::test

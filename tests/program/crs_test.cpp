@@ -1,0 +1,184 @@
+// The coordinate reference system and the unit of a scan, as its files name them and as the user states them.
+#include "tests/io/las/las_file.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+constexpr const char* kUtm = "ETRS89 / UTM zone 32N";
+
+// A sheet with a hole, in UTM coordinates.
+std::string sheet_text() {
+  const Cloud cloud = plane(30).punched({15, 15}, 5).translated({500'000, 5'400'000, 100});
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& position : cloud.positions) text << position.transpose() << "\n";
+  return text.str();
+}
+
+std::string degrees_las() {
+  test::LasFile las;
+  las.records = {
+      test::las_record("LASF_Projection", 2112,
+                       "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+                       "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]")};
+  for (int i = 0; i < 100; ++i) las.points.push_back(test::las_point(20, i % 10, i / 10, 0));
+  las.scale = {1e-6, 1e-6, 0.01};
+  las.offset = {9, 48, 100};
+  return las.bytes();
+}
+
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in);
+}
+
+void check_refused(const ProgramResult& result, int exit_code, const std::string& named) {
+  INFO(result.err);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
+  CHECK(test::count_lines(result.err) == 1);
+}
+
+}  // namespace
+
+TEST_CASE("a scan in degrees is refused before the work with the ways out, and info says so") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("degrees.las", degrees_las());
+  const fs::path out = scratch / "out";
+  check_refused(run_program({"detect", scan, "--out", out.string()}), 1,
+                "WGS 84 is in longitude and latitude, and holes need lengths; `pdal translate");
+  CHECK_FALSE(fs::exists(out));
+
+  const ProgramResult info = run_program({"info", scan});
+  CHECK(info.exit_code == 0);
+  CHECK_THAT(info.out, Contains("unit        degrees, which lacuna detect refuses"));
+  CHECK(nlohmann::json::parse(run_program({"info", scan, "--json"}).out)["files"][0]["unit"] == "degree");
+
+  const ProgramResult stated = run_program({"detect", scan, "--out", out.string(), "--crs", "EPSG:25832"});
+  INFO(stated.err);
+  CHECK(stated.exit_code == 0);
+  CHECK_THAT(stated.err, Contains("its coordinate reference system is WGS 84; the stated one holds, " +
+                                  std::string(kUtm)));
+}
+
+TEST_CASE("--crs states the system and the unit of any file, in every result that has them") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("sheet.xyz", sheet_text());
+  const auto detect = [&](const std::string& name, std::vector<std::string> options) {
+    const std::string out = (scratch / name).string();
+    options.insert(options.begin(), {"detect", scan, "--out", out});
+    const ProgramResult result = run_program(options);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return std::pair(result, read_json(scratch / name / "holes.json"));
+  };
+  const auto [plain, none] = detect("none", {});
+  CHECK(none["crs"].is_null());
+  CHECK(none["unit"] == "");
+  CHECK_THAT(plain.out, !Contains("crs"));
+
+  const auto [result, holes] = detect("utm", {"--crs", "EPSG:25832", "--report"});
+  const std::string text = holes["crs"];
+  CHECK_THAT(text, StartsWith("PROJCS[\"" + std::string(kUtm)) && Contains("AUTHORITY[\"EPSG\",\"25832\"]"));
+  CHECK(holes["unit"] == "m");
+  CHECK(holes["loops"] == none["loops"]);
+  CHECK(read_json(scratch / "utm" / "run.json")["crs"] == text);
+  CHECK(read_json(scratch / "utm" / "run.json")["unit"] == "m");
+  CHECK_THAT(result.out, Contains("crs          " + std::string(kUtm)) && Contains(" m²"));
+  std::ifstream report(scratch / "utm" / "report.html");
+  const std::string page(std::istreambuf_iterator<char>(report), {});
+  CHECK_THAT(page, Contains(kUtm) && Contains("\"unit\":\"m\""));
+  const ProgramResult info = run_program({"info", scan, "--crs", "EPSG:25832"});
+  CHECK_THAT(info.out, Contains("crs           " + std::string(kUtm)) && Contains("unit          m\n"));
+
+  // The same by a file and by the config.
+  const std::string prj = scratch.write("utm.prj", text + "\n");
+  CHECK(detect("prj", {"--crs", prj}).second["crs"] == text);
+  const std::string config = scratch.write("c.toml", "[input]\ncrs = \"EPSG:25832\"\n");
+  CHECK(detect("config", {"--config", config}).second["crs"] == text);
+  CHECK(detect("feet", {"--unit", "us-ft"}).second["unit"] == "us-ft");
+  CHECK_THAT(detect("feet", {"--unit", "us-ft"}).first.out, Contains(" us-ft²"));
+  CHECK(detect("wkt2", {"--crs", "EPSG:25832+7837"}).second["unit"] == "m");
+  CHECK(detect("geocentric", {"--crs", "EPSG:4978"}).second["unit"] == "m");
+}
+
+TEST_CASE("a system or unit that is none, or is not one of lengths, is an error before the work") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("sheet.xyz", sheet_text());
+  const fs::path out = scratch / "out";
+  const auto detect = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"detect", scan, "--out", out.string()};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(words);
+  };
+  check_refused(detect({"--crs", "EPSG:99999"}), 1, "--crs EPSG:99999: GDAL knows no such system");
+  check_refused(detect({"--crs", "PROJCS[\"nonsense\""}), 1, "GDAL knows no such system");
+  check_refused(detect({"--crs", "UTM32"}), 1, "--crs UTM32: is no coordinate reference system; allowed: ");
+  check_refused(detect({"--crs", "EPSG:7837"}), 1, "--crs EPSG:7837: is no system of positions");
+  for (const char* code : {"EPSG:4326", "EPSG:4979", "EPSG:4326+5773"})
+    check_refused(detect({"--crs", code}), 1, "is in longitude and latitude, and holes need lengths");
+  check_refused(detect({"--crs", "EPSG:25832", "--unit", "ft"}), 1,
+                "--unit ft: contradicts --crs EPSG:25832");
+  check_refused(detect({"--unit", "furlong"}), 2, "unit = furlong is not possible; allowed: input, m, km");
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE("a code and well-known text of one system are the same for a scan of several files") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("sheet.xyz", sheet_text());
+  const auto las_of = [&](const std::string& name, const std::string& crs) {
+    const std::string out = (scratch / name).string();
+    std::vector<std::string> words = {"detect", scan, "--out", out, "--points", "--points-format", "las"};
+    if (!crs.empty()) words.insert(words.end(), {"--crs", crs});
+    REQUIRE(run_program(words).exit_code == 0);
+    return out + "/points.las";
+  };
+  const std::string text = las_of("text", "EPSG:25832"), none = las_of("none", ""),
+                    other = las_of("other", "EPSG:25833");
+  test::LasFile coded;
+  std::string keys(8 + 16, '\0');
+  test::put<std::uint16_t>(keys, 0, 1);
+  test::put<std::uint16_t>(keys, 6, 2);
+  test::put<std::uint16_t>(keys, 8, 1024), test::put<std::uint16_t>(keys, 12, 1);
+  test::put<std::uint16_t>(keys, 14, 1), test::put<std::uint16_t>(keys, 16, 3072);
+  test::put<std::uint16_t>(keys, 20, 1), test::put<std::uint16_t>(keys, 22, 25832);
+  coded.records = {test::las_record("LASF_Projection", 34735, keys)};
+  coded.points = {test::las_point(20, 0, 0, 0)};
+  const std::string code = scratch.write("code.las", coded.bytes());
+  const auto detect = [&](const std::vector<std::string>& scans) {
+    std::vector<std::string> words = {"detect", "--out", (scratch / "out").string(), "--quiet"};
+    words.insert(words.end(), scans.begin(), scans.end());
+    const ProgramResult result = run_program(words);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto holes = read_json(scratch / "out" / "holes.json");
+    return std::pair(result.err, holes["crs"].is_null() ? "" : holes["crs"].get<std::string>());
+  };
+  CHECK(detect({code, text}) == std::pair(std::string(), std::string("EPSG:25832")));
+  const auto [warning, crs] = detect({none, text});
+  CHECK_THAT(crs, StartsWith("PROJCS[\"" + std::string(kUtm)));
+  CHECK_THAT(warning, Contains("none/points.las: without a coordinate reference system; that of the other "
+                               "files holds, " +
+                               std::string(kUtm)));
+  CHECK(test::count_lines(warning) == 1);
+  CHECK(detect({text, other}).second.empty());
+}
+
+}  // namespace lacuna
