@@ -7,9 +7,9 @@
 #include "tools/info_command.hpp"
 #include "tools/log_file.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/reference_commands.hpp"
 #include "tools/render_command.hpp"
 #include "tools/report_command.hpp"
-#include "tools/reference_commands.hpp"
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
@@ -163,6 +163,8 @@ int run(int argc, char** argv) {
     return flush_output();
   } catch (const CLI::Error& error) {
     return fail(one_line(error.what()) + usage_hint(app, arguments), kWrongUsage);
+  } catch (const UsageError& error) {
+    return fail(one_line(error.what()), kWrongUsage);
   } catch (const Error& error) {
     return fail(one_line(error.what()), kFailed);
   } catch (const std::bad_alloc&) {

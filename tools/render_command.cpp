@@ -5,6 +5,7 @@
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
 #include "io/results/output_set.hpp"
+#include "tools/value_options.hpp"
 #include "tools/visible_text.hpp"
 
 #include <cmath>
@@ -76,6 +77,7 @@ void add_render_command(CLI::App& app) {
   command
       ->add_option("--hide-above", arguments->most_height,
                    "Draw nothing above this height, such as a ceiling; in units of the scan")
+      ->check(real_number())
       ->type_name("Z");
   command->add_flag("--as-it-came", arguments->as_it_came,
                     "Colours or intensities of the scan, where it has them, not probabilities");

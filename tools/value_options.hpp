@@ -1,6 +1,8 @@
 // Options whose values are checked before they are used: an error says what is allowed.
 #pragma once
 
+#include "io/number.hpp"
+
 #include <array>
 #include <cstddef>
 #include <string>
@@ -42,6 +44,17 @@ inline CLI::Validator whole_number() {
   const auto check = [](const std::string& text) {
     const bool is_whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
     return is_whole ? std::string() : text + " is not possible; allowed: a whole number, 0 or more";
+  };
+  return CLI::Validator(check, "");
+}
+
+// For options that take real numbers.
+inline CLI::Validator real_number() {
+  const auto check = [](const std::string& text) {
+    double value = 0;
+    return parse_number(text, value)
+               ? std::string()
+               : text + " is not possible; allowed: a number without a unit, with a decimal point";
   };
   return CLI::Validator(check, "");
 }

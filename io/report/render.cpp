@@ -164,7 +164,7 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
   const bool is_number = parse_number(name, id);
   const auto found = std::find(ids.begin(), ids.end(), id);
   if (!is_number || found == ids.end()) {
-    throw Error("view '" + std::string(name) + "': oblique, top, front, side or the id of a loop is allowed" +
+    throw UsageError("view '" + std::string(name) + "': oblique, top, front, side or the id of a loop is allowed" +
                 (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
   }
   const auto loop = static_cast<std::size_t>(found - ids.begin());

@@ -84,7 +84,27 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"synth", "surface", "d", "--kind", "bottle"}), 2, "torus");
   check_failure(run_program({"synth", "surface", "d", "--points", "-1"}), 2, "a whole number");
   check_failure(run_program({"synth", "surface", "d", "--points", "abc"}), 2, "lacuna synth surface --help");
+  check_failure(run_program({"synth", "surface", "d", "--points", "0", "--holes", "0"}), 2, "--points 0");
+  check_failure(run_program({"synth", "surface", "d", "--points", "400", "--holes", "90"}), 2, "--holes 90");
+  check_failure(run_program({"synth", "surface", "d", "--kind", "sphere", "--density-step", "4"}), 2,
+                "--density-step");
+  check_failure(run_program({"synth", "surface", "d", "--positions", "random", "--jitter", "0.1"}), 2,
+                "--jitter");
+  check_failure(run_program({"synth", "scan", "d", "--stations", "0"}), 2, "--stations");
+  check_failure(run_program({"synth", "scan", "d", "--truth", "d"}), 2, "two files");
   CHECK_FALSE(fs::exists("d"));
+}
+
+TEST_CASE("a value with a unit or a decimal comma is refused with what a number is") {
+  const std::string form = "a number without a unit, with a decimal point";
+  for (const std::string value : {"5cm", "0.1m", "0,5"}) {
+    check_failure(run_program({"detect", "a.ply", "--out", "d", "--min-hole", value}), 2, form);
+    check_failure(run_program({"synth", "surface", "d", "--spacing", value}), 2, form);
+    check_failure(run_program({"synth", "scan", "d", "--field-of-view", "-30", value}), 2, form);
+    check_failure(run_program({"render", "d", "--out", "d.png", "--hide-above", value}), 2, form);
+    check_failure(run_program({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
+  }
+  CHECK_THAT(run_program({"detect", "a.ply", "--out", "d", "--min-hole", "-1"}).err, !Contains(form));
 }
 
 TEST_CASE("a mistyped option or command is told with the one that may be meant") {
@@ -123,7 +143,7 @@ TEST_CASE("a config is found by the name that it is installed with") {
   CHECK(named.exit_code == 0);
   CHECK(named.out == run_program({"detect", "--print-config", "--config", file}).out);
   check_failure(
-      run_program({"detect", "--print-config", "--config", "aerail"}), 1,
+      run_program({"detect", "--print-config", "--config", "aerail"}), 2,
       "--config aerail: no file and no installed config has this name (did you mean \"aerial\"?); allowed: "
       "a TOML file, or one of these: aerial, default");
 }
@@ -160,12 +180,12 @@ TEST_CASE("the command line counts over the config file, the file over the defau
 TEST_CASE("what is wrong in a config file is told with file, line and key") {
   const ScratchFolder scratch;
   const std::string unknown = scratch.write("unknown.toml", "[criteria]\nsigmas = 1\n");
-  check_failure(run_program({"detect", "--print-config", "--config", unknown}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", unknown}), 2,
                 "unknown.toml:2: unknown key \"sigmas\" in [criteria] (did you mean \"sigma\"?)");
   const std::string impossible = scratch.write("impossible.toml", "[criteria]\ncone = 90\n");
-  check_failure(run_program({"detect", "--print-config", "--config", impossible}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", impossible}), 2,
                 "impossible.toml:2: cone");
-  check_failure(run_program({"detect", "--print-config", "--config", (scratch / "no.toml").string()}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", (scratch / "no.toml").string()}), 2,
                 "no.toml");
 }
 

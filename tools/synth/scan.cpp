@@ -15,7 +15,7 @@ namespace lacuna::synth {
 namespace {
 
 void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(message);
+  if (!holds) throw UsageError(message);
 }
 
 void check(const ScanOptions& o) {

@@ -18,7 +18,7 @@ namespace lacuna::synth {
 namespace {
 
 void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(message);
+  if (!holds) throw UsageError(message);
 }
 
 bool is_square(std::uint32_t value) {
