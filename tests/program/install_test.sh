@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs to a new prefix, and builds and runs the example of docs/example against it, as a user of the library would.
 # Then moves the prefix: the package must not depend on its place. Links of the installed pages lead to installed files.
+# The program is hardened as LACUNA_HARDENING says.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source_folder=$PWD
@@ -48,6 +49,17 @@ for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna 
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
 python3 tests/program/check_links.py "$prefix/share/doc/lacuna" || fail "links of the installed documents lead nowhere"
+
+if grep --quiet 'LACUNA_HARDENING:BOOL=ON' "$build_folder/CMakeCache.txt"; then
+  readelf --wide --dynamic "$prefix/bin/lacuna" >"$work/log"
+  grep --quiet 'Flags:.* NOW PIE' "$work/log" || fail "the program is not at a random address with read-only relocations"
+  nm --dynamic "$prefix/bin/lacuna" >"$work/log"
+  for symbol in __stack_chk_fail _chk@; do
+    grep --quiet "$symbol" "$work/log" || fail "the program is not hardened: no call of $symbol"
+  done
+fi
+g++ -shared -Wl,--whole-archive "$prefix"/lib*/liblacuna.a -Wl,--no-whole-archive -o "$work/module.so" ||
+  fail "the library cannot be linked into a shared one, such as a module of Python"
 
 # A user's own "engine/config.hpp" does not take the place of the library's.
 cp -r docs/example "$work/example"
