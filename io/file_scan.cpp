@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchRows = std::size_t{1} << 16;
@@ -48,13 +48,13 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config)
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
-  lacuna::check_unchanged(files_[file], states_[file]);
+  io::check_unchanged(files_[file], states_[file]);
   auto reader = open_scan(files_[file], {.columns = config_.columns});
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
 }
 
 void FileScan::check_unchanged() const {
-  for (std::size_t i = 0; i < files_.size(); ++i) lacuna::check_unchanged(files_[i], states_[i]);
+  for (std::size_t i = 0; i < files_.size(); ++i) io::check_unchanged(files_[i], states_[i]);
 }
 
 // The engine does so too, but knows no files.
@@ -129,4 +129,4 @@ bool FileScan::single_precision() const {
   });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct ScanInput {
   template <std::convertible_to<std::filesystem::path> Name>
@@ -86,4 +86,4 @@ class FileScan : public PointSource {
   FilteredOut filtered_out_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 
 #include <sys/stat.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // None where the file cannot be looked up; errno says why.
@@ -47,4 +47,4 @@ void check_unchanged(const std::filesystem::path& file, const FileState& before)
               "); an input must stay as it is until the run ends");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

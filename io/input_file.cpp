@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 bool is_blank(char c) {
@@ -216,4 +216,4 @@ std::string in_quotes(std::string_view text) {
   return result + (text.empty() ? "'" : "...'");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

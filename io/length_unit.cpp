@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // `PROJCS[...]` or what it is called since 2015, wherever it stands in a compound system.
@@ -45,4 +45,4 @@ std::string length_unit(std::string_view crs) {
   return parse_number(factor, metres) ? unit_of_metres(metres) : "";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Of X Y Z and NX NY NZ, in any mix of cases, the names of position and normal; others as they are.
 std::string known_name(std::string_view given);
@@ -18,4 +18,4 @@ inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensit
 // One spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".
 std::string bare_name(std::string_view name);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

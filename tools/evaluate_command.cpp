@@ -14,7 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ void add_evaluate_command(CLI::App& app) {
   command->callback([arguments] { run_evaluate(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -25,7 +25,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -205,4 +207,4 @@ void add_info_command(CLI::App& app) {
   command->callback([arguments] { run_info(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

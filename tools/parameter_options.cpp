@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 struct TypeName {
@@ -131,4 +131,4 @@ std::vector<std::string> join_columns(std::vector<std::string> arguments) {
   return joined;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -12,7 +12,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct EffectiveConfig {
   Config config;
@@ -47,4 +47,4 @@ class ParameterOptions {
 // only the first where it holds several names already.
 std::vector<std::string> join_columns(std::vector<std::string> arguments);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -32,7 +32,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
@@ -174,4 +174,4 @@ int run(int argc, char** argv) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -18,7 +18,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
@@ -86,4 +88,4 @@ void add_render_command(CLI::App& app) {
   command->callback([arguments] { run_render(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -12,7 +12,9 @@
 #include <sstream>
 #include <system_error>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 // The distance from the farthest coordinate of single precision to the next one.
@@ -96,4 +98,4 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   return warnings;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

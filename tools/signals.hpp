@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
 // empty folders that were made for the run (tools/workspace.hpp). They print one line, if stderr takes it at
@@ -20,4 +20,4 @@ void watch_results(const std::filesystem::path& folder, const std::filesystem::p
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
 void wait_if_interrupted();
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -12,7 +12,9 @@
 
 #include <sys/resource.h>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 std::string print_number(double value) {
@@ -248,4 +250,4 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -13,7 +13,8 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
 
 namespace {
 
@@ -154,4 +155,4 @@ void add_synth_command(CLI::App& app) {
   add_scan(synth);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // A value by its name.
 template <class T>
@@ -52,11 +52,11 @@ inline CLI::Validator whole_number() {
 inline CLI::Validator real_number() {
   const auto check = [](const std::string& text) {
     double value = 0;
-    return parse_number(text, value)
+    return io::parse_number(text, value)
                ? std::string()
                : text + " is not possible; allowed: a number without a unit, with a decimal point";
   };
   return CLI::Validator(check, "");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <streambuf>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 void append_hexadecimal(std::string& text, unsigned char byte) {
@@ -80,4 +80,4 @@ void show_output_visibly(std::FILE* file) {
   std::cout.rdbuf(buffer);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // Control characters (C0 with line ends, DEL, C1) as \u001b, which JSON and TOML read back as the same
 // character; bytes that are not UTF-8 as \xff. All else stays as it is.
@@ -16,4 +16,4 @@ std::string visible(std::string_view text);
 // end is made visible before it is printed.
 void show_output_visibly(std::FILE* file);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Takes what the records "LASF_Projection" say, in any order.
 class LasCrs {
@@ -27,4 +27,4 @@ class LasCrs {
   std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0: none
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

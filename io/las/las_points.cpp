@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::uint64_t file_bytes(const InputFile& in) {
@@ -163,4 +163,4 @@ std::unique_ptr<LasPoints> las_points(const std::filesystem::path& file, InputFi
   return std::make_unique<PlainPoints>(in, header);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

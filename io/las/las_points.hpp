@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class LasPoints {
  public:
@@ -24,4 +24,4 @@ class LasPoints {
 std::unique_ptr<LasPoints> las_points(const std::filesystem::path& file, InputFile& in,
                                       const LasHeader& header);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

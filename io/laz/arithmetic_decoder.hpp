@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Decodes from `bytes`, which outlive it. An encoder ends its data such that a decoder reads exactly all
 // bytes; so each function throws `Corrupt` at the end of the bytes. Between calls value_ < length_ and
@@ -106,4 +106,4 @@ class ArithmeticDecoder {
   std::uint32_t length_ = 0xffffffff;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a
 // number k, in one model for each context, and then as its place in the k-th interval: 0 and 1 for k = 0,
@@ -64,4 +64,4 @@ class IntegerDecoder {
   unsigned k_ = 0;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

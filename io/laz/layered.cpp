@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
@@ -113,4 +113,4 @@ void decode_layered(const Layout& layout, std::span<const std::byte> compressed,
   }
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

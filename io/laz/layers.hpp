@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // A stream of one attribute, or nothing where the attribute is the first point's for all points.
 using Layer = std::optional<ArithmeticDecoder>;
@@ -37,4 +37,4 @@ class Layers {
   std::span<const std::byte> sizes_, layers_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

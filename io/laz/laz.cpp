@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
                   std::span<std::byte> records) {
@@ -25,4 +25,4 @@ void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::u
   }
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -19,7 +19,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // What is wrong with compressed data, one line; the caller adds file and place.
 class Corrupt : public std::runtime_error {
@@ -99,4 +99,4 @@ std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::uint64_t points,
                   std::span<std::byte> records);
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

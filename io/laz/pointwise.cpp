@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // GPSTIME11, version 2.
@@ -114,4 +114,4 @@ void decode_pointwise(const Layout& layout, std::span<const std::byte> compresse
   }
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

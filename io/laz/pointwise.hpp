@@ -4,11 +4,11 @@
 
 #include "io/laz/laz.hpp"
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // The records of a chunk behind the first, which is in `records` already. `compressed`: what follows it in
 // the chunk.
 void decode_pointwise(const Layout& layout, std::span<const std::byte> compressed,
                       std::span<std::byte> records);
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -9,7 +9,7 @@
 
 #include <png.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // No exception may pass through libpng, which is C: that of the file is kept, and thrown again behind it.
@@ -67,4 +67,4 @@ void write_png(const Picture& picture, OutputFile& out) {
   if (!sink.message.empty()) throw Error(out.path().string() + ": " + sink.message);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

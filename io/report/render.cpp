@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
@@ -115,7 +115,7 @@ void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
   const float nearer = 3 * scene.points.spacing;
   const Scene::Loops& loops = scene.loops;
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const auto [red, green, blue, index] = colour_of(loops.measures[loop].kind);
+    const auto [red, green, blue, index] = io::colour_of(loops.measures[loop].kind);
     const Eigen::Vector3f colour(red, green, blue);
     const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
     for (std::size_t i = first; i < end; ++i) {
@@ -212,4 +212,4 @@ Picture render(const Scene& scene, const View& view, std::size_t width, std::siz
   return canvas.picture();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct Picture {
   std::size_t width = 0, height = 0;
@@ -40,4 +40,4 @@ FileMark picture_mark();
 // PNG, 8 bits for each colour.
 void write_png(const Picture& picture, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Writes the page of io/report/page with the scene as data. Positions are 21 bits along each axis, of the
 // cube of the scene. About 15 bytes for each point, 11 for each vertex of a loop.
@@ -16,4 +16,4 @@ void write_report(const Scene& scene, OutputFile& out);
 // Throws `Error`.
 std::filesystem::path write_report(const std::filesystem::path& folder, Overwrite overwrite);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The drivers of the formats that are written, once.
 void register_gdal_drivers();
@@ -60,4 +60,4 @@ class GdalTextSink {
   std::exception_ptr failure_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <dlfcn.h>
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat
   });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

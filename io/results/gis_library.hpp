@@ -6,7 +6,7 @@
 #include "io/results/loops_gis.hpp"
 #include "io/results/output_file.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Throws `Error` if the library is neither beside the program nor in ../lib/lacuna of its folder. Cheap:
 // loads nothing.
@@ -16,4 +16,4 @@ void check_gis_library();
 // share, the log has one warning in a run. Throws `Error`.
 void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -2,7 +2,7 @@
 #include "io/results/results.hpp"
 #include "io/scalar.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // Its 4 x 4 matrix, row by row.
@@ -113,4 +113,4 @@ void write_holes(const Detection& detection, const FileScan& scan, const Config&
   out.write(detection.loops().empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 template <class Value>
@@ -44,4 +44,4 @@ Json parameter_values(Config config, const std::function<bool(std::string_view s
   return sections;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lacuna {
+namespace lacuna::io {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 
@@ -27,4 +27,4 @@ Json counts_of(const FilteredOut& filtered);  // by filter
 // Of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

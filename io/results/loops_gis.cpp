@@ -13,7 +13,7 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ extern "C" bool lacuna_write_loops_gis(const GisTask& task) {
   return understands_crs;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

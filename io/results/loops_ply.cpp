@@ -6,7 +6,7 @@
 #include <cassert>
 #include <limits>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::uint64_t count_points(const Detection& detection) {
@@ -62,4 +62,4 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

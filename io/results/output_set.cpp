@@ -12,7 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 namespace fs = std::filesystem;
 
@@ -170,4 +170,4 @@ std::string OutputSet::put_back() {
   return lost;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

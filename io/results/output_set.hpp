@@ -31,7 +31,7 @@
 
 #include <sys/stat.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class Overwrite { kOwn, kAny };
 
@@ -95,4 +95,4 @@ class OutputSet {
   std::list<Member> members_;                                         // in the order of add
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

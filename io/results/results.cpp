@@ -16,7 +16,7 @@
 #include <limits>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 struct ResultFile {
@@ -183,4 +183,4 @@ std::vector<PlyProperty> position_and_id(const Detection& detection, const FileS
           {"scalar_id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

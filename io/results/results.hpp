@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The files that a run writes: loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and those
 // that the config asks for; the annotated scan in its format (io/results/points.hpp).
@@ -77,4 +77,4 @@ std::string_view vdb_mark();
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <thread>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 double points_per_second(std::uint64_t points, double seconds) {
@@ -51,4 +51,4 @@ void write_run(const Detection& detection, const Config& config, OutputFile& out
   out.write(print(json, 2) + "\n");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

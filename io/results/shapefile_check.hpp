@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Of the files that belong to `shp`, the first one that is shorter than its head says, or missing; empty:
 // none. The .prj only `with_crs`.
 std::filesystem::path find_cut_part(const std::filesystem::path& shp, bool with_crs);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

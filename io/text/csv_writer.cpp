@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 bool is_plain(const std::string& name) {
@@ -89,4 +89,4 @@ void CsvWriter::put_rows(std::span<const std::byte> rows) {
   for (const std::string& text : texts) out_.write(text);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -16,6 +16,8 @@
 #include <nlohmann/json.hpp>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

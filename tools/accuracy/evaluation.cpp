@@ -21,6 +21,8 @@
 #include <nlohmann/json.hpp>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

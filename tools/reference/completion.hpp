@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // Of the files that are read, in the order of usage.md. Others are read too: formats are known by content.
 inline constexpr std::array<std::string_view, 15> kScanEndings = {
@@ -33,4 +33,4 @@ std::string print_fish_completion(const CommandEntry& program);
 std::string join(const std::vector<std::string>& words, std::string_view between = " ");
 std::string scan_endings(std::string_view between);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

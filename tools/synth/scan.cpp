@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace {
 

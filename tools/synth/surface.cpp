@@ -14,6 +14,7 @@
 #include <string>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <string>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace fs = std::filesystem;
 

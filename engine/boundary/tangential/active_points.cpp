@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // Memory is prefetched so many steps before its use: it is mostly not in the cache.
@@ -258,4 +258,4 @@ TileStars find_stars(const TilePoints& points, const Rows& neighbourhoods,
   return TileStarFinder(points, neighbourhoods, evaluations, is_border, config).find(seeds);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -10,9 +10,9 @@
 #include "engine/loops/raw_loops.hpp"
 #include "engine/run/job.hpp"
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Adds the loops that stand to `chosen`. Both inputs are sorted. Cost: sorts the points of all loops on disk.
 void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, RawLoops& chosen);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

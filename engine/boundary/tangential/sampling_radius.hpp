@@ -14,7 +14,7 @@
 #include <limits>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Of a star, the smallest circumradii that do not lie in a hole (`hole_radius`), in units of
 // `Sampling::distance`; infinity where there are fewer.
@@ -61,4 +61,4 @@ StarCircles circles_of(const Link& link, const TangentialConfig& config) {
   return circles;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Catch::Matchers::Contains;

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 struct DrawnLoop {
@@ -80,4 +80,4 @@ TEST_CASE("a coarse loop lies on the fine one with which it shares most points, 
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tangential
