@@ -13,6 +13,8 @@
 #include <tbb/task_arena.h>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 constexpr std::uint32_t kPoints = 2'000'000;

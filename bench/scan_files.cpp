@@ -18,6 +18,8 @@
 #include <liblzf/lzf.h>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 using Eigen::Vector3d;

@@ -34,6 +34,8 @@
 #include <unistd.h>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 constexpr std::uint32_t kPoints = 65'536;
@@ -100,9 +102,9 @@ struct SampleComponent {
 SampleComponent component() {
   const TilePoints& points = tile();
   SampleComponent sample;
-  std::vector<TileEdge> edges =
-      lacuna::eligible_edges(points, neighbourhoods(), evaluations(), kConfig.spanning).inside;
-  for (const TileEdge& edge : edges) {
+  std::vector<paper::TileEdge> edges =
+      paper::eligible_edges(points, neighbourhoods(), evaluations(), kConfig.spanning).inside;
+  for (const paper::TileEdge& edge : edges) {
     sample.vertices.push_back(edge.a);
     sample.vertices.push_back(edge.b);
   }
@@ -114,14 +116,14 @@ SampleComponent component() {
   std::vector<LocalIndex> vertex_of(points.size(), kNoIndex);
   for (std::size_t v = 0; v < sample.vertices.size(); ++v)
     vertex_of[sample.vertices[v]] = static_cast<LocalIndex>(v);
-  for (TileEdge& edge : edges) {
+  for (paper::TileEdge& edge : edges) {
     const auto [low, high] = std::minmax({vertex_of[edge.a], vertex_of[edge.b]});
     edge = {low, high, edge.weight};
   }
-  std::sort(edges.begin(), edges.end(), [](const TileEdge& x, const TileEdge& y) {
+  std::sort(edges.begin(), edges.end(), [](const paper::TileEdge& x, const paper::TileEdge& y) {
     return std::tie(x.weight, x.a, x.b) < std::tie(y.weight, y.a, y.b);
   });
-  for (const TileEdge& edge : edges) sample.edges.push_back({edge.a, edge.b});
+  for (const paper::TileEdge& edge : edges) sample.edges.push_back({edge.a, edge.b});
   const double mean_neighbours =
       static_cast<double>(neighbourhoods().indices.size()) / static_cast<double>(points.owned);
   sample.e = std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
@@ -131,9 +133,9 @@ SampleComponent component() {
 template <class Report>
 void trace(const SampleComponent& component, Report&& report) {
   Scratch scratch(std::filesystem::temp_directory_path(), kBudget);
-  Spanning spanning(component.ids, component.e, scratch);
+  paper::Spanning spanning(component.ids, component.e, scratch);
   for (const LocalEdge edge : component.edges) spanning.add(edge);
-  find_loops(spanning.finish(), scratch, report);
+  paper::find_loops(spanning.finish(), scratch, report);
 }
 
 std::vector<Loop> loops() {
@@ -315,7 +317,8 @@ void eligible_edges(benchmark::State& state) {
   evaluations();
   std::size_t edges = 0;
   for (auto _ : state) {
-    const TileEdges found = lacuna::eligible_edges(tile(), neighbourhoods(), evaluations(), kConfig.spanning);
+    const paper::TileEdges found =
+        paper::eligible_edges(tile(), neighbourhoods(), evaluations(), kConfig.spanning);
     edges = found.inside.size();
   }
   time_per(state, "per_point", kPoints);
@@ -350,8 +353,8 @@ void find_stars(benchmark::State& state, double noise) {
   const NoisySample sample(noise);
   std::size_t vertices = 0;
   for (auto _ : state) {
-    const TileStars found = lacuna::find_stars(sample.points, sample.rows, sample.evaluations, sample.seeds,
-                                               sample.is_border, kConfig.tangential);
+    const tangential::TileStars found = tangential::find_stars(
+        sample.points, sample.rows, sample.evaluations, sample.seeds, sample.is_border, kConfig.tangential);
     vertices = found.stars.vertices.size();
   }
   time_per(state, "per_point", kPoints);

@@ -1,4 +1,4 @@
-# Adds what Debian wants of a package, and `cmake --install` does not write: changelog.gz, and the licence as copyright.
+# Adds what Debian wants of a package, and `cmake --install` does not write: changelog.gz and copyright.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()
@@ -12,9 +12,7 @@ file(WRITE ${folder}/changelog
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
 execute_process(COMMAND gzip -9nf ${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)
-if(EXISTS ${CPACK_LACUNA_LICENCE})
-  file(COPY_FILE ${CPACK_LACUNA_LICENCE} ${folder}/copyright)
-  file(CHMOD ${folder}/copyright ${folder}/changelog.gz PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
-else()
-  message(WARNING "There is no file LICENSE, so the package has no copyright file")
-endif()
+file(COPY_FILE ${CPACK_LACUNA_COPYRIGHT} ${folder}/copyright)
+file(REMOVE ${folder}/LICENSE)  # Debian has one copy of this text, which the file `copyright` names
+file(CREATE_LINK ../../common-licenses/Apache-2.0 ${folder}/LICENSE SYMBOLIC)
+file(CHMOD ${folder}/copyright ${folder}/changelog.gz PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)

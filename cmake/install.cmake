@@ -25,24 +25,28 @@ install(FILES ${PROJECT_BINARY_DIR}/lacuna-config.cmake ${PROJECT_BINARY_DIR}/la
 
 # Configs, and the documentation with its figures but without their scripts.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/lacuna COMPONENT program FILES_MATCHING PATTERN "*.toml")
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
         PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
-install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
+foreach(page engine/README.md engine/store/README.md bench/README.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
+  cmake_path(GET page PARENT_PATH folder)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
+endforeach()
+install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library)
 
-# The manual page and the completions of commands, which the program itself writes.
+# The manual page and the completions of commands, which the program itself writes, each time that it is linked: whoever
+# builds the target lacuna has all that is installed.
 set(reference ${PROJECT_BINARY_DIR}/reference)
 file(MAKE_DIRECTORY ${reference})
 add_custom_command(
-  OUTPUT ${reference}/lacuna.1.gz ${reference}/lacuna.bash ${reference}/_lacuna ${reference}/lacuna.fish
+  TARGET lacuna POST_BUILD
   COMMAND lacuna manual > ${reference}/lacuna.1
   COMMAND gzip -9nf ${reference}/lacuna.1
   COMMAND lacuna completion bash > ${reference}/lacuna.bash
   COMMAND lacuna completion zsh > ${reference}/_lacuna
   COMMAND lacuna completion fish > ${reference}/lacuna.fish
-  DEPENDS lacuna VERBATIM)
-add_custom_target(lacuna_reference ALL DEPENDS ${reference}/lacuna.1.gz)
+  BYPRODUCTS ${reference}/lacuna.1.gz ${reference}/lacuna.bash ${reference}/_lacuna ${reference}/lacuna.fish VERBATIM)
 set(LACUNA_ZSH_DIR zsh/site-functions CACHE STRING "Folder in share/ for the completion of zsh; Debian has its own")
 install(FILES ${reference}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${reference}/lacuna.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna

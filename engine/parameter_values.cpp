@@ -106,7 +106,11 @@ struct PrintValue {
 [[noreturn]] void refuse(const Parameter& parameter, std::string_view given) {
   std::ostringstream message;
   message << parameter.key << " = " << given << " is not possible; allowed: " << parameter.allowed;
-  throw Error(message.str());
+  const bool is_real = std::holds_alternative<double*>(parameter.value) ||
+                       std::holds_alternative<std::vector<double>*>(parameter.value);
+  if (is_real && !parse_number<double>(given))
+    message << ", as a number without a unit, with a decimal point";
+  throw UsageError(message.str());
 }
 
 bool in_range(const Parameter& parameter, double value) {

@@ -24,8 +24,9 @@ namespace {
 
 // The one place where the method is chosen.
 std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
-  if (job.config.loops.method == LoopMethod::kPaper) return std::make_unique<PaperBoundary>(store, job);
-  return std::make_unique<TangentialBoundary>(store, job);
+  if (job.config.loops.method == LoopMethod::kPaper)
+    return std::make_unique<paper::PaperBoundary>(store, job);
+  return std::make_unique<tangential::TangentialBoundary>(store, job);
 }
 
 }  // namespace

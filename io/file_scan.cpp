@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // The first of those that are not empty, where the others are the same. Empty where two differ.
@@ -67,7 +67,7 @@ void FileScan::choose_crs() {
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
-  lacuna::check_unchanged(files_[file], states_[file]);
+  io::check_unchanged(files_[file], states_[file]);
   auto reader = open_scan(files_[file], {.columns = config_.columns, .memory = memory_});
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
 }
@@ -78,7 +78,7 @@ std::size_t FileScan::batch_rows(std::size_t file) const {
 }
 
 void FileScan::check_unchanged() const {
-  for (std::size_t i = 0; i < files_.size(); ++i) lacuna::check_unchanged(files_[i], states_[i]);
+  for (std::size_t i = 0; i < files_.size(); ++i) io::check_unchanged(files_[i], states_[i]);
 }
 
 // The engine does so too, but knows no files.
@@ -148,4 +148,4 @@ bool FileScan::single_precision() const {
   });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct ScanInput {
   template <std::convertible_to<std::filesystem::path> Name>
@@ -106,4 +106,4 @@ class FileScan : public PointSource {
   BeforeFilters before_filters_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 
 #include <sys/stat.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::int64_t nanoseconds(const timespec& time) {
@@ -53,4 +53,4 @@ void check_unchanged(const std::filesystem::path& file, const FileState& before)
               "); an input must stay as it is until the run ends");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

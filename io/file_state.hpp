@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct FileState {
   std::uint64_t device = 0;
@@ -21,4 +21,4 @@ FileState file_state(const std::filesystem::path& file);
 // length written within the clock tick of `before` (milliseconds) is not noticed.
 void check_unchanged(const std::filesystem::path& file, const FileState& before);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

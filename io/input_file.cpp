@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 bool is_blank(char c) {
@@ -226,4 +226,4 @@ std::string in_quotes(std::string_view text) {
   return result + (text.empty() ? "'" : "...'");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

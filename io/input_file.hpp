@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class InputFile {
  public:
@@ -78,4 +78,4 @@ void require_end(InputFile& in, std::string_view padding = kBlanks);
 // Text from a file for an error message: one line, printable, not long, in quotes.
 std::string in_quotes(std::string_view text);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 struct Unit {
@@ -43,4 +43,4 @@ std::string length_unit(std::string_view crs) {
   return parse_number(factor, metres) ? unit_of_metres(metres) : "";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // By metres in one: "m", "km", "cm", "mm", "ft" (international foot), "us-ft" (US survey foot), "in", "yd";
 // empty: another one.
@@ -14,4 +14,4 @@ std::string unit_of_metres(double metres);
 // where it is geographic, where the text is a code, and where it names another unit.
 std::string length_unit(std::string_view crs);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // `line` must be the last one read from `in`: errors name its number.
 class LineWords {
@@ -50,4 +50,4 @@ class LineWords {
   std::string_view rest_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace lacuna {
+namespace lacuna::io {
 
 static_assert(std::endian::native == std::endian::little, "LAS records are copied as they are in memory");
 
@@ -23,4 +23,4 @@ void store(std::byte* to, T value) {
   std::memcpy(to, &value, sizeof value);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace lacuna {
+namespace lacuna::io {
 
 float parse_extreme(std::string_view text, float) {
   return std::strtof(std::string(text).c_str(), nullptr);
@@ -35,4 +35,4 @@ bool parse_foreign_number(std::string_view text, double& value) {
   return parse_number(plain, value);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // What std::from_chars leaves open: infinite where a number is too large for the type, 0 or denormal where
 // it is too small.
@@ -63,4 +63,4 @@ inline bool next_field(std::string_view& rest, char separator, std::string_view&
   return true;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

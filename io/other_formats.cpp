@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 using std::string_view_literals::operator""sv;
@@ -48,4 +48,4 @@ std::optional<std::string> describe_other_format(std::string_view first_bytes) {
   return std::nullopt;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr double kTolerance = 1e-3;
@@ -83,4 +83,4 @@ Pose read_pose(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

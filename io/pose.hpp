@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lacuna {
+namespace lacuna::io {
 
 using Pose = Eigen::Affine3d;  // of the scan's own coordinates: p -> A p + t
 
@@ -18,4 +18,4 @@ Pose parse_pose(std::string_view numbers);
 // Reads the numbers from a text file, over any number of lines. Throws `Error`.
 Pose read_pose(const std::filesystem::path& file);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 class PosedReader final : public ScanReader {
@@ -77,4 +77,4 @@ std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose
   return std::make_unique<PosedReader>(std::move(reader), pose);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,10 +6,10 @@
 
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The rows of `reader` with their positions moved by the pose, and their normals turned. These are doubles
 // then; all else stays as it is.
 std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

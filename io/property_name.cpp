@@ -1,6 +1,6 @@
 #include "io/property_name.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 std::string known_name(std::string_view given) {
   std::string lower(given);
@@ -28,4 +28,4 @@ std::string bare_name(std::string_view name) {
   return bare.starts_with("scalar") ? bare.substr(6) : bare;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

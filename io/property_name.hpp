@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Returns the names of position and normal for X Y Z and NX NY NZ, in any mix of cases, and others as they
 // are.
@@ -19,4 +19,4 @@ inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensit
 // One spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".
 std::string bare_name(std::string_view name);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::optional<Eigen::AlignedBox3d> box_of(const std::vector<double>& bounds) {
@@ -146,4 +146,4 @@ bool RowFilter::is_chosen_return(std::size_t row) const {
   return true;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -14,7 +14,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Rows left out, each counted by the first of these filters that refuses it. A row that is not finite is in
 // none of them.
@@ -68,4 +68,4 @@ class RowFilter {
   std::optional<Values> class_, return_number_, number_of_returns_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 struct Names {
@@ -97,4 +97,4 @@ const Property* RowLayout::find(std::string_view name) const {
   return nullptr;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

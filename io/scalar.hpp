@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Both spellings of the PLY format: "char" and "int8", ...
 std::optional<Scalar> scalar_from_name(std::string_view name);
@@ -64,4 +64,4 @@ void swap_bytes(Column column, std::size_t count);
 // The properties one after the other without padding.
 RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properties);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

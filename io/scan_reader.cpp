@@ -16,14 +16,14 @@
 
 #include <array>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool ScanReader::is_geographic() const {
   return lacuna::is_geographic(crs());
 }
 
 std::string ScanReader::length_unit() const {
-  return lacuna::length_unit(crs());
+  return io::length_unit(crs());
 }
 
 namespace {
@@ -95,4 +95,4 @@ std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const R
       0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

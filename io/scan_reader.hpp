@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class Scalar : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
@@ -90,4 +90,4 @@ Recognised recognise(const std::filesystem::path& file);
 // Opens a file by what it holds, not by its name. Throws `Error`.
 std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

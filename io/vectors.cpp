@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lacuna {
+namespace lacuna::io {
 
 void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
                  std::vector<double>& values) {
@@ -51,4 +51,4 @@ void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& la
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

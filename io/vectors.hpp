@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // A value of each row.
 void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
@@ -29,4 +29,4 @@ void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNam
 void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,
                    const VectorNames& names, RowBatch& rows);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,10 +5,19 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'TEXT'
-usage: tools/check.sh [--all | --sanitize]
-  --all        the slow tests too: up to an hour
+usage: tools/check.sh [--all | --sanitize | --odr]
+  --all        the slow tests too, and the check of --odr: more than an hour
   --sanitize   the fast tests, built in build-sanitize to check memory accesses and undefined behaviour
+  --odr        no test: links the program with link time optimisation, in build-odr, and fails where a name is
+               defined twice in different ways
 TEXT
+}
+
+# The compiler sees one source at a time. Only the linker sees two classes of one name.
+check_odr() {
+  cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF \
+    -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON "-DCMAKE_CXX_FLAGS=-Werror=odr -Werror=lto-type-mismatch"
+  cmake --build build-odr --parallel "$(nproc)" --target lacuna
 }
 
 build=build
@@ -17,6 +26,7 @@ labels='^fast$'
 excluded='^$'
 case "$*" in
   "") ;;
+  --odr) ;;
   --all) labels='^(fast|slow)$' ;;
   --sanitize)
     build=build-sanitize
@@ -33,6 +43,8 @@ case "$*" in
 esac
 
 tools/install.sh
+[[ $* != --odr && $* != --all ]] || check_odr
+[[ $* != --odr ]] || exit 0
 cmake -G Ninja -S . -B "$build" -DLACUNA_TESTS=ON "${options[@]}"
 cmake --build "$build" --parallel "$(nproc)"
 

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ fs::path find_config(const std::string& given) {
   fail_unknown(given, folders);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

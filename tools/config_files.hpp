@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // `given` itself if it names an existing file, or has a slash or the ending .toml. Else NAME.toml from the
 // first of two folders that has it. The first is share/lacuna/configs of the prefix that the program is
@@ -12,4 +12,4 @@ namespace lacuna {
 // which lists the names that exist, if none has it.
 std::filesystem::path find_config(const std::string& given);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

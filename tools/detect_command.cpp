@@ -33,7 +33,9 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +165,4 @@ void add_detect_command(CLI::App& app) {
   command->callback([command, arguments] { run_detect(*command, *arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,9 +5,9 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // It runs when parsed. Throws `Error` when the job fails, `CLI::Error` for wrong usage.
 void add_detect_command(CLI::App& app);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

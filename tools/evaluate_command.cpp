@@ -2,6 +2,7 @@
 
 #include "tools/accuracy/evaluation.hpp"
 #include "tools/evaluate_text.hpp"
+#include "tools/value_options.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,6 +85,7 @@ void add_evaluate_command(CLI::App& app) {
   command
       ->add_option("--tolerance", arguments->tolerance,
                    "How far a loop may be off the true one, spacings of the scan, from 0 on")
+      ->check(real_number())
       ->capture_default_str();
   command
       ->add_option("--min-vertices", arguments->min_vertices,
@@ -94,4 +96,4 @@ void add_evaluate_command(CLI::App& app) {
   command->callback([arguments] { run_evaluate(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

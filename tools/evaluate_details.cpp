@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using namespace accuracy;
@@ -115,4 +115,4 @@ std::string print_details(const EvaluationText& text) {
   return print_scores(text) + print_loops(text) + print_conclusion(text.evaluation.loops.scores);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

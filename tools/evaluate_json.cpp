@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using namespace accuracy;
@@ -90,4 +90,4 @@ std::string print_json(const EvaluationText& text) {
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

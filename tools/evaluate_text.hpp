@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct EvaluationText {
   const accuracy::Result& result;
@@ -25,4 +25,4 @@ std::string print_details(const EvaluationText& text);
 
 std::string print_json(const EvaluationText& text);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -15,7 +15,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using namespace accuracy;
@@ -206,4 +206,4 @@ std::string print_verdict(const EvaluationText& text) {
   return all + print_others(text, extent);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

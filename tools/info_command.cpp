@@ -28,7 +28,9 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +239,4 @@ void add_info_command(CLI::App& app) {
   command->callback([arguments] { run_info(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

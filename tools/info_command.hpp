@@ -5,9 +5,9 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // It runs when parsed. Throws `Error` when a file cannot be read, `CLI::Error` for wrong usage.
 void add_info_command(CLI::App& app);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

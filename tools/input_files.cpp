@@ -13,7 +13,9 @@
 
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +111,4 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const R
   return files;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -15,7 +15,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ void log_error_to_file(std::string_view reason) {
   if (file_logger()) file_logger()->error("{}", reason);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // What the first line of a run's log says: the version and the words of the command line.
 void remember_command_line(std::string_view version, int argc, char** argv);
@@ -19,4 +19,4 @@ void start_log_file(const std::filesystem::path& file);
 void log_to_file(std::string_view line);
 void log_error_to_file(std::string_view reason);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

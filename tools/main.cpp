@@ -1,5 +1,5 @@
 #include "tools/program.hpp"
 
 int main(int argc, char** argv) {
-  return lacuna::run(argc, argv);
+  return lacuna::tools::run(argc, argv);
 }

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr int kDigits = 3;
@@ -71,4 +71,4 @@ std::string print_place(const Eigen::Vector3d& place, double extent) {
   return text;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

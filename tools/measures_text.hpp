@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // Three digits, without an exponent from 0.001 to a million: "0.0123 m", "2.28 m", "1,234 m".
 std::string print_length(double length, std::string_view unit);
@@ -19,4 +19,4 @@ std::string print_power(double power_of_ten, std::string_view unit);  // "0.1 m"
 // as many decimals.
 std::string print_place(const Eigen::Vector3d& place, double extent);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

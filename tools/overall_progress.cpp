@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 struct TypicalTime {
@@ -96,4 +96,4 @@ OverallProgress::State OverallProgress::at(double seconds, std::uint64_t done, s
   return state;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct ExpectedStage {
   std::string name;
@@ -48,4 +48,4 @@ class OverallProgress {
   double shown_ = 0;    // the largest share so far
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

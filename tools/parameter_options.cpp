@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 struct TypeName {
@@ -54,11 +54,21 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
   }
 }
 
+std::string ParameterOptions::read_file(Config& config, std::vector<std::string>& keys) const {
+  if (config_file_.empty()) return "";
+  try {
+    const std::string file = find_config(config_file_).string();
+    keys = read_config(file, config);
+    return file;
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 EffectiveConfig ParameterOptions::read() const {
   Config config;
   std::vector<std::string> keys_in_file;
-  const std::string file = config_file_.empty() ? "" : find_config(config_file_).string();
-  if (!file.empty()) keys_in_file = read_config(file, config);
+  const std::string file = read_file(config, keys_in_file);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (given_[i].option->count() == 0) continue;
@@ -72,7 +82,7 @@ EffectiveConfig ParameterOptions::read() const {
     check_config(config);
   } catch (const Error& error) {
     if (file.empty()) throw CLI::ValidationError(error.what());
-    throw Error(file + " with the command line: " + error.what());
+    throw UsageError(file + " with the command line: " + error.what());
   }
   return {config, idle_warnings(config, keys_in_file)};
 }
@@ -121,4 +131,4 @@ std::vector<std::string> join_columns(std::vector<std::string> arguments) {
   return joined;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

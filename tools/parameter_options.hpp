@@ -12,7 +12,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct EffectiveConfig {
   Config config;
@@ -26,11 +26,13 @@ class ParameterOptions {
   // Adds `--config` and an option for every parameter, grouped by section in --help.
   explicit ParameterOptions(CLI::App& command);
 
-  // Defaults, then the config file, then the command line. Throws `Error` for what is wrong in the file and
-  // `CLI::ValidationError` for what is wrong on the command line.
+  // Defaults, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
+  // and `CLI::ValidationError` for what is wrong on the command line.
   EffectiveConfig read() const;
 
  private:
+  // The file's name; empty: none was given.
+  std::string read_file(Config& config, std::vector<std::string>& keys) const;
   std::vector<std::string> idle_warnings(Config config, const std::vector<std::string>& keys_in_file) const;
 
   struct Given {
@@ -45,4 +47,4 @@ class ParameterOptions {
 // only the first where it holds several names already.
 std::vector<std::string> join_columns(std::vector<std::string> arguments);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

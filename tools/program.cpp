@@ -34,7 +34,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
@@ -182,6 +182,8 @@ int run(int argc, char** argv) {
     return flush_output();
   } catch (const CLI::Error& error) {
     return fail(one_line(error.what()) + usage_hint(app, arguments), kWrongUsage);
+  } catch (const UsageError& error) {
+    return fail(one_line(error.what()), kWrongUsage);
   } catch (const Error& error) {
     return fail(one_line(error.what()), kFailed);
   } catch (const std::bad_alloc&) {
@@ -191,4 +193,4 @@ int run(int argc, char** argv) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

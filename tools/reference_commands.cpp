@@ -18,7 +18,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using PrintCompletion = std::string (*)(const CommandEntry& program);
@@ -69,4 +69,4 @@ void add_reference_commands(CLI::App& app) {
   completion->callback([&app, print] { std::cout << (*print)(command_tree(app)); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,7 +5,7 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // The words behind it are commands, too.
 inline constexpr const char* kHelpCommand = "help";
@@ -13,4 +13,4 @@ inline constexpr const char* kHelpCommand = "help";
 // They describe all commands of `app`, those that are added later too.
 void add_reference_commands(CLI::App& app);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -19,7 +19,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
@@ -87,6 +89,7 @@ void add_render_command(CLI::App& app) {
   command
       ->add_option("--hide-above", arguments->most_height,
                    "Draw nothing above this height, such as a ceiling; in units of the scan")
+      ->check(real_number())
       ->type_name("Z");
   command->add_flag("--as-it-came", arguments->as_it_came,
                     "Colours or intensities of the scan, where it has them, not probabilities");
@@ -95,4 +98,4 @@ void add_render_command(CLI::App& app) {
   command->callback([arguments] { run_render(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

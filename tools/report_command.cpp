@@ -9,7 +9,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 struct ReportArguments {
@@ -37,4 +39,4 @@ void add_report_command(CLI::App& app) {
   command->callback([arguments] { run_report(*arguments); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,8 +5,8 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 void add_report_command(CLI::App& app);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

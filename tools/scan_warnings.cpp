@@ -19,7 +19,9 @@
 #include <system_error>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 // The distance from the farthest coordinate of single precision to the next one.
@@ -221,4 +223,4 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   return warnings;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // The name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
 std::string crs_name(const std::string& crs);
 
 // Throws `Error` where positions are longitude and latitude: nothing of a run fits degrees.
-void refuse_degrees(const FileScan& scan);
+void refuse_degrees(const io::FileScan& scan);
 
 // Before a run: one line for each file that is given more than once, also by another name. One, too, for each
 // whose coordinate reference system is not that of the first. One line for all files without a system where
 // others have one, for those with another unit, and for those that contradict --crs or --unit.
-std::vector<std::string> input_warnings(const FileScan& scan);
+std::vector<std::string> input_warnings(const io::FileScan& scan);
 
 // Before a run: a memory limit above the machine's memory.
 std::vector<std::string> memory_warnings(const Config& config);
@@ -33,6 +33,6 @@ std::string stray_warning(const Strays& strays, double resolution);
 
 // After a run: strays, too few points for their neighbourhoods, coordinates that are too coarse for their
 // spacing, and rows that points.las cannot hold.
-std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config);
+std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary, const Config& config);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -222,4 +222,4 @@ std::string progress_json(const ProgressState& state) {
       .dump();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 enum class ProgressStyle {
   kBar,    // one line, redrawn
@@ -43,4 +43,4 @@ std::string progress_bar(const ProgressState& state, std::size_t width);
 // known.
 std::string progress_json(const ProgressState& state);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 std::atomic<bool> interrupted = false;
@@ -114,4 +114,4 @@ void wait_if_interrupted() {
   while (interrupted) pause();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
 // empty folders that were made for the run (tools/workspace.hpp). They print one line, if stderr takes it at
@@ -26,4 +26,4 @@ std::string complete_results();
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
 void wait_if_interrupted();
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -12,7 +12,9 @@
 #include <sstream>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 std::string print_number(double value) {
@@ -230,4 +232,4 @@ std::string print_count(std::uint64_t count) {
   return text;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct RunTimes {
   double write_seconds = 0;
@@ -19,7 +19,7 @@ struct RunTimes {
 
 // What was found, the largest holes by area, outer curves as sums; then counts, and time per phase. `unit` is
 // that of the scan's coordinates, such as "m"; empty: not known.
-std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times,
+std::string print_summary(const Detection& detection, const io::FileScan& scan, const RunTimes& times,
                           std::string_view unit = "");
 
 // What "long" means in a scan of this extent: the power of ten nearest to a twentieth of it; 0 without an
@@ -27,7 +27,7 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
 double length_bound(double extent);
 
 // Points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
-std::string print_left_out(const Counts& counts, const FilteredOut& filtered);
+std::string print_left_out(const Counts& counts, const io::FilteredOut& filtered);
 
 // Lines of as many cells each, at least one line. Columns are as wide as their widest cell, the first to the
 // left, the others to the right.
@@ -35,4 +35,4 @@ std::string print_table(const std::vector<std::vector<std::string>>& rows);
 
 std::string print_count(std::uint64_t count);  // "1,234,567"
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

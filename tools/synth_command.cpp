@@ -13,7 +13,8 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
 
 namespace {
 
@@ -51,6 +52,7 @@ void add_common(CLI::App& app, Options& options) {
       ->check(whole_number())
       ->capture_default_str();
   app.add_option("--translate", options.translate, "moves the scan, units of the scan")
+      ->check(real_number())
       ->type_name("X Y Z")
       ->default_str("0 0 0");
   app.add_flag_callback(
@@ -68,10 +70,12 @@ void add_surface(CLI::App& synth) {
   add_common(app, o);
   add_choice(app, "--kind", kKinds, o.kind, "the shape of the surface")->default_str("plane");
   app.add_option("--spacing", o.spacing, "mean distance of neighbours, units of the scan")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--holes", o.holes, "how many holes to plant")->check(whole_number())->capture_default_str();
   app.add_option("--hole-radius", o.hole_radius,
                  "smallest and largest radius of a hole, spacings, from 1.5 on")
+      ->check(real_number())
       ->type_name("MIN MAX")
       ->default_str("4 12");
   add_choice(app, "--positions", kPositions, o.positions,
@@ -80,19 +84,24 @@ void add_surface(CLI::App& synth) {
   const CLI::Option* const jitter =
       app.add_option("--jitter", o.jitter,
                      "how far a point may be off its grid node, fraction of the spacing, 0 to 0.5")
+          ->check(real_number())
           ->capture_default_str();
   app.add_option("--noise", o.noise, "Gaussian noise along the normal, standard deviation in spacings")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option(
          "--density-step", o.density_step,
          "one half has 1/F of the density: every 2nd (3rd, ...) row and column for F = 4 (9, ..., 100)")
+      ->check(whole_number())
       ->capture_default_str();
   app.add_option("--density-factor", o.density_factor,
                  "the density changes smoothly over the surface by this factor, 1 to 100")
+      ->check(real_number())
       ->capture_default_str();
   app.callback([options, jitter] {
     if (options->positions == PositionKind::kRandom && jitter->count() > 0)
-      throw Error("--jitter: random positions have no grid to be off; allowed with --positions jittered");
+      throw UsageError(
+          "--jitter: random positions have no grid to be off; allowed with --positions jittered");
     const SurfaceSummary made = write_surface(*options);
     std::cout << visible(options->out.string()) << ": " << made.points << " points; "
               << visible(made.truth.string()) << ": " << made.loops << " true loops\n";
@@ -110,19 +119,25 @@ void add_scan(CLI::App& synth) {
       ->check(whole_number())
       ->capture_default_str();
   app.add_option("--noise", o.noise, "Gaussian noise along the ray, standard deviation in metres")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--outliers", o.outliers, "fraction of the points that lie anywhere on their ray, 0 to 1")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--registration", o.registration,
                  "error of the place of each station after the first, standard deviation in metres")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--ring-ratio", o.ring_ratio,
                  "step of elevation over step of azimuth, 0.01 to 100; a spinning scanner with few beams has "
                  "5 or more")
+      ->check(real_number())
       ->capture_default_str();
   app.add_option("--field-of-view", o.field_of_view, "lowest and highest elevation, degrees")
+      ->check(real_number())
       ->type_name("LOW HIGH")
       ->default_str("-60 90");
   app.callback([options] {
@@ -141,4 +156,4 @@ void add_synth_command(CLI::App& app) {
   add_scan(synth);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,9 +5,9 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // Adds `synth surface` and `synth scan`; they run when parsed. Throws `Error` for values that cannot be.
 void add_synth_command(CLI::App& app);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

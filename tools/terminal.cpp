@@ -16,7 +16,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -151,4 +151,4 @@ std::string print_duration(double seconds) {
   return formatted("%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

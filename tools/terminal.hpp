@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // spdlog's default logger writes to stderr from now on: "lacuna: ...", "lacuna: warning: ...".
 void start_log();
@@ -26,4 +26,4 @@ std::size_t terminal_width();  // columns; 80 where stderr is no terminal
 std::string print_rate(std::uint64_t points, double seconds);  // "1.25 M points/s"
 std::string print_duration(double seconds);                    // "0.42 s", "12.3 s", "3:07 min", "1:02:03 h"
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

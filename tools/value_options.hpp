@@ -1,6 +1,8 @@
 // Options whose values are checked before they are used: an error says what is allowed.
 #pragma once
 
+#include "io/number.hpp"
+
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -8,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // A value by its name.
 template <class T>
@@ -57,4 +59,15 @@ inline CLI::Validator name_ending_in(const std::string& ending) {
   return CLI::Validator(check, "");
 }
 
-}  // namespace lacuna
+// For options that take real numbers.
+inline CLI::Validator real_number() {
+  const auto check = [](const std::string& text) {
+    double value = 0;
+    return io::parse_number(text, value)
+               ? std::string()
+               : text + " is not possible; allowed: a number without a unit, with a decimal point";
+  };
+  return CLI::Validator(check, "");
+}
+
+}  // namespace lacuna::tools

@@ -3,7 +3,7 @@
 
 #include "tools/accuracy/match_loops.hpp"
 
-namespace lacuna {
+namespace lacuna::tools {
 
 constexpr const char* name_of(accuracy::EdgeDecision verdict) {
   using accuracy::EdgeDecision;
@@ -26,4 +26,4 @@ constexpr const char* name_of(accuracy::EdgeDecision verdict) {
   return "false";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

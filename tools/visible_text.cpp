@@ -7,7 +7,7 @@
 #include <iostream>
 #include <streambuf>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 void append_hexadecimal(std::string& text, unsigned char byte) {
@@ -92,4 +92,4 @@ int output_failure() {
   return first_failure;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // Control characters (C0 with line ends, DEL, C1) become \u001b, which JSON and TOML read back as the same
 // character. Bytes that are not UTF-8 become \xff. All else stays as it is.
@@ -19,4 +19,4 @@ void show_output_visibly(std::FILE* file);
 // Why writing to `file` has failed for the first time, as errno says it; 0: it has not.
 int output_failure();
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -15,7 +15,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 namespace fs = std::filesystem;
 
@@ -97,4 +97,4 @@ FolderLock::~FolderLock() {
   ::close(descriptor_);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // A folder that exists afterwards, with its parents. Those that it made and that are still empty at the end
 // are removed, so that a failed run leaves nothing behind.
@@ -44,4 +44,4 @@ class FolderLock {
   int descriptor_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

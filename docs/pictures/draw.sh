@@ -4,7 +4,7 @@
 #
 #     docs/pictures/draw.sh build/lacuna [FOLDER]
 #
-# FOLDER has the real scans: autzen_trim.laz of PDAL's and dragon_30scans_793k.ply, 30 registered scans of Stanford's
+# FOLDER has the real scans: autzen_trim.laz and dragon_30scans_793k.ply, 30 registered scans of Stanford's
 # dragon. Without it, their pictures stay.
 set -euo pipefail
 

@@ -12,6 +12,12 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// What was chosen is not possible: an option, or a value of a config.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
 // The input is read twice; it was not the same. `how`: what shows it.
 [[noreturn]] inline void fail_changed(const std::string& how) {
   throw Error("the input changed while it was read: " + how);

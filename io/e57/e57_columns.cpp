@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr VectorNames kCartesian = {"cartesianX", "cartesianY", "cartesianZ"};
@@ -183,4 +183,4 @@ E57ScanColumns e57_scan_columns(const E57Scan& scan, const E57Columns& columns) 
   return result;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -24,7 +24,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct E57Columns {
   RowLayout layout;
@@ -51,4 +51,4 @@ E57Columns e57_columns(const PagedFile& pages, const E57Header& header);
 // Cost: linear in the columns of the file.
 E57ScanColumns e57_scan_columns(const E57Scan& scan, const E57Columns& columns);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

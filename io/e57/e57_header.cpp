@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstring>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // The first page has the header whole. 1 MiB is a thousand times what is written.
@@ -69,4 +69,4 @@ E57Header read_e57_header(const std::filesystem::path& file) {
   return header;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

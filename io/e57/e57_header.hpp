@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // One element of the prototype of a scan's points.
 struct E57Field {
@@ -47,4 +47,4 @@ E57Header read_e57_header(const std::filesystem::path& file);
 // The scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of `pages`.
 void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

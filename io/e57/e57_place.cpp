@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -102,4 +102,4 @@ void drop_invalid(E57Rows rows, ConstColumn state) {
   });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

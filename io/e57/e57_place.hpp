@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // A row begins with three doubles: the position, as it is in the scan.
 struct E57Rows {
@@ -29,4 +29,4 @@ void turn_normals(std::array<Column, 3> normals, std::size_t count, const Pose& 
 // NaN as the position of each row with a state other than 0: 1 is a direction alone, 2 nothing.
 void drop_invalid(E57Rows rows, ConstColumn state);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

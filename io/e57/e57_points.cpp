@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kSectionHeader = 32, kPacketHeader = 4, kDataHeader = 6;
@@ -102,4 +102,4 @@ void E57Points::fail(std::uint64_t place, const std::string& reason) const {
   pages_.fail(place, "scan " + std::to_string(number_) + ": " + reason);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Holds one packet, and the values of fields that come before those of the others: at most 8 MiB of them.
 class E57Points {
@@ -47,4 +47,4 @@ class E57Points {
   std::vector<std::byte> packet_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <cassert>
 #include <optional>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
@@ -113,4 +113,4 @@ std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const Re
   return std::make_unique<E57Reader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_e57(const FileStart& start);
 
@@ -19,4 +19,4 @@ bool looks_like_e57(const FileStart& start);
 // point of three floats takes about 10 ns, half of them for the checksums; a spherical one takes 50 ns.
 std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

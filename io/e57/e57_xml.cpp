@@ -10,7 +10,7 @@
 
 #include <pugixml.hpp>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // A packet of 64 KiB begins with 6 bytes, and 2 for each field.
@@ -203,4 +203,4 @@ void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header) {
   for (const pugi::xml_node scan : data.children()) header.scans.push_back(read_scan(xml, scan, values));
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kPadding = 8;
@@ -80,4 +80,4 @@ void FieldStream::take(std::size_t count, Column to, std::int64_t added) {
   begin_bit_ += count * std::uint64_t{field_.bits};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class FieldStream {
  public:
@@ -38,4 +38,4 @@ class FieldStream {
   std::uint64_t begin_bit_ = 0;   // of the next value
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

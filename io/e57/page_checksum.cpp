@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::uint32_t kPolynomial = 0x82f63b78;  // 0x1edc6f41 with its bits reversed
@@ -46,4 +46,4 @@ std::uint32_t page_checksum(std::span<const std::byte> data) {
   return ~checksum;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{256} << 10;
@@ -99,4 +99,4 @@ void PagedFile::load(std::uint64_t page) {
   block_end_ = page + count;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Reads at any place; front to back is fastest. Holds about 256 KiB, or one page where that is more.
 class PagedFile {
@@ -53,4 +53,4 @@ class PagedFile {
   std::uint64_t checked_pages_ = 0;  // the page before this one has the right checksum; 0: none
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 template <class T>
 void put_at(std::string& bytes, std::size_t offset, T value) {
@@ -27,4 +27,4 @@ inline void put_text(std::string& bytes, std::size_t offset, std::size_t length,
   std::copy(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

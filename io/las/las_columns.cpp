@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::uint8_t kUint64 = 7, kInt64 = 8;  // types of extra bytes
@@ -121,4 +121,4 @@ void LasColumns::unpack(std::span<const std::byte> records, std::byte* rows) con
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

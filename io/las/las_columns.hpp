@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Every field of the point format, then the extra bytes; x, y and z as doubles in units of the scan. Values
 // of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes that the header does
@@ -41,4 +41,4 @@ class LasColumns {
   std::unordered_map<std::string, std::size_t> names_;  // of columns, and how many were given each
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;  // numbers of records
@@ -62,9 +62,9 @@ bool LasCrs::is_geographic() const {
 }
 
 std::string LasCrs::length_unit() const {
-  if (!well_known_text_.empty()) return lacuna::length_unit(well_known_text_);
+  if (!well_known_text_.empty()) return io::length_unit(well_known_text_);
   constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;  // EPSG
   return unit_ == kMetre ? "m" : unit_ == kFoot ? "ft" : unit_ == kSurveyFoot ? "us-ft" : "";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

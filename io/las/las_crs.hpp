@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Takes what the records "LASF_Projection" say, in any order.
 class LasCrs {
@@ -32,4 +32,4 @@ class LasCrs {
   bool has_projected_ = false;                                              // with a code or without
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

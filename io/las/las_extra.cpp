@@ -10,7 +10,7 @@
 #include <limits>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::array<LasExtraType, 11> kTypes = {{{0, Scalar::kUint8},
@@ -162,4 +162,4 @@ std::vector<LasExtraBytes> las_extra_of_points(const LasHeader& header) {
   return all;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Types 1 to 10: the bytes of a value and the scalar that it is kept as.
 struct LasExtraType {
@@ -53,4 +53,4 @@ bool is_lacuna_extra(const LasExtraBytes& extra);
 // The extra bytes of each point of a file, in order, with those that its header does not describe.
 std::vector<LasExtraBytes> las_extra_of_points(const LasHeader& header);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -1,6 +1,6 @@
 #include "io/las/las_fields.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 LasGroups las_groups(int format) {
   LasGroups groups;
@@ -92,4 +92,4 @@ int las_format_with(bool is_extended, bool has_time, bool has_colour, bool has_i
   return has_colours ? (has_time ? 3 : 2) : has_time ? 1 : 0;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

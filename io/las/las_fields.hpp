@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct LasField {
   const char* name;  // of its column
@@ -38,4 +38,4 @@ constexpr bool is_extended_format(int format) {
 // The smallest format that has the groups; infrared comes with colours, and only with extended fields.
 int las_format_with(bool is_extended, bool has_time, bool has_colour, bool has_infrared, bool has_waveform);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

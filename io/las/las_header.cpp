@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kHead = 60;  // of an extended record
@@ -194,4 +194,4 @@ LasHeader read_las_header(InputFile& in) {
   return header;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // A descriptor of the record "Extra Bytes": what a few more bytes of each point are.
 struct LasExtraBytes {
@@ -55,4 +55,4 @@ std::size_t las_point_bytes(int point_format);
 // itself or the file.
 LasHeader read_las_header(InputFile& in);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <set>
 #include <type_traits>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 double load_double(Scalar type, const std::byte* from) {
@@ -119,4 +119,4 @@ void import_las_rows(const RowLayout& layout, const LasForm& form, std::span<con
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

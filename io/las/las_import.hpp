@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Finds what the values of each column are, and the bounds of the positions that are finite.
 class ImportSurvey {
@@ -30,4 +30,4 @@ class ImportSurvey {
 void import_las_rows(const RowLayout& layout, const LasForm& form, std::span<const std::byte> rows,
                      std::size_t stride, std::byte* out, std::vector<std::size_t>& left_out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

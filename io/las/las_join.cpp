@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr const char* kWayOut = "; --points-format ply holds them all";
@@ -205,4 +205,4 @@ LasForm join_las(const LasParts& parts) {
   return form;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

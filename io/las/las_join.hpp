@@ -35,7 +35,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // A LAS file of the scan.
 struct LasPart {
@@ -87,4 +87,4 @@ struct LasParts {
 // bytes. The error names the file and the way out.
 LasForm join_las(const LasParts& parts);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::uint64_t file_bytes(const InputFile& in) {
@@ -242,4 +242,4 @@ std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, st
   return std::make_unique<PlainPoints>(in, header);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

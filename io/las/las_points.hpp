@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class LasPoints {
  public:
@@ -25,4 +25,4 @@ class LasPoints {
 // `Error`.
 std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, std::uint64_t memory);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 class LasReader final : public ScanReader {
@@ -79,4 +79,4 @@ std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const Re
   return std::make_unique<LasReader>(file, options.memory);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

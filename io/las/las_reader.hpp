@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_las(const FileStart& start);
 
@@ -15,4 +15,4 @@ bool looks_like_las(const FileStart& start);
 // is too short for the points that its header declares is an `Error` at once.
 std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

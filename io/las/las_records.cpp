@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kExtendedHead = 60;
@@ -70,4 +70,4 @@ std::string geo_keys(std::string_view crs) {
   return data;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

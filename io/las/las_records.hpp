@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // "LASF_Projection" and "LASF_Spec" are the users of the records that the specification defines.
 inline constexpr std::string_view kLasProjection = "LASF_Projection", kLasSpecification = "LASF_Spec";
@@ -29,4 +29,4 @@ std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecord
 // "EPSG:N" or "EPSG:N+M" as a directory of GeoTIFF keys (GeoTIFF 1.1, 7.1); empty: no such code.
 std::string geo_keys(std::string_view crs);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

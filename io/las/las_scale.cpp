@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr double kMost = 2147483647;  // of a stored coordinate
@@ -132,4 +132,4 @@ LasScale join_scales(const LasParts& parts) {
   return made;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct LasScale {
   std::array<double, 3> scale, offset;
@@ -21,4 +21,4 @@ struct LasStep {
 };
 std::optional<LasStep> las_step(double scale, double offset, double to_scale, double to_offset);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

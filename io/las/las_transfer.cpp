@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kCoordinates = 12;  // bytes
@@ -194,4 +194,4 @@ void LasTransfer::fail_range() const {
               "the other files in one LAS file; --points-format ply holds them all");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

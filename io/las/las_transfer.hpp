@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // What the form has besides, a point gets as io/las/las_join.hpp says.
 class LasTransfer {
@@ -61,4 +61,4 @@ class LasTransfer {
   std::vector<Normal> normals_;  // three, or none
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 375;
@@ -203,4 +203,4 @@ void LasWriter::finish() {
   out_.overwrite_start(header_);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

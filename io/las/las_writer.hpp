@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The field "generating software" of each file of a LasWriter begins so, at this byte.
 inline constexpr std::string_view kLasSoftware = "Lacuna ";
@@ -62,4 +62,4 @@ class LasWriter {
   std::array<std::int32_t, 3> min_, max_;    // of stored coordinates
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

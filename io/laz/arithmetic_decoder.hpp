@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // All bytes of a chunk from `begin` to `end`. Throws `Corrupt` where the chunk is shorter.
 std::vector<std::byte> read_all(const ChunkBytes& bytes, std::uint64_t begin, std::uint64_t end);
@@ -119,4 +119,4 @@ class ArithmeticDecoder {
   std::vector<std::byte> buffer_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

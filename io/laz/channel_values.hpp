@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // In version 3 of the items, LASzip chose wrongly between channels, and since then that is the format. These
 // items are coded as of the point's channel only where the channel changed, and else as of channel 0. At a
@@ -51,4 +51,4 @@ class ChannelValues {
   std::array<std::optional<Channel>, 4> channels_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

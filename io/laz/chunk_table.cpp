@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // Version and number of chunks, 4 bytes each; then the chunks' sizes, compressed.
@@ -76,4 +76,4 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
   throw Corrupt("the chunks have " + std::to_string(held) + " points, the file " + std::to_string(points));
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

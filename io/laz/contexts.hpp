@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // By how many returns of its pulse a point is from the last one; |n - r| also for return numbers that are not
 // possible.
@@ -40,4 +40,4 @@ class ModelByValue {
   std::array<std::unique_ptr<SymbolModel<kSymbols>>, kContexts> models_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // The two items code the same way, but only GPSTIME11 codes times that are the last point's: POINT14 knows
 // that from another layer.
@@ -122,4 +122,4 @@ class GpsTimeDecoder {
   IntegerDecoder<32, 9> integers_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Decodes integers of kBits bits, in kContexts contexts. The difference to the prediction is coded as a
 // number k, in one model for each context. Then comes its place in the k-th interval. That is 0 and 1 for k =
@@ -63,4 +63,4 @@ class IntegerDecoder {
   unsigned k_ = 0;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

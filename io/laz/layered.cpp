@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
@@ -130,4 +130,4 @@ std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const Chunk
   return std::make_unique<LayeredDecoder>(layout, bytes, first);
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // The records of a chunk behind the first, which is not compressed.
 std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
@@ -14,4 +14,4 @@ std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const Chunk
 
 std::size_t layer_count(const Layout& layout);
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

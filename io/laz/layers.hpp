@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // A stream of one attribute, or nothing where the attribute is the first point's for all points.
 using Layer = std::optional<ArithmeticDecoder>;
@@ -38,4 +38,4 @@ class Layers {
   std::uint64_t layer_at_;  // of the next layer, in the chunk
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 constexpr std::size_t kCompressorAt = 0, kCoderAt = 2, kChunkPointsAt = 12, kItemCountAt = 32, kItemsAt = 34;
@@ -109,4 +109,4 @@ Layout parse_layout(std::span<const std::byte> record) {
   return layout;
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 ChunkDecoder::ChunkDecoder(const Layout& layout, const ChunkBytes& bytes) : layout_(layout), bytes_(bytes) {}
 
@@ -49,4 +49,4 @@ std::size_t stream_count(const Layout& layout) {
   return layout.compressor == compressor::kLayeredChunked ? layer_count(layout) : 1;
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

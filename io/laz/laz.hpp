@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // What is wrong with compressed data, one line; the caller adds file and place.
 class Corrupt : public std::runtime_error {
@@ -146,4 +146,4 @@ std::uint64_t decoder_bytes(const Layout& layout);
 // The number of streams that a chunk consists of: 1, or one for each layer.
 std::size_t stream_count(const Layout& layout);
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // By number of returns, then by return number: possible pairs have a context of their own up to five returns.
@@ -65,4 +65,4 @@ void Point10::decode(ArithmeticDecoder& decoder, std::byte* item) {
   std::memcpy(item, &last_, kBytes);
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

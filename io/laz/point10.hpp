@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 class Point10 {
  public:
@@ -49,4 +49,4 @@ class Point10 {
   IntegerDecoder<32, 20> z_;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -2,7 +2,7 @@
 
 #include "io/little_endian.hpp"
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // Bits of the symbol that says what changed. The two lowest are of the return number: equal, one more, one
@@ -207,4 +207,4 @@ void Point14::decode_attributes(Channel& channel, unsigned changed) {
   if (gps_time_ && new_time) last.gps_time = channel.gps_times.decode(*gps_time_);
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Decodes nine layers. All models and last values belong to one of four scanner channels. Those of a channel
 // begin, at its first point, with the values of the point before.
@@ -60,4 +60,4 @@ class Point14 {
   bool changed_channel_ = false;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // GPSTIME11, version 2.
@@ -121,4 +121,4 @@ std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const Chu
   return std::make_unique<PointwiseDecoder<Version2>>(layout, bytes, first);
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -7,10 +7,10 @@
 
 #include <memory>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // The records of a chunk behind the first, which is not compressed.
 std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                  std::span<const std::byte> first);
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

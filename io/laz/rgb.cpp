@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 namespace {
 
 // Bit 6 of the symbol that says which bytes changed: green and blue are not both equal to red.
@@ -54,4 +54,4 @@ std::uint16_t NirModels::decode(ArithmeticDecoder& decoder, std::uint16_t last) 
   return static_cast<std::uint16_t>(high_byte << 8 | low_byte);
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 using Rgb = std::array<std::uint16_t, 3>;
 
@@ -30,4 +30,4 @@ class NirModels {
   std::array<SymbolModel<256>, 2> bytes_;  // low and high
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

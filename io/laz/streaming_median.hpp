@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Keeps five values in order. A new one takes the place of the largest or of the smallest. It replaces the
 // largest until a value comes that is not below the middle, then the smallest until one comes that is not
@@ -33,4 +33,4 @@ class StreamingMedian {
   bool replaces_largest_ = true;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

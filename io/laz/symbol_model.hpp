@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // How often each symbol of an alphabet occurred, and its share of the coder's interval. The shares are
 // computed anew after more and more symbols, so that few steps pay for it.
@@ -133,4 +133,4 @@ class BitModel {
   std::uint32_t until_update_ = 4;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

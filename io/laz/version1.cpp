@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lacuna::laz::version1 {
+namespace lacuna::io::laz::version1 {
 namespace {
 
 std::int32_t middle(const std::array<std::int32_t, 3>& values) {
@@ -124,4 +124,4 @@ void ExtraBytes::decode(ArithmeticDecoder& decoder, std::byte* item) {
   std::copy(last_.begin(), last_.end(), item);
 }
 
-}  // namespace lacuna::laz::version1
+}  // namespace lacuna::io::laz::version1

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lacuna::laz::version1 {
+namespace lacuna::io::laz::version1 {
 
 class Point10 {
  public:
@@ -76,4 +76,4 @@ class ExtraBytes {
   IntegerDecoder<8> integers_;
 };
 
-}  // namespace lacuna::laz::version1
+}  // namespace lacuna::io::laz::version1

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -203,4 +203,4 @@ std::unique_ptr<ScanReader> open_obj(const std::filesystem::path& file, const Re
   return std::make_unique<ObjReader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

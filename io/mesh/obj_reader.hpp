@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_obj(const FileStart& start);
 
@@ -18,4 +18,4 @@ bool looks_like_obj(const FileStart& start);
 // file once, to count.
 std::unique_ptr<ScanReader> open_obj(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -209,4 +209,4 @@ std::unique_ptr<ScanReader> open_off(const std::filesystem::path& file, const Re
   return std::make_unique<OffReader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

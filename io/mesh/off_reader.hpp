@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_off(const FileStart& start);
 
@@ -18,4 +18,4 @@ bool looks_like_off(const FileStart& start);
 // four dimensions) and the binary encoding are an `Error` that names them.
 std::unique_ptr<ScanReader> open_off(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -214,4 +214,4 @@ std::unique_ptr<ScanReader> open_stl(const std::filesystem::path& file, const Re
   return std::make_unique<AsciiStl>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Binary: the size fits the number of triangles, whatever the header says; some begin with "solid" too.
 bool looks_like_stl(const FileStart& start);
@@ -17,4 +17,4 @@ bool looks_like_stl(const FileStart& start);
 // an `Error`.
 std::unique_ptr<ScanReader> open_stl(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kFarthest = 8192;
@@ -129,4 +129,4 @@ void LzfStream::unpack_chunk() {
   packed_left_ -= used;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

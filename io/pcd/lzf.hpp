@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The longest repetition, 264 bytes, takes 3 bytes.
 inline constexpr std::uint64_t kLzfLargestRatio = 88;
@@ -48,4 +48,4 @@ class LzfStream {
   std::size_t end_ = 0;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

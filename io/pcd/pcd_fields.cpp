@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // The type of its properties.
@@ -130,4 +130,4 @@ void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

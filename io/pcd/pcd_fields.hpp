@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Calls `visit(T{})` with the C++ type of the field's values.
 template <class Visit>
@@ -36,4 +36,4 @@ void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLa
 // Reverses the bytes of every value.
 void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <set>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // More than any real header has, little enough to give up on a file that is none.
@@ -226,4 +226,4 @@ std::string print_pcd_header(const PcdHeader& header) {
          std::to_string(header.rows) + "\nDATA " + pcd_name(header.encoding) + '\n';
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class PcdEncoding : std::uint8_t { kAscii, kBinary, kCompressed };
 const char* pcd_name(PcdEncoding encoding);  // "ascii", "binary", "binary_compressed"
@@ -46,4 +46,4 @@ inline constexpr std::string_view kPcdMark = "# .PCD v0.7 - written by Lacuna\n"
 // floats; WIDTH x HEIGHT must equal POINTS where both are given. Throws `Error` with the line.
 PcdHeader read_pcd_header(InputFile& in);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 class PcdReader final : public ScanReader {
@@ -53,4 +53,4 @@ std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const Re
   return std::make_unique<PcdReader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

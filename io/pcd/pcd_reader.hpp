@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_pcd(const FileStart& start);
 
@@ -20,4 +20,4 @@ bool looks_like_pcd(const FileStart& start);
 // field, whatever the number of points.
 std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

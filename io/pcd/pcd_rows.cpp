@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -171,4 +171,4 @@ void PcdRows::read_text_row(std::byte* to) {
   words.require_end(kNeeded);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Memory and errors are those of open_pcd (io/pcd/pcd_reader.hpp).
 class PcdRows {
@@ -42,4 +42,4 @@ class PcdRows {
   std::vector<std::byte> column_bytes_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 const PlyElement& find_element(const InputFile& in, const PlyHeader& header, std::string_view name) {
@@ -67,4 +67,4 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
   return triangles;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Rows of element "vertex".
 using Triangle = std::array<std::uint64_t, 3>;
@@ -16,4 +16,4 @@ using Triangle = std::array<std::uint64_t, 3>;
 // not a complete PLY, has no such list, or a face names a vertex that there is not.
 std::vector<Triangle> read_triangles(const std::filesystem::path& file);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

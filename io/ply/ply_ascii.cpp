@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 [[noreturn]] void fail_few_rows(const InputFile& in, const PlyElement& element, std::uint64_t missing) {
@@ -137,4 +137,4 @@ void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t lis
   pass_rows(in, element, element.count, list, visit);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 template <class T>
@@ -107,4 +107,4 @@ void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, 
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

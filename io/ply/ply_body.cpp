@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // A row takes at least so many bytes. ASCII: a digit and a blank for each value.
@@ -46,4 +46,4 @@ void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

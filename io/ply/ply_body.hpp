@@ -3,7 +3,7 @@
 
 #include "io/ply/ply_header.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Whether the file can hold the rows that the header declares; throws `Error` if not. Afterwards their number
 // is safe to count to.
@@ -15,4 +15,4 @@ bool is_swapped(PlyFormat format);
 // Passes over all rows of one element.
 void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

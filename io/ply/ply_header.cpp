@@ -11,7 +11,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // More than any real header has, little enough to give up on a file that is none.
@@ -201,4 +201,4 @@ std::string print_ply_header(const PlyHeader& header, std::string_view comment) 
   return text + "end_header\n";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

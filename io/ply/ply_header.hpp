@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
 const char* ply_name(PlyFormat format);  // "ascii", "binary_little_endian", "binary_big_endian"
@@ -45,4 +45,4 @@ PlyHeader read_ply_header(InputFile& in);
 // The header as text, "\n" at line ends, with one comment.
 std::string print_ply_header(const PlyHeader& header, std::string_view comment);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // A batch is no larger than this, however many properties a row has.
@@ -99,4 +99,4 @@ std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const Re
   return std::make_unique<PlyReader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

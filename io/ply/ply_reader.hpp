@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_ply(const FileStart& start);
 
@@ -14,4 +14,4 @@ bool looks_like_ply(const FileStart& start);
 // the last one. A file too short for what its header declares is an `Error` at once.
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <functional>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Reads `count` rows: their scalars packed in `rows` as in PlyElement::layout, lists passed over. Memory
 // does not grow with the rows or the lists (ASCII: a line is at most as long as InputFile's buffer). Throws
@@ -29,4 +29,4 @@ void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t lis
 void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, std::size_t list,
                         const ListVisitor& visit);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

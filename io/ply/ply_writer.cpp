@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
@@ -33,4 +33,4 @@ void PlyWriter::finish() {
   assert(missing_bytes_ == 0);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

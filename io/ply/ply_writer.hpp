@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // How each file of a PlyWriter begins: an earlier one is recognised by it.
 inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
@@ -38,4 +38,4 @@ class PlyWriter {
   std::uint64_t missing_bytes_ = 0;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class Base64 {
  public:
@@ -42,4 +42,4 @@ class Base64 {
   std::size_t held_ = 0;  // bytes in `bits_`
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

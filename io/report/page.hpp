@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 extern const std::string_view kReportPage;
 inline constexpr std::string_view kDataPlace = "<!--{data}-->\n";  // where a report's data go
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // `share` from 0 to 1. There is a value; their order changes. Cost: linear.
 inline float percentile(std::vector<float>& values, double share) {
@@ -14,4 +14,4 @@ inline float percentile(std::vector<float>& values, double share) {
   return *at;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

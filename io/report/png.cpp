@@ -9,7 +9,7 @@
 
 #include <png.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // No exception may pass through libpng, which is C: that of the file is kept, and thrown again behind it.
@@ -90,4 +90,4 @@ void PngWriter::finish() {
   state_->write([](png_structp png, png_infop) { png_write_end(png, nullptr); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct PictureSize {
   std::size_t width = 0, height = 0;  // pixels
@@ -59,4 +59,4 @@ class PngWriter {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

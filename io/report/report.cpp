@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ fs::path write_report(const fs::path& folder, Overwrite overwrite) {
   return file;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

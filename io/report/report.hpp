@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // How a report.html begins: an earlier one is recognised by it.
 inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
@@ -20,4 +20,4 @@ void write_report(const Scene& scene, OutputFile& out);
 // Throws `Error`.
 std::filesystem::path write_report(const std::filesystem::path& folder, Overwrite overwrite);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

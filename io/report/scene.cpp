@@ -15,7 +15,7 @@
 #include <numeric>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   return scene;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 
@@ -54,4 +54,4 @@ struct SceneLimits {
 // up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::pair<double, double> kStretched = {0.02, 0.98};  // percentiles
@@ -61,4 +61,4 @@ std::vector<Colour> ColourColumns::finish() const {
   return colours;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

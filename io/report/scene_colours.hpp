@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class ColourColumns {
  public:
@@ -28,4 +28,4 @@ class ColourColumns {
   std::vector<float> taken_;                 // row by row
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // Keeps the values of these rows, in order.
@@ -53,4 +53,4 @@ void hide_above(Scene& scene, double height) {
   hide_loops_above(relative, scene.loops);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

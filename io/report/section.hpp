@@ -3,10 +3,10 @@
 
 #include "io/report/scene.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Leaves out the points above `height`, in coordinates of the scan, and the loops that lie above it with all
 // of their vertices. Cost: linear.
 void hide_above(Scene& scene, double height);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

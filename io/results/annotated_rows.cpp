@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBlockRows = std::size_t{1} << 14;
@@ -165,4 +165,4 @@ void for_each_annotated_block(
   if (input.next(1, stride, block) != 0) fail_changed();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

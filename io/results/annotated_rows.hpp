@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // A result: its name, its type and where a PointResult has it.
 struct ResultColumn {
@@ -58,4 +58,4 @@ void for_each_annotated_block(
     std::span<const ResultColumn> results, const std::string& name,
     const std::function<void(std::vector<std::byte>& block, std::size_t rows)>& visit);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -1,7 +1,7 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/results/results.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 void write_boundary(const Detection& detection, const FileScan& scan, OutputFile& out) {
   PlyElement vertex{.name = "vertex",
@@ -24,4 +24,4 @@ void write_boundary(const Detection& detection, const FileScan& scan, OutputFile
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace lacuna {
+namespace lacuna::io {
 
 void append_shortest(std::string& text, double value) {
   char digits[32];
@@ -17,4 +17,4 @@ void append_plain(std::string& text, double value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

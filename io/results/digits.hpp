@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The shortest digits, such as "0.1" or "1e-07". What is not finite is "nan", "inf" or "-inf".
 void append_shortest(std::string& text, double value);
@@ -12,4 +12,4 @@ void append_shortest(std::string& text, double value);
 // formats whose readers may not know exponents.
 void append_plain(std::string& text, double value);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

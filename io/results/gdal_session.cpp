@@ -6,7 +6,7 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 void register_gdal_drivers() {
   static const bool done = [] {
@@ -70,4 +70,4 @@ std::size_t GdalTextSink::write(const void* data, std::size_t size, std::size_t 
   return sink.failure_ ? 0 : count;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

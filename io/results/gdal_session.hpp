@@ -10,7 +10,7 @@
 
 class OGRSpatialReference;
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The drivers of the formats that are written, once.
 void register_gdal_drivers();
@@ -66,4 +66,4 @@ class GdalTextSink {
   std::exception_ptr failure_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

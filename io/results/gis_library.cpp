@@ -7,7 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr const char* kUser = "--gpkg, --geojson and --shp";
@@ -65,4 +65,4 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include "io/results/loops_gis.hpp"
 #include "io/results/output_file.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Throws `Error` if lacuna_gis.so is missing (io/gis_module.hpp). Cheap: loads nothing.
 void check_gis_library();
@@ -15,4 +15,4 @@ void check_gis_library();
 // reference system though the scan has one, and where GIS will read metres as degrees. Throws `Error`.
 void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

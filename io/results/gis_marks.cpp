@@ -3,7 +3,7 @@
 #include "io/results/loop_measures.hpp"
 #include "io/results/loops_gis.hpp"
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 using namespace std::string_view_literals;
@@ -40,4 +40,4 @@ FileMark shapefile_mark() {
   return {"\3"sv, has_fields, ".dbf"};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 inline constexpr std::string_view kGeoJsonMark =
     "{\n\"type\": \"FeatureCollection\",\n\"name\": \"lacuna_loops\",\n";
@@ -16,4 +16,4 @@ FileMark geopackage_mark();
 // The .dbf has the fields of the loops' measures. The mark of the .shp, .shx, .prj and .cpg, too.
 FileMark shapefile_mark();
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // Empty where it is not finite.
@@ -44,4 +44,4 @@ void write_table(const Detection& detection, OutputFile& out) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

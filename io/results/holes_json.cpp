@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // Its 4 x 4 matrix, row by row.
@@ -133,4 +133,4 @@ void write_holes(const Detection& detection, const FileScan& scan, const Config&
   out.write(detection.loops().empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

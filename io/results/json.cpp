@@ -9,7 +9,7 @@
 #include <fstream>
 #include <variant>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 template <class Value>
@@ -86,4 +86,4 @@ Json parameter_values(Config config, const std::function<bool(std::string_view s
   return sections;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class FileScan;
 
@@ -40,4 +40,4 @@ void put_crs(const FileScan& scan, Json& json);
 // The values of the sections that `is_wanted` names, by section and key.
 Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct LoopColour {
   std::uint8_t red, green, blue;
@@ -20,4 +20,4 @@ constexpr const LoopColour& colour_of(LoopKind kind) {
   return kind == LoopKind::kHole ? kHoleColour : kOuterColour;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct LoopMeasure {
   std::string_view name;
@@ -26,4 +26,4 @@ inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"mean_probability", "mean_prob", [](const LoopMeasures& loop) { return loop.mean_probability; }},
 });
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr const char* kApplication = "LACUNA";
@@ -151,4 +151,4 @@ void write_loops_dxf(const Detection& detection, OutputFile& out) {
   dxf.put(0, "EOF");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // How it begins: an earlier one is recognised by it.
 inline constexpr std::string_view kDxfMark = "999\nlacuna detect, loops\n";
@@ -17,4 +17,4 @@ inline constexpr std::string_view kDxfMark = "999\nlacuna detect, loops\n";
 // then its value. Coordinates have all digits. Holds one loop in memory. Throws `Error`.
 void write_loops_dxf(const Detection& detection, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

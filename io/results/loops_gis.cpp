@@ -13,7 +13,7 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +217,4 @@ extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   return result;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson, kShapefile };
 
@@ -47,4 +47,4 @@ using WriteLoopsGis = GisCrs(const GisTask& task);
 inline constexpr const char* kWriteLoopsGis = "lacuna_write_loops_gis";
 extern "C" WriteLoopsGis lacuna_write_loops_gis;
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::string head_of(std::size_t id, const LoopMeasures& loop) {
@@ -40,4 +40,4 @@ void write_loops_obj(const Detection& detection, OutputFile& out) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

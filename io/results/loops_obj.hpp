@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // How it begins: an earlier one is recognised by it.
 inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
@@ -15,4 +15,4 @@ inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
 // with all digits, and one closed polyline. Holds one loop in memory. Throws `Error`.
 void write_loops_obj(const Detection& detection, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

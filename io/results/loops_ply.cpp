@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 std::uint64_t count_points(const Detection& detection) {
@@ -60,4 +60,4 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

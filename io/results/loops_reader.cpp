@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr double kIdsEnd = 0x1p53;  // from here on a double is no longer any whole number
@@ -118,4 +118,4 @@ std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {
   return read_column(file, "scalar_id");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 using LoopIds = std::vector<std::uint64_t>;  // closed, in the order of its edges, at least one id
 
@@ -31,4 +31,4 @@ std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 // The ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
@@ -153,4 +153,4 @@ void write_loops_vtp(const Detection& detection, OutputFile& out) {
   out.write("\n  </AppendedData>\n</VTKFile>\n");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

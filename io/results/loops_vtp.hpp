@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // How it begins: an earlier one is recognised by it.
 inline constexpr std::string_view kVtpMark = "<?xml version=\"1.0\"?>\n<!-- lacuna detect, loops -->\n";
@@ -16,4 +16,4 @@ inline constexpr std::string_view kVtpMark = "<?xml version=\"1.0\"?>\n<!-- lacu
 // holds one in memory. Throws `Error`.
 void write_loops_vtp(const Detection& detection, OutputFile& out);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

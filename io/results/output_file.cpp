@@ -12,7 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
@@ -77,4 +77,4 @@ void OutputFile::fail(const char* what, int reason) const {
   throw Error(name_.string() + ": " + what + ": " + std::strerror(reason));
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

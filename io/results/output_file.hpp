@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Who writes the bytes: this class, or a library that makes the file by itself, or does not.
 enum class Writer { kThis, kLibrary };
@@ -47,4 +47,4 @@ class OutputFile {
   std::vector<std::byte> buffer_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 namespace fs = std::filesystem;
 
@@ -186,4 +186,4 @@ std::string OutputSet::put_back() {
   return lost;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

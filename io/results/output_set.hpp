@@ -30,7 +30,7 @@
 
 #include <sys/stat.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class Overwrite { kOwn, kAny };
 
@@ -94,4 +94,4 @@ class OutputSet {
   std::list<Member> members_;                                         // in the order of add
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 PointsFormat format_like(const std::string& name) {
@@ -59,4 +59,4 @@ std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config) 
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // As config.points_format says. With `input`, it is the format of the files, if all have the same and it can
 // be written. That holds for PLY, LAS (LAZ too), PCD, and CSV for text. Else it is PLY. Never kInput.
@@ -58,4 +58,4 @@ std::uint64_t csv_row_bytes(const FileScan& scan, const OutputConfig& config);
 void check_points_las(const FileScan& scan, const OutputConfig& config);
 void check_points_pcd(const FileScan& scan, const OutputConfig& config);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

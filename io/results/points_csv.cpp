@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 RowLayout input_layout(const FileScan& scan, std::span<const ResultColumn> results) {
@@ -44,4 +44,4 @@ void write_points_csv(const Detection& detection, const FileScan& scan, const Ou
                            [&](const auto& block, std::size_t) { writer.put_rows(block); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

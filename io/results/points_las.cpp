@@ -13,7 +13,7 @@
 #include <optional>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -237,4 +237,4 @@ void write_points_las(const Detection& detection, const FileScan& scan, const Ou
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

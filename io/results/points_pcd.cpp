@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::uint64_t kMostRows = 0xffff'ffff;  // WIDTH has 32 bits in PCL
@@ -55,4 +55,4 @@ void write_points_pcd(const Detection& detection, const FileScan& scan, const Ou
                            [&](const auto& block, std::size_t) { out.write(block); });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

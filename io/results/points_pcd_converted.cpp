@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // The columns of any formats, in PCL's conventions.
@@ -121,4 +121,4 @@ PcdInput converted_pcd_input(const FileScan& scan, std::span<const ResultColumn>
   return input;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

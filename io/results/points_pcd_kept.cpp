@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // A part of each row of the input that stays as it is.
@@ -103,4 +103,4 @@ std::optional<PcdInput> kept_pcd_input(const FileScan& scan, std::span<const Res
   return PcdInput{std::move(kept->header), std::make_unique<KeptRows>(scan, std::move(kept->parts))};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

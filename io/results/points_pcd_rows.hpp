@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct PcdInput {
   PcdHeader header;  // its fields are those of the rows; the image and the viewpoint of a file that has these
@@ -28,4 +28,4 @@ PcdInput converted_pcd_input(const FileScan& scan, std::span<const ResultColumn>
 PcdField pcd_field_of(std::string name, Scalar type);
 std::string pcd_name_of(const std::string& name);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

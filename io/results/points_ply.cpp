@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 bool has_own_quality(const RowLayout& layout) {
@@ -55,4 +55,4 @@ void write_points_ply(const Detection& detection, const FileScan& scan, const Ou
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -14,7 +14,7 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // An OpenVDB stream begins with its magic number, three versions, whether it has offsets of its grids, and an
@@ -125,4 +125,4 @@ void write_probability_grid(const Detection& detection, OutputFile& out) {
   buffer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -17,7 +17,7 @@
 #include <limits>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 struct ResultFile {
@@ -184,4 +184,4 @@ std::vector<PlyProperty> position_and_id(const Detection& detection, const FileS
           {"scalar_id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

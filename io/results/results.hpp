@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
 // `detect`, with Overwrite::kAny any regular file, but never an input. Throws also if the annotated scan
@@ -74,4 +74,4 @@ std::string_view vdb_mark();
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 double points_per_second(std::uint64_t points, double seconds) {
@@ -40,4 +40,4 @@ void write_run(const Detection& detection, const FileScan& scan, const Config& c
   out.write(print(json, 2) + "\n");
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

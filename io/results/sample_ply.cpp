@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 bool is_colour(std::string_view property) {
@@ -83,4 +83,4 @@ void write_sample(const Detection& detection, const FileScan& scan, const Output
   writer.finish();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,4 +50,4 @@ fs::path find_cut_part(const fs::path& shp, bool with_crs) {
   return {};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Returns the first of the files that belong to `shp` that is missing or shorter than its head says; empty:
 // none. The .prj only `with_crs`.
 std::filesystem::path find_cut_part(const std::filesystem::path& shp, bool with_crs);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
@@ -112,4 +112,4 @@ void CsvWriter::put_rows(std::span<const std::byte> rows) {
   for (const std::string& text : texts) out_.write(text);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

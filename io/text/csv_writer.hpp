@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 
 class CsvWriter {
  public:
@@ -26,4 +26,4 @@ class CsvWriter {
   RowLayout layout_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::io

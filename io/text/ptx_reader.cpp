@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 using Values = std::array<double, 8>;
@@ -187,4 +187,4 @@ std::unique_ptr<ScanReader> open_ptx(const std::filesystem::path& file, const Re
   return std::make_unique<PtxReader>(file);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Two bare counts, then three numbers.
 bool looks_like_ptx(const FileStart& start);
@@ -18,4 +18,4 @@ bool looks_like_ptx(const FileStart& start);
 // Columns: x y z intensity (red green blue) scan, the number of the block.
 std::unique_ptr<ScanReader> open_ptx(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <set>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
@@ -328,4 +328,4 @@ std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const R
   return std::make_unique<TextReader>(file, options);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

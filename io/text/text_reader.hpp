@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace lacuna {
+namespace lacuna::io {
 
 bool looks_like_text(const FileStart& start);
 
@@ -21,4 +21,4 @@ bool looks_like_text(const FileStart& start);
 // row with another number of fields, or one that is not a number, is an `Error`.
 std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const ReadOptions& options);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

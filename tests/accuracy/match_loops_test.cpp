@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,

@@ -11,6 +11,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 using Ids = std::vector<std::uint64_t>;

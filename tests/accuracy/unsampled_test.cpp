@@ -10,6 +10,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 // Returns the points of a cloud between two distances from a vertical line, in order around it.

@@ -13,6 +13,8 @@
 #include <sys/resource.h>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 void require(bool holds, const char* what) {

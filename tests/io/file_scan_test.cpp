@@ -12,6 +12,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 const std::string kIntegers =

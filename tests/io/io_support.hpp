@@ -43,21 +43,22 @@ struct Table {
 };
 
 inline Table read_table(const std::filesystem::path& file, std::size_t max_rows = 1000,
-                        const ReadOptions& options = {}) {
-  const auto reader = open_scan(file, options);
-  const RowLayout& layout = reader->layout();
+                        const io::ReadOptions& options = {}) {
+  const auto reader = io::open_scan(file, options);
+  const io::RowLayout& layout = reader->layout();
   Table table;
-  for (const Property& property : layout.properties) table.names.push_back(property.name);
-  RowBatch batch;
+  for (const io::Property& property : layout.properties) table.names.push_back(property.name);
+  io::RowBatch batch;
   while (reader->next(batch, max_rows)) {
     for (std::size_t row = 0; row < batch.count; ++row) {
       std::vector<double>& values = table.rows.emplace_back();
-      for (const Property& property : layout.properties) {
+      for (const io::Property& property : layout.properties) {
         double value = 0;
-        copy_column({.data = batch.bytes.data() + row * layout.stride + property.offset,
-                     .stride = layout.stride,
-                     .type = property.type},
-                    {.data = reinterpret_cast<std::byte*>(&value), .stride = 8, .type = Scalar::kFloat64}, 1);
+        io::copy_column(
+            {.data = batch.bytes.data() + row * layout.stride + property.offset,
+             .stride = layout.stride,
+             .type = property.type},
+            {.data = reinterpret_cast<std::byte*>(&value), .stride = 8, .type = io::Scalar::kFloat64}, 1);
         values.push_back(value);
       }
     }
@@ -76,7 +77,7 @@ std::string error_of(Job&& job) {
   return {};
 }
 
-inline std::string read_error(const std::filesystem::path& file, const ReadOptions& options = {}) {
+inline std::string read_error(const std::filesystem::path& file, const io::ReadOptions& options = {}) {
   return error_of([&] { read_table(file, 1000, options); });
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 namespace lacuna::test {
+using namespace io;
 
 TEST_CASE("what cannot be opened is an error that names it", "[io]") {
   const ScratchFolder folder;

@@ -19,6 +19,8 @@
 #include <unistd.h>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

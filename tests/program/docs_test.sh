@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The documentation: figures are those that the script draws, and the method behind them finds the program's loops. Links
-# lead somewhere. Sentences of documents and comments are short.
+# lead somewhere. Sentences of documents and comments are short. Each file that names the version names the same one.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -23,28 +23,14 @@ fi
 
 python3 tools/check_prose.py || failed=1
 
-python3 - README.md CONTRIBUTING.md CHANGELOG.md docs/*.md bench/*.md bench/accuracy/README.md <<'END' || failed=1
-import re
-import sys
-from pathlib import Path
+python3 tests/program/check_links.py *.md docs bench/*.md bench/accuracy/*.md engine/*.md engine/*/*.md || failed=1
 
-
-def anchors(page):
-    """As GitHub names headings."""
-    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
-    return {re.sub(r"[^\w\- ]", "", heading).strip().lower().replace(" ", "-") for heading in headings}
-
-
-broken = 0
-for page in map(Path, sys.argv[1:]):
-    for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
-        if target.startswith("http"):
-            continue
-        name, _, anchor = target.partition("#")
-        file = page.parent / name if name else page
-        if not file.exists() or (anchor and anchor not in anchors(file)):
-            print(f"{page}: {target} leads nowhere")
-            broken += 1
-sys.exit(broken > 0)
-END
+# The version is that of project() in CMakeLists.txt.
+version=$(sed -n 's/^project(lacuna VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
+grep --quiet --line-regexp "version: $version" CITATION.cff || { echo "CITATION.cff: is not of version $version"; failed=1; }
+newest=$(grep --max-count=1 '^## ' CHANGELOG.md)
+[[ $newest == "## $version" || $newest == "## $version ("* ]] || { echo "CHANGELOG.md: begins with '$newest', not $version"; failed=1; }
+for file in LICENSE cmake/debian_copyright; do
+  grep --quiet 'Copyright:* .* The Lacuna authors' "$file" || { echo "$file: does not name the authors"; failed=1; }
+done
 exit "$failed"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs to a new prefix, and builds and runs the example of docs/example against it, as a user of the library would.
-# Then moves the prefix: the package must not depend on its place.
+# Then moves the prefix: the package must not depend on its place. Links of the installed pages lead to installed files.
+# The program is hardened as LACUNA_HARDENING says.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source_folder=$PWD
@@ -12,6 +13,17 @@ fail() {
   echo "install_test.sh: $*" >&2
   exit 1
 }
+
+# tools/demo.sh builds the target lacuna alone. With it come all built files that are installed.
+if [[ -f $build_folder/build.ninja ]]; then
+  in_build=$(ninja -C "$build_folder" -t inputs lacuna)
+  installed=$(grep --only-matching --perl-regexp "\"\Q$build_folder\E/\K[^\"]*" "$build_folder/cmake_install.cmake")
+  for file in $installed; do
+    rule=$(ninja -C "$build_folder" -t query "$file" 2>/dev/null | sed --quiet 's/^  input: //p') || true
+    [[ -z $rule || $rule == CXX_EXECUTABLE_LINKER__lacuna_* ]] || grep --quiet --line-regexp --fixed-strings "$file" <<<"$in_build" ||
+      fail "$file is installed, and the target lacuna does not build it"
+  done
+fi
 
 cmake --install "$build_folder" --prefix "$work/first" >"$work/log"
 mv "$work/first" "$work/moved"
@@ -32,9 +44,22 @@ version=$("$prefix/bin/lacuna" --version)
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
 grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
 "$prefix/bin/lacuna" detect --print-config --config aerial >"$work/log" || fail "the installed config is not found"
-for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml share/doc/lacuna/docs/usage.md; do
+for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml \
+  share/doc/lacuna/docs/usage.md share/doc/lacuna/LICENSE share/doc/lacuna/CITATION.cff; do
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
+python3 tests/program/check_links.py "$prefix/share/doc/lacuna" || fail "links of the installed documents lead nowhere"
+
+if grep --quiet 'LACUNA_HARDENING:BOOL=ON' "$build_folder/CMakeCache.txt"; then
+  readelf --wide --dynamic "$prefix/bin/lacuna" >"$work/log"
+  grep --quiet 'Flags:.* NOW PIE' "$work/log" || fail "the program is not at a random address with read-only relocations"
+  nm --dynamic "$prefix/bin/lacuna" >"$work/log"
+  for symbol in __stack_chk_fail _chk@; do
+    grep --quiet "$symbol" "$work/log" || fail "the program is not hardened: no call of $symbol"
+  done
+fi
+g++ -shared -Wl,--whole-archive "$prefix"/lib*/liblacuna.a -Wl,--no-whole-archive -o "$work/module.so" ||
+  fail "the library cannot be linked into a shared one, such as a module of Python"
 
 # A user's own "engine/config.hpp" does not take the place of the library's.
 cp -r docs/example "$work/example"

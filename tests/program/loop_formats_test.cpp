@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -89,9 +89,29 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"synth", "surface", "x.las"}), 2,
                 "x.las is not possible; allowed: a name that ends in .ply");
   check_failure(run_program({"render", "d", "--out", "x.jpg"}), 2, "allowed: a name that ends in .png");
+  check_failure(run_program({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2, "--points 0");
+  check_failure(run_program({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2, "--holes 90");
+  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
+                "--density-step");
+  check_failure(run_program({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,
+                "--jitter");
+  check_failure(run_program({"synth", "scan", "d.ply", "--stations", "0"}), 2, "--stations");
+  check_failure(run_program({"synth", "scan", "d.ply", "--truth", "d.ply"}), 2, "two files");
   CHECK_FALSE(fs::exists("d"));
   CHECK_FALSE(fs::exists("x.las"));
   CHECK_FALSE(fs::exists("x.jpg"));
+}
+
+TEST_CASE("a value with a unit or a decimal comma is refused with what a number is") {
+  const std::string form = "a number without a unit, with a decimal point";
+  for (const std::string value : {"5cm", "0.1m", "0,5"}) {
+    check_failure(run_program({"detect", "a.ply", "--out", "d", "--min-hole", value}), 2, form);
+    check_failure(run_program({"synth", "surface", "d.ply", "--spacing", value}), 2, form);
+    check_failure(run_program({"synth", "scan", "d.ply", "--field-of-view", "-30", value}), 2, form);
+    check_failure(run_program({"render", "d", "--out", "d.png", "--hide-above", value}), 2, form);
+    check_failure(run_program({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
+  }
+  CHECK_THAT(run_program({"detect", "a.ply", "--out", "d", "--min-hole", "-1"}).err, !Contains(form));
 }
 
 TEST_CASE("a mistyped option or command is reported with the one that may be meant") {
@@ -130,7 +150,7 @@ TEST_CASE("a config is found by the name that it is installed with") {
   CHECK(named.exit_code == 0);
   CHECK(named.out == run_program({"detect", "--print-config", "--config", file}).out);
   check_failure(
-      run_program({"detect", "--print-config", "--config", "aerail"}), 1,
+      run_program({"detect", "--print-config", "--config", "aerail"}), 2,
       "--config aerail: no file and no installed config has this name (did you mean \"aerial\"?); allowed: "
       "a TOML file, or one of these: aerial, default");
 }
@@ -167,12 +187,12 @@ TEST_CASE("the command line overrides the config file, and the file the defaults
 TEST_CASE("a fault in a config file is reported with file, line and key") {
   const ScratchFolder scratch;
   const std::string unknown = scratch.write("unknown.toml", "[criteria]\nsigmas = 1\n");
-  check_failure(run_program({"detect", "--print-config", "--config", unknown}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", unknown}), 2,
                 "unknown.toml:2: unknown key \"sigmas\" in [criteria] (did you mean \"sigma\"?)");
   const std::string impossible = scratch.write("impossible.toml", "[criteria]\ncone = 90\n");
-  check_failure(run_program({"detect", "--print-config", "--config", impossible}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", impossible}), 2,
                 "impossible.toml:2: cone");
-  check_failure(run_program({"detect", "--print-config", "--config", (scratch / "no.toml").string()}), 1,
+  check_failure(run_program({"detect", "--print-config", "--config", (scratch / "no.toml").string()}), 2,
                 "no.toml");
 }
 

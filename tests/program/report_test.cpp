@@ -21,6 +21,8 @@
 #include <sys/stat.h>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -15,6 +15,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna {
+using namespace io;
 
 std::optional<std::filesystem::path> shared_folder() {
   const char* named = std::getenv("LACUNA_SHARED");

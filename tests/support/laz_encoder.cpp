@@ -14,6 +14,8 @@
 #include <string>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using laz::BitModel;

@@ -16,21 +16,21 @@ using LazBytes = std::vector<std::byte>;
 
 // The items of a point format, 0 to 3 with version 1 or 2, or 6 to 8 with version 3 or 4. `extra_bytes` are
 // behind them. `chunk_points`: laz::kVariableChunks writes the number of points of each chunk.
-laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
-                       std::uint16_t version);
+io::laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
+                           std::uint16_t version);
 
 // The data of the variable length record "laszip encoded".
-LazBytes laz_record(const laz::Layout& layout);
+LazBytes laz_record(const io::laz::Layout& layout);
 
 // One chunk, of at least one record as in an uncompressed LAS file.
-LazBytes laz_chunk(const laz::Layout& layout, std::span<const std::byte> records);
+LazBytes laz_chunk(const io::laz::Layout& layout, std::span<const std::byte> records);
 
 // The table of chunks, `offset` not used.
-LazBytes laz_chunk_table(const laz::Layout& layout, std::span<const laz::Chunk> chunks);
+LazBytes laz_chunk_table(const io::laz::Layout& layout, std::span<const io::laz::Chunk> chunks);
 
 // All bytes of a file from its point data at `offset` on: the offset of the chunk table, the chunks, the
 // table. `chunk_points` are the points of each chunk, together all of `records`.
-LazBytes laz_point_data(const laz::Layout& layout, std::span<const std::byte> records,
+LazBytes laz_point_data(const io::laz::Layout& layout, std::span<const std::byte> records,
                         std::span<const std::uint64_t> chunk_points, std::uint64_t offset);
 
 }  // namespace lacuna::test

@@ -12,7 +12,7 @@ namespace {
 
 void run(const std::string& arguments) {
   CLI::App app;
-  add_synth_command(app);
+  tools::add_synth_command(app);
   app.parse(arguments);
 }
 

@@ -265,10 +265,10 @@ TEST_CASE("a surface replaces an earlier one, and no file of another kind") {
     CHECK_THROWS_WITH(write_surface(options),
                       Catch::Contains(file.string() + ": exists, and this command did not write it"));
     CHECK(read_file(file) == mine);
-    options.overwrite = Overwrite::kAny;
+    options.overwrite = io::Overwrite::kAny;
     write_surface(options);
     CHECK(read_file(file) != mine);
-    options.overwrite = Overwrite::kOwn;
+    options.overwrite = io::Overwrite::kOwn;
   }
   CHECK(folder.names().size() == 2);
 }

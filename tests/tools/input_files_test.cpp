@@ -7,7 +7,9 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +82,4 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

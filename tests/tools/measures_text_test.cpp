@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 TEST_CASE("lengths have three digits, and the unit where there is one") {
@@ -40,4 +40,4 @@ TEST_CASE("the bound for long loops is the power of ten nearest to a twentieth o
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

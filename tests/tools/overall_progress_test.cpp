@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 TEST_CASE("the share of a run is that of its stages by weight, and the rest takes time in proportion") {
@@ -89,4 +89,4 @@ TEST_CASE("the expected stages are those of the config") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

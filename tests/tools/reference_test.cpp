@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using Catch::Matchers::Contains;
@@ -105,4 +105,4 @@ TEST_CASE("bash completes commands, options, choices, scans and folders", "[refe
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

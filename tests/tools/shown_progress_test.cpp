@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 ProgressState evaluating() {
@@ -53,4 +53,4 @@ TEST_CASE("progress for programs is JSON with what is not known as null") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

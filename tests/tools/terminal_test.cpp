@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -38,4 +38,4 @@ TEST_CASE("column names may follow one by one, or as one word") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

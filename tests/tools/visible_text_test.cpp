@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 using namespace std::string_literals;
@@ -59,4 +59,4 @@ TEST_CASE("every character that UTF-8 can hold is found with its length, and no 
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tools

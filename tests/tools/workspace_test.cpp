@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 
 namespace lacuna::test {
+using namespace tools;
+
 namespace {
 
 namespace fs = std::filesystem;

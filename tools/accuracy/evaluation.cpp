@@ -19,6 +19,8 @@
 #include <utility>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

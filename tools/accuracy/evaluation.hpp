@@ -20,11 +20,11 @@ namespace lacuna::accuracy {
 // What a run found. Ids are ranks of the input's points.
 struct Result {
   std::filesystem::path file;  // with the loops
-  std::vector<LoopIds> loops;
+  std::vector<io::LoopIds> loops;
   std::vector<double> confidence;                      // of each loop, NaN: unknown; empty: of none
   std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
   std::optional<std::uint64_t> points;                 // of the input; this and the next from the report
-  std::vector<ScanInput> inputs;
+  std::vector<io::ScanInput> inputs;
   std::string columns;  // of inputs that are text
 };
 
@@ -56,7 +56,7 @@ Result read_result(const std::filesystem::path& path);
 // A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`.
 // Without any, they are those of X.ply next to X.loops.txt, else of the result's inputs where they still
 // exist. Points that no face of a mesh uses take no part in the spacing. Throws `Error`.
-Truth read_truth(const std::filesystem::path& file, std::vector<ScanInput> scans, const Result& result);
+Truth read_truth(const std::filesystem::path& file, std::vector<io::ScanInput> scans, const Result& result);
 
 // The faces of a PLY mesh. Throws `Error`.
 Surface read_surface(const std::filesystem::path& file);

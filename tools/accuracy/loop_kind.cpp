@@ -3,6 +3,8 @@
 #include "engine/loops/measure_loop.hpp"
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 constexpr std::size_t kNeighbours = 15;  // as `detect` takes them

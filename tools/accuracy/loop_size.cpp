@@ -3,6 +3,8 @@
 #include "engine/loops/measure_loop.hpp"
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 Eigen::Vector3d mean_of(std::span<const std::uint64_t> ids, std::span<const Eigen::Vector3d> positions) {

@@ -9,6 +9,8 @@
 #include <tuple>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 using Positions = std::span<const Eigen::Vector3d>;

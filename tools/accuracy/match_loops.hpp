@@ -65,7 +65,7 @@ struct LoopAccuracy {
 
 // Ids are places in `positions`. Loops that are all near one another cost the product of their numbers; else
 // n log n.
-LoopAccuracy match_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
+LoopAccuracy match_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
                          std::span<const Eigen::Vector3d> positions, const MatchRule& rule);
 
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);

@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 using Positions = std::span<const Eigen::Vector3d>;

@@ -25,7 +25,7 @@ namespace lacuna::accuracy {
 // odd number of boundary edges, and each is an open loop.
 //
 // Triangles with two corners at one place have no area and do not count. Cost: n log n.
-std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
+std::vector<TrueLoop> mesh_boundary(std::span<const io::Triangle> triangles,
                                     std::span<const std::uint64_t> stand_ins,
                                     std::span<const Eigen::Vector3d> positions);
 

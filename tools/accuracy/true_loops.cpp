@@ -4,6 +4,8 @@
 #include <numeric>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 using Edge = std::array<std::uint64_t, 2>;

@@ -29,7 +29,8 @@ struct TrueLoop {
 std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions);
 
 // The closed polygons through `ids`, in their order.
-std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<const std::uint64_t> stand_ins);
+std::vector<TrueLoop> loops_through(std::span<const io::LoopIds> ids,
+                                    std::span<const std::uint64_t> stand_ins);
 
 // All edges of the loops; their owners are places in `truth`.
 EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions);

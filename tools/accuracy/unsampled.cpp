@@ -12,6 +12,8 @@
 #include <utility>
 
 namespace lacuna::accuracy {
+using namespace io;
+
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;

@@ -14,7 +14,7 @@ namespace lacuna::accuracy {
 
 struct Surface {
   std::vector<Eigen::Vector3d> positions;
-  std::vector<Triangle> triangles;
+  std::vector<io::Triangle> triangles;
 };
 
 // A scan and its spacing. Ids are places in `positions`.
@@ -34,7 +34,7 @@ struct Sampling {
 // not finite has none.
 //
 // Cost: n log n for the scan, log n for every triangle, and for every place near a loop.
-std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loops, const Surface& surface,
+std::vector<std::vector<bool>> points_at_unsampled(std::span<const io::LoopIds> loops, const Surface& surface,
                                                    const Sampling& sampling);
 
 }  // namespace lacuna::accuracy

@@ -1,6 +1,6 @@
 #include "tools/reference/completion.hpp"
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr std::string_view kFunctions = R"bash(
@@ -107,4 +107,4 @@ std::string print_bash_completion(const CommandEntry& program) {
   return script;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr std::string_view kAllowed = " Allowed: ";
@@ -87,4 +87,4 @@ std::string last_word(const CommandEntry& command) {
   return command.name.substr(command.name.rfind(' ') + 1);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

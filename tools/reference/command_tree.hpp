@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace lacuna {
+namespace lacuna::tools {
 
 struct OptionEntry {
   std::vector<std::string> names;    // "-h", "--help"; of a positional argument its one name, "SCAN"
@@ -41,4 +41,4 @@ std::vector<const CommandEntry*> all_commands(const CommandEntry& root);
 // "surface" of "lacuna synth surface".
 std::string last_word(const CommandEntry& command);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -1,6 +1,6 @@
 #include "tools/reference/completion.hpp"
 
-namespace lacuna {
+namespace lacuna::tools {
 
 ValueKind kind_of(const OptionEntry& option) {
   if (!option.choices.empty()) return ValueKind::kChoice;
@@ -21,4 +21,4 @@ std::string scan_endings(std::string_view between) {
   return join({kScanEndings.begin(), kScanEndings.end()}, between);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // The endings of the files that are read, in the order of usage.md. Others are read too: formats are known by
 // content.
@@ -34,4 +34,4 @@ std::string print_fish_completion(const CommandEntry& program);
 std::string join(const std::vector<std::string>& words, std::string_view between = " ");
 std::string scan_endings(std::string_view between);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -1,6 +1,6 @@
 #include "tools/reference/completion.hpp"
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr std::string_view kConfigs = R"fish(
@@ -80,4 +80,4 @@ std::string print_fish_completion(const CommandEntry& program) {
   return script;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr std::size_t kWidth = 78;  // of lines of the source
@@ -217,4 +217,4 @@ std::string print_man_page(const CommandEntry& program, const std::string& versi
   return page;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 // The page as troff with the macros of man(7). `date`: as 2026-01-31.
 std::string print_man_page(const CommandEntry& program, const std::string& version, const std::string& date);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -1,6 +1,6 @@
 #include "tools/reference/completion.hpp"
 
-namespace lacuna {
+namespace lacuna::tools {
 namespace {
 
 constexpr std::string_view kConfigs = R"zsh(
@@ -107,4 +107,4 @@ std::string print_zsh_completion(const CommandEntry& program) {
          "  _lacuna \"$@\"\nelse\n  compdef _lacuna lacuna\nfi\n";
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

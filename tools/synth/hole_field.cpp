@@ -42,8 +42,9 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   across_ = static_cast<std::uint32_t>(width / (2 * reach + 1));
   const std::uint64_t room = std::uint64_t{down_} * across_ * grid.panels;
   if (options.holes > room)
-    throw Error("--holes " + std::to_string(options.holes) + ": only " + std::to_string(room) +
-                " holes of this radius fit on this surface; plant fewer or smaller ones, or more points");
+    throw UsageError(
+        "--holes " + std::to_string(options.holes) + ": only " + std::to_string(room) +
+        " holes of this radius fit on this surface; plant fewer or smaller ones, or more points");
   widen_cells((options.holes + grid.panels - 1) / grid.panels, grid.rows, width, down_, across_);
   cell_rows_ = grid.rows / down_;
   cell_columns_ = width / across_;

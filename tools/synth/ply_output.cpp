@@ -6,6 +6,7 @@
 #include <span>
 
 namespace lacuna::synth {
+using namespace io;
 
 static_assert(std::endian::native == std::endian::little, "rows are copied as they are in memory");
 

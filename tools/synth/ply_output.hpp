@@ -19,7 +19,7 @@ inline constexpr std::string_view kScanMark = "ply\nformat binary_little_endian 
 // Little-endian rows x y z [scan intensity].
 class PlyOutput {
  public:
-  PlyOutput(OutputFile& file, Coordinates coordinates, Extras extras);
+  PlyOutput(io::OutputFile& file, Coordinates coordinates, Extras extras);
 
   void add(Vec3 position);
   void add(Vec3 position, std::uint8_t scan, float intensity);
@@ -30,7 +30,7 @@ class PlyOutput {
  private:
   std::string header() const;
 
-  OutputFile& file_;
+  io::OutputFile& file_;
   Coordinates coordinates_;
   Extras extras_;
   std::uint64_t count_ = 0;

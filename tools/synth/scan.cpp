@@ -11,11 +11,12 @@
 #include <vector>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace {
 
 void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(message);
+  if (!holds) throw UsageError(message);
 }
 
 void check(const ScanOptions& o) {

@@ -28,7 +28,7 @@ struct ScanOptions {
   std::uint64_t seed = 1;
   std::array<double, 3> translate{0, 0, 0};  // metres
   Coordinates coordinates = Coordinates::kFloat;
-  Overwrite overwrite = Overwrite::kOwn;
+  io::Overwrite overwrite = io::Overwrite::kOwn;
 };
 
 }  // namespace lacuna::synth

@@ -101,7 +101,7 @@ Rays Scanner::lay_rays() const {
                   lowest_ + upright_ * random.uniform(2 * probe + 1)};
     if (measure(ray, probe)) ++returned;
   }
-  if (returned == 0) throw Error("--max-range: no ray reaches anything");
+  if (returned == 0) throw UsageError("--max-range: no ray reaches anything");
   const double per_station = static_cast<double>(options_.points) / options_.stations *
                              static_cast<double>(probes) / static_cast<double>(returned);
   const double scanlines = std::floor(std::sqrt(per_station / upright_ * options_.ring_ratio) + 0.5);

@@ -14,11 +14,12 @@
 #include <string>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace {
 
 void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(message);
+  if (!holds) throw UsageError(message);
 }
 
 bool is_square(std::uint32_t value) {

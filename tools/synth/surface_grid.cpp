@@ -54,14 +54,14 @@ SurfaceGrid lay_grid(const SurfaceOptions& options) {
   const double nodes = (static_cast<double>(options.points) + holes) / kept;
   const double side = std::sqrt(nodes / aspect(options.kind));
   if (side < kMinSide * exact_root(options.density_step) || side * aspect(options.kind) > kMaxSide)
-    throw Error(
+    throw UsageError(
         "--points " + std::to_string(options.points) +
         ": this surface needs at least about 10 x 10 points in its sparsest part, and at most 2^31 in a row");
 
   SurfaceGrid grid;
   if (has_panels(options.kind)) {
     if (options.density_step > 1)
-      throw Error("--density-step: not on a sphere or a cube, which have no halves");
+      throw UsageError("--density-step: not on a sphere or a cube, which have no halves");
     grid.panels = kCubeFaces;
     grid.wrap_rows = grid.wrap_columns = true;  // no outer edge
     grid.rows = whole_strides(side, 1);

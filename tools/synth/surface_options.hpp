@@ -31,7 +31,7 @@ struct SurfaceOptions {
   std::uint64_t seed = 1;
   std::array<double, 3> translate{0, 0, 0};  // units of the scan
   Coordinates coordinates = Coordinates::kFloat;
-  Overwrite overwrite = Overwrite::kOwn;
+  io::Overwrite overwrite = io::Overwrite::kOwn;
 };
 
 }  // namespace lacuna::synth

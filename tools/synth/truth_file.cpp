@@ -5,13 +5,14 @@
 #include <string>
 
 namespace lacuna::synth {
+using namespace io;
 
 namespace fs = std::filesystem;
 
 fs::path truth_file_of(const fs::path& scan, const fs::path& truth) {
   const fs::path file = truth.empty() ? fs::path(scan).replace_extension(".loops.txt") : truth;
   if (fs::weakly_canonical(file) == fs::weakly_canonical(scan))
-    throw Error(file.string() + ": the scan and its true loops need two files");
+    throw UsageError(file.string() + ": the scan and its true loops need two files");
   return file;
 }
 

@@ -13,13 +13,13 @@
 namespace lacuna::synth {
 
 // How each file of true loops begins: an earlier one is recognised by it.
-inline constexpr std::string_view kTruthMark = kLoopsTextMark;
+inline constexpr std::string_view kTruthMark = io::kLoopsTextMark;
 
 // `truth`, or next to the scan if empty, as NAME.loops.txt. Throws `Error` when that is the scan itself.
 std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std::filesystem::path& truth);
 
-void write_truth_head(OutputFile& file, const std::filesystem::path& scan);
+void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
 // A comment with what the loop is, and a line with its ids.
-void write_loop(OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
+void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
 
 }  // namespace lacuna::synth

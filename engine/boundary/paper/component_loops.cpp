@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // Vertices are numbered by row: near in space, near in memory.
 void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
@@ -64,4 +64,4 @@ void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_e
       spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

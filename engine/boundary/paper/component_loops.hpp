@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // row_of(v): of a vertex of the graph.
 template <class RowOf>
@@ -34,4 +34,4 @@ void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, c
 void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
                                 std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

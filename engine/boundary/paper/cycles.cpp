@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 // Which edges lie on a cycle.
@@ -142,4 +142,4 @@ PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> 
   return {{graph.ids, offsets, indices.first(end)}, reached.first(graph.size())};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

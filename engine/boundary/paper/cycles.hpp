@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // The graph without its bridges and the trees that hang off it: the edges that lie on some cycle, in the same
 // order. A search for loops gives the same: vertices beyond a bridge stay in one branch and join
@@ -26,4 +26,4 @@ struct PartCycles {
 // Cost: linear.
 PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config) {
   constexpr double kNot = -1;
@@ -43,4 +43,4 @@ TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbo
   return edges;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

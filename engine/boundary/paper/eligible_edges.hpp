@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // What an edge's weight needs to know of one of its ends.
 struct Strength {
@@ -42,4 +42,4 @@ TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbo
                          std::span<const Evaluation> evaluations, const SpanningConfig& config);
 bool is_strong(double probability, const SpanningConfig& config);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

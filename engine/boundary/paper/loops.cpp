@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 // A search starts here; in ascending id.
@@ -92,4 +92,4 @@ void find_loops(const SpanningGraph& graph, Scratch& scratch,
   });
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // report(loop) for each loop, its vertices in order from the smallest id towards that one's smaller
 // neighbour, in the order in which they are found. A search starts from every vertex that is not yet on a
@@ -18,4 +18,4 @@ namespace lacuna {
 void find_loops(const SpanningGraph& graph, Scratch& scratch,
                 const std::function<void(std::span<const LocalIndex>)>& report);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 // Weights are whole steps, so they can be sorted digit by digit. Most are below 3: three digits.
@@ -46,4 +46,4 @@ void order_edges(std::vector<WeightedEdge>& edges, std::span<const PointId> ids)
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

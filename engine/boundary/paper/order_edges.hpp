@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // Ascending by (weight, lower id, higher id). Weights: multiples of kProbabilityStep, at least 0 and at most
 // 1e9. `ids`: of each vertex. Cost: linear but for edges of equal weight; as much memory again.
 void order_edges(std::vector<WeightedEdge>& edges, std::span<const PointId> ids);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 // Measured: edges, vertices and graph of a component while it is spanned.
@@ -172,4 +172,4 @@ FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
   return found;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

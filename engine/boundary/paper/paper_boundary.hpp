@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // An edge out of the tile, to be decided once Pi of its foreign end is known.
 struct StoredCrossing {
@@ -52,4 +52,4 @@ class PaperBoundary final : public BoundaryMethod {
   const SpanningConfig& config_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

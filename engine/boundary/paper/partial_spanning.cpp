@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch) {
@@ -40,4 +40,4 @@ PartialSpanning span_partially(const PartVertices& vertices, std::vector<Weighte
   return {cycles.complete, std::move(edges), links};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // The owned vertices, then the foreign ones at the other ends of their edges.
 struct PartVertices {
@@ -36,4 +36,4 @@ struct PartialSpanning {
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch);
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

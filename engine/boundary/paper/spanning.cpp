@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 // Half steps from an open vertex, or from the end of an undecided edge, to the middle of the unknown. Two of
@@ -155,4 +155,4 @@ SpanningGraph Spanning::finish() {
   return {ids_, offsets, indices};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::paper {
 
 // Vertices are numbered in any way (near in number, near in memory); list v holds the neighbours of v in
 // ascending order of their ids.
@@ -83,4 +83,4 @@ class Spanning {
   std::int64_t horizon_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // Memory is prefetched so many steps before its use: it is mostly not in the cache.
@@ -259,4 +259,4 @@ TileStars find_stars(const TilePoints& points, const Neighbourhoods& neighbourho
   return TileStarFinder(points, neighbourhoods, evaluations, is_border, config).find(seeds);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // The stars of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active
 // are measured or in the belt. From the belt on, the search takes each triangle for inconsistent that may
@@ -38,4 +38,4 @@ TileStars find_stars(const TilePoints& points, const Neighbourhoods& neighbourho
                      std::span<const Evaluation> evaluations, std::span<const LocalIndex> seeds,
                      std::span<const std::uint8_t> is_border, const TangentialConfig& config);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

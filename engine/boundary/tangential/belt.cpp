@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // A tile's belt points, and the rows of these and of their neighbours.
@@ -142,4 +142,4 @@ std::uint64_t belt_bytes(const StarLists& lists, TileIndex t) {
          lists.belt_rows.count(t) * (sizeof(Row) + sizeof(Site) + sizeof(StarSample) + sizeof(Sampling));
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

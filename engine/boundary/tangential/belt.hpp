@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Replaces the samples of a tile's border points. All sites are known.
 void sample_border(StarLists& lists, TileIndex tile, const TangentialConfig& config);
@@ -19,4 +19,4 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex tile, const 
 // Memory that either takes.
 std::uint64_t belt_bytes(const StarLists& lists, TileIndex tile);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

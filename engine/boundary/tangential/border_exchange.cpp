@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // A tile whose active points grow, or whose wedges are known then.
@@ -133,4 +133,4 @@ void exchange_borders(StarLists& lists, const Tiling& tiling, Job& job) {
   BorderExchange(lists, tiling, job).run();
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -3,7 +3,7 @@
 
 #include "engine/boundary/tangential/star_lists.hpp"
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Completes the wedges of all tiles, once each has taken its own stars. Consumes all lists but the wedges and
 // the active points.
@@ -14,4 +14,4 @@ namespace lacuna {
 // open stars once in each round.
 void exchange_borders(StarLists& lists, const Tiling& tiling, Job& job);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // An end by its boundary edge, which exactly one other end of that scale shares. Chain c has the ends 2c and
@@ -151,4 +151,4 @@ void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, s
       .for_each_curve(points, workspace, budget, visit);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // An end of a chain: its last point, and the other end of the boundary edge on which it leaves the tile.
 struct ChainEnd {
@@ -41,4 +41,4 @@ void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, s
                        const Column<CurvePoint>& points, const std::filesystem::path& workspace,
                        std::uint64_t budget, const VisitCurve& visit);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr std::uint32_t kNoLoop = UINT32_MAX;
@@ -97,4 +97,4 @@ void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, 
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -10,7 +10,7 @@
 #include "engine/loops/raw_loops.hpp"
 #include "engine/run/job.hpp"
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // From this confidence on, a loop is sure: the default of `min_confidence`.
 inline constexpr double kSure = 0.75;
@@ -20,4 +20,4 @@ inline constexpr double kSure = 0.75;
 // loops on disk.
 void choose_scale(const RawLoops& fine, const RawLoops& coarse, const Job& job, RawLoops& chosen);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

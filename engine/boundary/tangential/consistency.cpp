@@ -12,7 +12,9 @@
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace lacuna::HWY_NAMESPACE {
+namespace lacuna::tangential::HWY_NAMESPACE {
+using namespace lacuna::HWY_NAMESPACE;
+
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
@@ -82,11 +84,11 @@ void compare_triangles(const StarTable& stars, const TriangleQuery* queries, std
   }
 }
 
-}  // namespace lacuna::HWY_NAMESPACE
+}  // namespace lacuna::tangential::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace lacuna {
+namespace lacuna::tangential {
 
 HWY_EXPORT(compare_triangles);
 
@@ -142,5 +144,5 @@ void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> st
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential
 #endif

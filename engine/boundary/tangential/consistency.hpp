@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Links that are compared in one step have no more vertices; as many are readable beyond the last link.
 inline constexpr std::uint32_t kFewVertices = 8;
@@ -32,4 +32,4 @@ struct TriangleQuery {
   LocalIndex point, a, b;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

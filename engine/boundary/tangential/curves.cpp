@@ -10,7 +10,7 @@
 #include <numeric>
 #include <optional>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // Place i of the curve as it is read from `start` on, in either direction.
@@ -174,4 +174,4 @@ LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& confi
   return {.confidence = (x < 0 ? tail : 1) / (1 + tail), .length = length};
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // A point of a curve. A point with several wedges is on several curves, or several times on one.
 struct CurvePoint {
@@ -57,4 +57,4 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
 // of the curve.
 LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point) {
   const auto at = std::partition_point(remote_triangles.begin(), remote_triangles.end(),
@@ -112,4 +112,4 @@ Scale Growth::scale_in(Row point, std::size_t s, Row third) const {
   return star == kNone ? Scale::kNone : stars_[star].scale_of(row(s), third);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

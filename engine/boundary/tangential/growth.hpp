@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point);
@@ -51,4 +51,4 @@ class Growth {
   std::vector<std::uint32_t> star_of_;  // by owned index
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr Batch<double> kBeyondAll = [] {
@@ -84,4 +84,4 @@ void RadiusBounder::find() {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // Returns the samplings of stars as they are found, up to kBatchSize at a time. Zeros where a link is empty.
 std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
@@ -57,4 +57,4 @@ class RadiusBounder {
   std::array<RadiusBound, kBatchSize> bounds_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 void SamplingRadius::add(const StarRadii& star, double distance) {
   for (const float radius : star.radii) {
@@ -24,4 +24,4 @@ double SamplingRadius::within(double bound) {
   return static_cast<double>(step + 1) / kSteps * bound;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -15,7 +15,7 @@
 #include <limits>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // The smallest circumradii of a star that do not lie in a hole (`hole_radius`), in units of
 // `Sampling::distance`. They are infinite where there are fewer.
@@ -62,4 +62,4 @@ StarRadii smallest_radii(const Link& link, const TangentialConfig& config) {
   return smallest;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

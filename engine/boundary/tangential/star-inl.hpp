@@ -12,7 +12,8 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace lacuna::HWY_NAMESPACE {
+namespace lacuna::tangential::HWY_NAMESPACE {
+using namespace lacuna::HWY_NAMESPACE;
 
 // A neighbour in the tangent plane, inverted; or the way from one to another. NaN: undefined.
 template <class V>
@@ -45,7 +46,7 @@ HWY_INLINE auto radius_at(V x, V y, V dx, V dy, V distance) {
   return hn::IfThenElse(height > hn::Zero(single), hn::Min(radius, largest), largest);
 }
 
-}  // namespace lacuna::HWY_NAMESPACE
+}  // namespace lacuna::tangential::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

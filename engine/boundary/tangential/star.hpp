@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // A point of the surface as the stars around it need it: its weighted site.
 struct alignas(64) Site {
@@ -128,4 +128,4 @@ void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consist
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

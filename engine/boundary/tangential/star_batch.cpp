@@ -10,7 +10,9 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace lacuna::HWY_NAMESPACE {
+namespace lacuna::tangential::HWY_NAMESPACE {
+using namespace lacuna::HWY_NAMESPACE;
+
 namespace {
 
 using V = hn::Vec<Doubles>;
@@ -231,16 +233,16 @@ void find_batch_stars(const StarBatch& batch, BatchStars& stars) {
   }
 }
 
-}  // namespace lacuna::HWY_NAMESPACE
+}  // namespace lacuna::tangential::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace lacuna {
+namespace lacuna::tangential {
 
 HWY_EXPORT(find_batch_stars);
 void find_batch_stars(const StarBatch& batch, BatchStars& stars) {
   HWY_DYNAMIC_DISPATCH(find_batch_stars)(batch, stars);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential
 #endif

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 inline constexpr std::size_t kMostNeighbours = 64;  // of one point
 
@@ -32,4 +32,4 @@ struct BatchStars {
 
 void find_batch_stars(const StarBatch& batch, BatchStars& stars);
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

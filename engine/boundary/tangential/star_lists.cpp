@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 bool operator<(const RemoteTriangle& a, const RemoteTriangle& b) {
   return std::tie(a.to, a.from, a.other) < std::tie(b.to, b.from, b.other);
@@ -45,4 +45,4 @@ void StarLists::drop(TileIndex tile) {
   remote_triangles.drop(tile);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // A point of a tile's belt: it has neighbours in other tiles (border), or neighbours that have.
 struct BeltPoint {
@@ -105,4 +105,4 @@ struct StarLists {
   AppendLists<Wedge> wedges;                     // in two runs of ascending row
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

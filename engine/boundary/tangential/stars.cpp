@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // In units of r^2: far above rounding, far below the precision of a scanner.
@@ -144,4 +144,4 @@ void StarFinder::find() {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation);
 
@@ -106,4 +106,4 @@ struct Stars {
   }
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

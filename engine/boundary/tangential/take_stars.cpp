@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 bool is_any_undecided(std::span<const Consistency> consistencies) {
@@ -151,4 +151,4 @@ std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& ti
   return is_vertex;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

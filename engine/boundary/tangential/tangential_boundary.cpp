@@ -11,7 +11,7 @@
 #include <atomic>
 #include <utility>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // Measured: a wedge of a tile, its partners and its curve.
@@ -140,4 +140,4 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   return found;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -9,7 +9,7 @@
 #include "engine/boundary/tangential/star_lists.hpp"
 #include "engine/stitch/stitch.hpp"
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 class TangentialBoundary final : public BoundaryMethod {
  public:
@@ -40,4 +40,4 @@ class TangentialBoundary final : public BoundaryMethod {
   const TangentialConfig& config_;
 };
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

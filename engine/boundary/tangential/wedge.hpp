@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tangential {
 
 // What confidence needs of a wedge (method.md, C.6). Lengths are in units of the scan.
 struct WedgeEvidence {
@@ -53,4 +53,4 @@ void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Con
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -69,10 +69,10 @@ string(REPLACE "{styles}" "${style_sources}" page "${page}")
 set(REPORT_PAGE ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
 file(WRITE ${REPORT_PAGE}.new "#include \"io/report/page.hpp\"
 
-namespace lacuna {
+namespace lacuna::io {
 
 const std::string_view kReportPage = R\"lacuna_page(${page})lacuna_page\";
 
-}  // namespace lacuna
+}  // namespace lacuna::io
 ")
 execute_process(COMMAND ${CMAKE_COMMAND} -E copy_if_different ${REPORT_PAGE}.new ${REPORT_PAGE})

@@ -10,6 +10,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 using Catch::Matchers::Contains;

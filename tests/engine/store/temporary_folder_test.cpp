@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 namespace lacuna::test {
+using namespace io;
 
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;

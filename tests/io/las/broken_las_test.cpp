@@ -14,6 +14,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 // Points alike, as in a scan: a few bytes of each differ from the one before.

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Key = std::array<std::uint16_t, 4>;  // key, place, count, value

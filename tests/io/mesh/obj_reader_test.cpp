@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Rows = std::vector<std::vector<double>>;

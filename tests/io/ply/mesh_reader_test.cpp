@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Triangles = std::vector<Triangle>;

@@ -8,6 +8,8 @@
 #include <spdlog/spdlog.h>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Rows = std::vector<std::vector<double>>;

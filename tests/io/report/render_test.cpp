@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 using Catch::Contains;
@@ -132,4 +132,4 @@ TEST_CASE("a scene without anything is a white picture") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::io

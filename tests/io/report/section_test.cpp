@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 // Points at heights 100 to 109, and loops of three vertices: at 102, at 108, and from 104 to 106.
@@ -54,4 +54,4 @@ TEST_CASE("a section above everything hides nothing, one below everything all") 
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::io

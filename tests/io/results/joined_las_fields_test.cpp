@@ -4,6 +4,8 @@
 #include <limits>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 // A descriptor with a "no data" value, a range of 1 to 2 and a description.

@@ -4,6 +4,7 @@
 #include <functional>
 
 namespace lacuna::test {
+using namespace io;
 
 using Catch::Matchers::Contains;
 

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
 
 TEST_CASE("a file holds what was written to it, however large the pieces", "[io]") {
   const ScratchFolder folder;

@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

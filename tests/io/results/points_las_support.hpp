@@ -65,17 +65,17 @@ inline LasFile file_of(int format, int minor, std::size_t extra_bytes = 0, unsig
   return las;
 }
 
-inline std::string detect_to(const ScratchFolder& folder, FileScan& scan, std::size_t rows,
+inline std::string detect_to(const ScratchFolder& folder, io::FileScan& scan, std::size_t rows,
                              const Config& config) {
-  write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
+  io::write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / "points.las");
 }
 
 // The points.las of these files, each of five points.
-inline std::string join(const ScratchFolder& folder, const std::vector<ScanInput>& inputs) {
+inline std::string join(const ScratchFolder& folder, const std::vector<io::ScanInput>& inputs) {
   Config config = las_config();
   config.output.points_format = PointsFormat::kLas;
-  FileScan scan(inputs, {});
+  io::FileScan scan(inputs, {});
   return detect_to(folder, scan, 5 * inputs.size(), config);
 }
 

@@ -4,6 +4,7 @@
 #include "tests/support/laz_encoder.hpp"
 
 namespace lacuna::test {
+using namespace io;
 
 using Catch::Matchers::Contains;
 

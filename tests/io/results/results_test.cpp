@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Catch::Matchers::Contains;

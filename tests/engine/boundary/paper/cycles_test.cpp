@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Edge = std::pair<LocalIndex, LocalIndex>;
@@ -115,4 +115,4 @@ TEST_CASE("complete loops of a part and those of what leads out are the loops of
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Edges = std::map<std::pair<PointId, PointId>, double>;
@@ -86,4 +86,4 @@ TEST_CASE("the tile of a strong end reports an eligible edge between tiles") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

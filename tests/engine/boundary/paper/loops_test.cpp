@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Edges = std::vector<std::pair<LocalIndex, LocalIndex>>;
@@ -157,4 +157,4 @@ TEST_CASE("a long path with a ring at its end is searched without recursion") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Key = std::tuple<double, PointId, PointId>;
@@ -55,4 +55,4 @@ TEST_CASE("no edges are in order") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Loops = std::vector<std::vector<PointId>>;
@@ -150,4 +150,4 @@ TEST_CASE("raw loops are sorted by first id, then length, then ids") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

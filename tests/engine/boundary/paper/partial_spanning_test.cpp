@@ -12,7 +12,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Loops = std::vector<std::vector<LocalIndex>>;  // by id
@@ -159,4 +159,4 @@ TEST_CASE("a part without vertices passes nothing on") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::paper {
 namespace {
 
 using Edges = std::vector<std::pair<LocalIndex, LocalIndex>>;
@@ -214,4 +214,4 @@ TEST_CASE("the root of a set is its smallest element, whatever the order of unio
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::paper

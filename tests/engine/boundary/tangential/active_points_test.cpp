@@ -13,7 +13,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr double kThreshold = 0.5;
@@ -196,4 +196,4 @@ TEST_CASE("whatever is found at the border, points and triangles that a tile dec
   for (const std::size_t count : counts) CHECK(count > 100);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

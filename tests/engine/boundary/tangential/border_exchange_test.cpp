@@ -13,7 +13,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // A wedge with the ids of its points, its ends in either order.
@@ -128,4 +128,4 @@ TEST_CASE("the exchange between tiles does not depend on the number of threads")
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -12,7 +12,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 struct DrawnLoop {
@@ -146,4 +146,4 @@ TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 // Ids are not rows: curves must be followed by rows.
@@ -251,4 +251,4 @@ TEST_CASE("the longer a clear curve is, the surer it is") {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr Row kForeign{200};
@@ -157,4 +157,4 @@ TEST_CASE("a point has a remote triangle if any foreign star has one with it") {
   CHECK_FALSE(has_remote_triangle(remote_triangles, 6));
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

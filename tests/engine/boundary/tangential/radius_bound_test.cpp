@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr TangentialConfig kConfig{
@@ -129,4 +129,4 @@ TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batc
   CHECK(most > 128);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

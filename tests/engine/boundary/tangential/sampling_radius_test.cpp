@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 constexpr TangentialConfig kConfig{.hole_radius = 0.8};
@@ -86,4 +86,4 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential

@@ -12,7 +12,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace lacuna {
+namespace lacuna::tangential {
 namespace {
 
 using Link = std::vector<LinkVertex<LocalIndex>>;
@@ -212,4 +212,4 @@ TEST_CASE("a star is the same wherever its point is in a batch, and whatever the
   CHECK(different == 0);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tangential
