@@ -28,7 +28,7 @@ std::string common(const std::vector<std::string>& names, const Same& is_same) {
 }  // namespace
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
-    : config_(std::move(config)), stated_(read_stated_crs(config_)), memory_(memory), expected_points_(0) {
+    : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
   for (ScanInput& input : inputs) {
     states_.push_back(file_state(input.file));
     files_.push_back(std::move(input.file));

@@ -8,7 +8,7 @@
 
 #include <dlfcn.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ void* find_gis_function(const char* name) {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -1,7 +1,7 @@
 // lacuna_gis.so: what needs GDAL, found and loaded where it is wanted.
 #pragma once
 
-namespace lacuna {
+namespace lacuna::io {
 
 // Throws `Error` if the module is neither next to the program nor in ../lib/lacuna of its folder; `user` is
 // what needs it, "--gpkg" and so on. Cheap: loads nothing.
@@ -14,4 +14,4 @@ void* load_gis_function(const char* name, const char* user);
 // The same; null where the module is missing or cannot be loaded.
 void* find_gis_function(const char* name);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

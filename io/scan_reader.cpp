@@ -19,7 +19,7 @@
 namespace lacuna::io {
 
 bool ScanReader::is_geographic() const {
-  return lacuna::is_geographic(crs());
+  return io::is_geographic(crs());
 }
 
 std::string ScanReader::length_unit() const {

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 
-namespace lacuna {
+namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 // Bytes that a disk has to take.
@@ -53,4 +55,4 @@ std::vector<std::string> check_disks(const FileScan& scan, const Config& config,
   return warnings;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-namespace lacuna {
+namespace lacuna::tools {
 
 using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
 
 // From the headers of the scan and the options: one line for each disk that is probably too small for the
 // workspace, the results, or both. Throws `Error` for one that certainly is. Both folders exist.
-std::vector<std::string> check_disks(const FileScan& scan, const Config& config,
+std::vector<std::string> check_disks(const io::FileScan& scan, const Config& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);
 
-}  // namespace lacuna
+}  // namespace lacuna::tools

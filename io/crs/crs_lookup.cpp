@@ -5,7 +5,7 @@
 #include <cpl_conv.h>
 #include <ogr_spatialref.h>
 
-namespace lacuna {
+namespace lacuna::io {
 
 extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
   register_gdal_drivers();
@@ -24,4 +24,4 @@ extern "C" bool lacuna_is_same_crs(const std::string& a, const std::string& b) {
   return read_crs(a, first) && read_crs(b, second) && first.IsSame(&second) != 0;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

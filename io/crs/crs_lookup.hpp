@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct CrsLookup {
   std::string given;       // a code or well-known text
@@ -19,4 +19,4 @@ inline constexpr const char* kIsSameCrs = "lacuna_is_same_crs";
 extern "C" LookUpCrs lacuna_look_up_crs;
 extern "C" IsSameCrs lacuna_is_same_crs;
 
-}  // namespace lacuna
+}  // namespace lacuna::io

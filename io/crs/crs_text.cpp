@@ -5,7 +5,7 @@
 #include <cctype>
 #include <span>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> kGeographic = {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"};
@@ -75,4 +75,4 @@ bool is_geographic(std::string_view crs) {
          is_equal(axes.substr(3, kEllipsoidal.size()), kEllipsoidal);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace lacuna {
+namespace lacuna::io {
 
 // The part that positions are in, such as `PROJCS[...]` of a compound system. Empty where the text is a code,
 // and where it has none.
@@ -12,4 +12,4 @@ std::string_view horizontal_system(std::string_view crs);
 // Whether positions are longitude and latitude. False where the text is a code.
 bool is_geographic(std::string_view crs);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -14,7 +14,7 @@
 
 #include <spdlog/spdlog.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ bool is_same_crs(const std::string& a, const std::string& b) {
   return is_same != nullptr && is_same(a, b);
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct StatedCrs {
   std::string crs;   // well-known text, or a code that is not looked up; empty: not stated
@@ -20,4 +20,4 @@ StatedCrs read_stated_crs(const InputConfig& config);
 // are not the same.
 bool is_same_crs(const std::string& a, const std::string& b);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -57,7 +57,7 @@ std::string LasCrs::text() const {
 }
 
 bool LasCrs::is_geographic() const {
-  if (!well_known_text_.empty()) return lacuna::is_geographic(well_known_text_);
+  if (!well_known_text_.empty()) return io::is_geographic(well_known_text_);
   return !is_projected() && (model_ == kModelGeographic || (model_ == 0 && geographic_ != 0));
 }
 

@@ -1,6 +1,6 @@
 #include "io/laz/arithmetic_decoder.hpp"
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 std::vector<std::byte> read_all(const ChunkBytes& bytes, std::uint64_t begin, std::uint64_t end) {
   if (end > bytes.size()) throw Corrupt("a chunk of compressed points is cut");
@@ -22,4 +22,4 @@ void ArithmeticDecoder::read_more() {
   left_at_ += piece.size();
 }
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

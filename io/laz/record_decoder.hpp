@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lacuna::laz {
+namespace lacuna::io::laz {
 
 // Decodes the records of a chunk behind the first, front to back.
 class RecordDecoder {
@@ -13,4 +13,4 @@ class RecordDecoder {
   virtual void decode(std::span<std::byte> records) = 0;
 };
 
-}  // namespace lacuna::laz
+}  // namespace lacuna::io::laz

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace lacuna {
+namespace lacuna::io {
 
 ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
                          std::uint64_t points) {
@@ -25,4 +25,4 @@ ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64
   return bytes;
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::io

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace lacuna {
+namespace lacuna::io {
 
 struct ResultBytes {
   std::uint64_t points = 0;  // the annotated scan; 0 where it is not wanted
@@ -24,4 +24,4 @@ struct ResultBytes {
 ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
                          std::uint64_t points);
 
-}  // namespace lacuna
+}  // namespace lacuna::io

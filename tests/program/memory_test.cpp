@@ -14,6 +14,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -10,6 +10,9 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+using namespace tools;
+
 namespace {
 
 using Catch::Matchers::Contains;

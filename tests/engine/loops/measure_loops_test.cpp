@@ -34,7 +34,7 @@ TEST_CASE(
   for (const std::uint64_t memory : {1 << 30, 20'000, 1}) {
     INFO(memory << " bytes");
     TiledScan scan(cloud, tiled(with_paper_loops({}), 50));
-    PaperBoundary boundary(scan.store, scan.job);
+    paper::PaperBoundary boundary(scan.store, scan.job);
     const Totals totals = scan.evaluate({&boundary});
     const FoundLoops traced = boundary.find_loops(totals, scan.job);
     REQUIRE(traced.loops.size() == 4);
@@ -65,7 +65,7 @@ TEST_CASE(
 
 TEST_CASE("no loops: nothing is measured") {
   TiledScan scan(sphere(400), tiled({}, 50));
-  PaperBoundary boundary(scan.store, scan.job);
+  paper::PaperBoundary boundary(scan.store, scan.job);
   const Totals totals = scan.evaluate({&boundary});
   const FoundLoops traced = boundary.find_loops(totals, scan.job);
   REQUIRE(traced.loops.size() == 0);

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
+using namespace io;
+
 namespace {
 
 using Catch::Matchers::Contains;
