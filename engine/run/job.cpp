@@ -87,7 +87,7 @@ std::uint64_t Job::tile_points(std::uint64_t points) const {
   TileSizes sizes = tile_sizes(memory, points, k);
   if (sizes.least > sizes.most) {
     std::uint64_t limit = memory.limit / kMiB * kMiB;
-    for (; sizes.least > sizes.most; limit += kMiB) sizes = tile_sizes(Memory::share(limit), points, k);
+    while (sizes.least > sizes.most) sizes = tile_sizes(Memory::share(limit += kMiB), points, k);
     throw Error("the memory limit of " + std::to_string(memory.limit / kMiB) + " MiB is too small for " +
                 std::to_string(points) + " points; allowed: " + std::to_string(limit / kMiB) + "MiB or more");
   }

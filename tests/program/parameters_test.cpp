@@ -55,7 +55,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"classes", "2"},
     {"returns", "first"},
     {"crs", "EPSG:25832"},
-    {"unit", "ft"},
+    {"unit", "m"},
     {"points_format", "pcd"},
     {"sample_points", "200"},
     {"threads", "3"},

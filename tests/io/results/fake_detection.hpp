@@ -30,7 +30,6 @@ class FakeDetection final : public Detection {
     loop.measures = {
         .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
     found.push_back(loop);
-    measures_.push_back(loop.measures);
     return *this;
   }
 
@@ -49,7 +48,11 @@ class FakeDetection final : public Detection {
   }
 
   const Summary& summary() const override { return numbers; }
-  const std::vector<LoopMeasures>& loops() const override { return measures_; }
+  const std::vector<LoopMeasures>& loops() const override {
+    measures_.clear();
+    for (const ReportedLoop& loop : found) measures_.push_back(loop.measures);
+    return measures_;
+  }
   void for_each_loop_point(std::size_t loop,
                            const std::function<void(const LoopPoint&)>& visit) const override {
     for (const LoopPoint& point : found.at(loop).points) visit(point);
@@ -78,7 +81,7 @@ class FakeDetection final : public Detection {
   std::vector<ProbabilityVoxel> voxels;
 
  private:
-  std::vector<LoopMeasures> measures_;
+  mutable std::vector<LoopMeasures> measures_;  // of the loops found
 };
 
 }  // namespace lacuna::test
