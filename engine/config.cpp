@@ -115,6 +115,20 @@ void check_bounds(const std::vector<double>& bounds) {
   }
 }
 
+// A report is put together in memory, and GDAL has memory of its own. Measured beyond the rest: 21 and 30
+// MiB.
+void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_limit) {
+  constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
+  const bool is_gis = output.gpkg || output.geojson || output.shp;
+  const std::uint64_t least = kLeast + (output.report ? kReport : 0) + (is_gis ? kGis : 0);
+  if (memory_limit == 0 || memory_limit >= least * kMiB) return;
+  const std::string outputs = output.report && is_gis ? "a report and files for GIS"
+                              : is_gis                ? "files for GIS"
+                                                      : "a report";
+  throw Error("memory_limit = " + std::to_string(memory_limit / kMiB) + "MiB is too little for " + outputs +
+              "; allowed: at least " + std::to_string(least) + "MiB");
+}
+
 }  // namespace
 
 std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
@@ -197,6 +211,7 @@ void check_config(const Config& config) {
     }
     throw Error(names + " are all 0; allowed: at least one above 0");
   }
+  check_memory_of_outputs(config.output, config.run.memory_limit);
   const SelectionConfig& selection = config.selection;
   if (selection.max_perimeter > 0 && selection.max_perimeter < selection.min_perimeter) {
     throw Error("max_perimeter = " + print_number(selection.max_perimeter) +

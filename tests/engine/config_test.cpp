@@ -179,6 +179,21 @@ TEST_CASE("an impossible value names its key and what is allowed") {
   CHECK(error_of_set("memory_limit", "0").empty());
 }
 
+TEST_CASE("a memory limit that is too little for a report or for GDAL is refused") {
+  Config config;
+  config.run.memory_limit = 64 << 20;
+  CHECK_NOTHROW(check_config(config));
+  config.output.report = true;
+  CHECK_THROWS_WITH(check_config(config),
+                    "memory_limit = 64MiB is too little for a report; allowed: at least 96MiB");
+  config.output.gpkg = true;
+  CHECK_THROWS_WITH(
+      check_config(config),
+      "memory_limit = 64MiB is too little for a report and files for GIS; allowed: at least 144MiB");
+  config.run.memory_limit = 144 << 20;
+  CHECK_NOTHROW(check_config(config));
+}
+
 TEST_CASE("lists of numbers come as text with commas and as arrays, and print as arrays") {
   Config config;
   const std::vector<Parameter> all = parameters(config);
