@@ -22,7 +22,7 @@ struct Memory {
   std::uint64_t tiles;    // all tiles at work together
   std::uint64_t spills;   // buffers of all lists on their way to disk
   std::uint64_t global;   // spanning graph and loops, sorts
-  std::uint64_t reading;  // what a reader of the scan holds of it, beside survey and index
+  std::uint64_t reading;  // what a reader of the scan holds of it; survey and index are apart
 
   static Memory share(std::uint64_t limit);
 };

@@ -108,7 +108,7 @@ TEST_CASE("the option --crs states the system and the unit of any file, in every
   const ProgramResult info = run_program({"info", scan, "--crs", "EPSG:25832"});
   CHECK_THAT(info.out, Contains("crs           " + std::string(kUtm)) && Contains("unit          m\n"));
 
-  // The same by a file and by the config.
+  // A file and the config state it as well.
   const std::string prj = scratch.write("utm.prj", text + "\n");
   CHECK(detect("prj", {"--crs", prj}).second["crs"] == text);
   const std::string config = scratch.write("c.toml", "[input]\ncrs = \"EPSG:25832\"\n");

@@ -84,7 +84,7 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results. Some files have parameters or times in them: then it takes the loops of
+  // All bytes of the results. Some files have parameters or times in them. Of these it takes the loops of
   // holes.json with their system and unit, and the names of the others.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
