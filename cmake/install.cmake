@@ -35,7 +35,7 @@ foreach(page engine/README.md engine/store/README.md bench/README.md bench/NOTES
 endforeach()
 install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library)
 
-# The manual page and the completions of commands, which the program itself writes, each time that it is linked: whoever
+# The program itself writes the manual page and the completions of commands, each time that it is linked. So whoever
 # builds the target lacuna has all that is installed.
 set(reference ${PROJECT_BINARY_DIR}/reference)
 file(MAKE_DIRECTORY ${reference})

@@ -14,9 +14,10 @@
 namespace lacuna {
 namespace {
 
-// Bytes for each border point of a tile, of which there are some sqrt(points), in units of that: lists
-// between tiles (halo edges, belts, open stars), and what belts have on disk only. Measured on jittered and
-// random surfaces and on scans, from 40,000 to 4 million points; the largest is twice the smallest.
+// A tile of n points has about sqrt(n) points at its border. These are the bytes for each of them: first in
+// lists between tiles (halo edges, belts, open stars), then what belts have on disk only. Measured on
+// jittered and random surfaces and on scans, from 40,000 to 4 million points; the largest is twice the
+// smallest.
 constexpr double kListBytes = 12'000, kBeltBytes = 4'500;
 // Bytes for each point of a tile at work. Measured as above; stars around candidates take more.
 constexpr double kPointAtWork = 390, kCandidateAtWork = 400, kOrientedAtWork = 300;

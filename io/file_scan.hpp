@@ -28,7 +28,7 @@ struct ScanInput {
 
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
-// position; where they leave out all points, the last `next` is an `Error`. A file that changes after the
+// position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
 // first opening is an `Error` when it is opened again.
 class FileScan : public PointSource {
  public:

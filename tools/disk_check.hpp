@@ -15,8 +15,8 @@ namespace lacuna::tools {
 
 using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
 
-// From the headers of the scan and the options: one line for each disk that is probably too small for the
-// workspace, the results, or both. Throws `Error` for one that certainly is. Both folders exist.
+// Returns one line for each disk that is probably too small for the workspace, the results, or both. It uses
+// the headers of the scan and the options. Throws `Error` for one that certainly is. Both folders exist.
 std::vector<std::string> check_disks(const io::FileScan& scan, const Config& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);

@@ -24,8 +24,8 @@ std::vector<std::string> input_warnings(const io::FileScan& scan);
 // Before a run: a memory limit above the machine's memory.
 std::vector<std::string> memory_warnings(const Config& config);
 
-// A box of the scan as people and --bounds have it: six numbers of three digits of its extent, rounded
-// outwards by at most one step of the last digit; `margin` is added on all sides.
+// Returns a box of the scan as six numbers, for people and for --bounds. They have three digits of its
+// extent, and are rounded outwards by at most one step of the last digit. `margin` is added on all sides.
 std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 
 // How many points lie far from all others, where, and which option leaves them out; empty without any.

@@ -38,7 +38,7 @@ double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&&
   return smallest.top();
 }
 
-// Of the points that are not passed over.
+// Returns the bounds of the points that are not passed over.
 Eigen::AlignedBox3d usual_box(const TileStore& store, std::uint64_t passed_over) {
   Eigen::AlignedBox3d box;
   for (int axis = 0; axis < 3; ++axis) {

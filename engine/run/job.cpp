@@ -17,7 +17,7 @@ constexpr std::uint64_t kMiB = 1 << 20;
 // The program, its libraries, threads' stacks, buffers of readers and writers: measured 28 MiB.
 constexpr std::uint64_t kProgram = 36 * kMiB;
 
-// Of a tile at work, whatever its points.
+// A tile at work takes these bytes, however many points it has.
 constexpr std::uint64_t kTileBytes = kMiB / 4;
 
 double now() {
@@ -29,8 +29,8 @@ std::uint64_t bytes_per_tile_point(std::int64_t k) {
   return 420 + 12 * static_cast<std::uint64_t>(k);
 }
 
-// Points that a tile may have. With fewer, the tables with entries for every tile do not fit in memory; with
-// more, a tile does not, or its neighbours cannot be numbered in 32 bits.
+// Points that a tile may have. With fewer, the tables with entries for every tile do not fit in memory. With
+// more, a tile does not fit, or its neighbours cannot be numbered in 32 bits.
 struct TileSizes {
   std::uint64_t least, most;
 };

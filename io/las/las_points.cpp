@@ -53,8 +53,8 @@ class ChunkInFile final : public laz::ChunkBytes {
   std::size_t piece_;
 };
 
-// Chunks are decoded whole, several at a time, while they fit into the memory; else one after the other, in
-// the blocks that the caller wants.
+// Chunks that fit into the memory are decoded whole, several at a time. Others are decoded one after the
+// other, in the blocks that the caller wants.
 class CompressedPoints final : public LasPoints {
  public:
   CompressedPoints(const InputFile& in, const LasHeader& header, std::uint64_t memory)

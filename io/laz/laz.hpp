@@ -119,11 +119,11 @@ class ChunkInMemory final : public ChunkBytes {
 
 class RecordDecoder;
 
-// Decompresses the records of a chunk, record_bytes() each, as they are in an uncompressed LAS file: front to
-// back, as many at a time as the caller wants. Chunks may be decoded at the same time in several threads.
-// Throws `Corrupt` where the chunk is cut or cannot be right. Changed bytes inside a chunk are not always
-// noticed: the format has no checksum. Memory, whatever the size of the chunk: decoder_bytes(), and a buffer
-// for each stream where the bytes are read piece by piece.
+// Decompresses the records of a chunk, record_bytes() each, as they are in an uncompressed LAS file. It goes
+// from front to back, by as many records at a time as the caller wants. Chunks may be decoded at the same
+// time in several threads. Throws `Corrupt` where the chunk is cut or cannot be right. Changed bytes inside a
+// chunk are not always noticed: the format has no checksum. Memory, whatever the size of the chunk:
+// decoder_bytes(), and a buffer for each stream where the bytes are read piece by piece.
 class ChunkDecoder {
  public:
   // Both outlive the decoder.

@@ -15,8 +15,9 @@ namespace lacuna::io {
 // The drivers of the formats that are written, once.
 void register_gdal_drivers();
 
-// Reads a coordinate reference system from a code or well-known text, with x to the east, from the database
-// of PROJ alone: from no network and no file that the text names. False where GDAL does not understand it.
+// Reads a coordinate reference system from a code or well-known text, with x to the east. It uses the
+// database of PROJ alone: no network, and no file that the text names. False where GDAL does not understand
+// it.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
 
 // A setting of GDAL, for this thread alone.

@@ -11,8 +11,9 @@ namespace lacuna::io {
 // Throws `Error` if lacuna_gis.so is missing (io/gis_module.hpp). Cheap: loads nothing.
 void check_gis_library();
 
-// Loads the library on first use and writes the loops. The log has a warning where the file has no coordinate
-// reference system though the scan has one, and where GIS will read metres as degrees. Throws `Error`.
+// Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate
+// reference system and the file has none. It also has one where GIS will read metres as degrees. Throws
+// `Error`.
 void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out);
 
 }  // namespace lacuna::io

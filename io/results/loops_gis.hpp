@@ -37,9 +37,9 @@ enum class GisCrs : std::uint8_t {
 };
 
 // Writes the loops in order, each a closed line with z and the fields id, kind and the measures, empty where
-// one is not finite. The coordinates are those of the scan, with all digits. Those of a GeoJSON are longitude
-// and latitude of WGS 84 where the system is known, as RFC 7946 demands. z stays as it is; for geocentric
-// scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal bytes. Throws `Error`
+// one is not finite. The coordinates are those of the scan, with all digits. A GeoJSON has longitude and
+// latitude of WGS 84 where the system is known, as RFC 7946 demands. Its z stays as it is; for geocentric
+// scans z is the ellipsoidal height. Holds one loop in memory. Equal loops give equal bytes. Throws `Error`
 // with GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 

@@ -19,8 +19,8 @@ struct ResultBytes {
   std::uint64_t all() const { return points + sample + report + voxels; }
 };
 
-// Of a scan with so many rows, of which so many points are evaluated. The files of loops and of boundary
-// points are left out: they depend on the holes that are found.
+// Returns the bytes for a scan with `rows` rows, where `points` points are evaluated. The files of loops and
+// of boundary points are left out: they depend on the holes that are found.
 ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
                          std::uint64_t points);
 

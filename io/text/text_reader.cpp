@@ -97,9 +97,9 @@ bool has_position(const std::vector<std::string>& names) {
 
 constexpr std::size_t kSampleBytes = std::size_t{1} << 20;
 
-// Whether the first values of all sampled rows count up by one, as ids do: from 0 or 1 on, or from any number
-// where the three values behind it are no whole numbers. `first` has four fields at least; `others` are the
-// lines behind it, the last one perhaps cut.
+// Whether the first values of all sampled rows count up by one, as ids do. They begin at 0 or 1, or at any
+// number if the three values after it are no whole numbers. `first` has four fields at least. `others` are
+// the lines after it, the last one perhaps cut.
 bool counts_rows(const Fields& first, std::string_view others, char separator) {
   constexpr std::size_t kFewRows = 10;
   std::array<double, 4> values{};

@@ -108,7 +108,7 @@ TEST_CASE("--crs states the system and the unit of any file, in every result tha
   const ProgramResult info = run_program({"info", scan, "--crs", "EPSG:25832"});
   CHECK_THAT(info.out, Contains("crs           " + std::string(kUtm)) && Contains("unit          m\n"));
 
-  // The same by a file and by the config.
+  // A file and the config give the same.
   const std::string prj = scratch.write("utm.prj", text + "\n");
   CHECK(detect("prj", {"--crs", prj}).second["crs"] == text);
   const std::string config = scratch.write("c.toml", "[input]\ncrs = \"EPSG:25832\"\n");

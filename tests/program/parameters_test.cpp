@@ -84,8 +84,8 @@ class Runs {
  public:
   Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
 
-  // All bytes of the results. Some files have parameters or times in them: then it takes the loops of
-  // holes.json with their system and unit, and the names of the others.
+  // Returns all bytes of the results, except of files that have parameters or times in them. Of holes.json it
+  // takes the loops with their system and unit, and of other such files only the names.
   std::string results(const Config& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));

@@ -878,8 +878,8 @@ FoundLoop rated(const std::vector<CurvePoint>& rim, const TangentialConfig& conf
   return loop;
 }
 
-// Of a fine loop and a coarse one with a quarter of its points or more on it, the surer stands. A sure fine
-// loop also stands where the sure coarse ones on it are together nearly as long.
+// A coarse loop may have a quarter of its points or more on a fine loop. The surer of the two stands. A sure
+// fine loop also stands where the sure coarse ones on it are together nearly as long.
 Loops chosen(const Loops& fine, const Loops& coarse, double same_hole) {
   constexpr double kSure = 0.75;
   const auto lies_on = [](const FoundLoop& loop, const FoundLoop& other) {

@@ -20,7 +20,7 @@ constexpr std::uint64_t kBytesPerWedge = 160;
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
-// Of loops that the choice between scales takes into account.
+// The choice between scales takes loops from this confidence on into account.
 double least_confidence(const Config& config) {
   return std::min(config.selection.min_confidence, kSure);
 }
