@@ -104,7 +104,7 @@ struct SelectionConfig {
 // Which returns of a pulse count.
 enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
 
-// What lengths of the scan are in.
+// The unit of the lengths of the scan.
 enum class LengthUnit : std::uint8_t {
   kInput,  // what the files say
   kM,

@@ -11,7 +11,7 @@ void check_gis_module(const char* user);
 // the module cannot be loaded.
 void* load_gis_function(const char* name, const char* user);
 
-// The same; null where the module is missing or cannot be loaded.
+// Returns the same function, or null where the module is missing or cannot be loaded.
 void* find_gis_function(const char* name);
 
 }  // namespace lacuna::io

@@ -6,8 +6,8 @@
 
 namespace lacuna::io {
 
-// By metres in one: "m", "km", "cm", "mm", "ft" (international foot), "us-ft" (US survey foot), "in", "yd";
-// empty: another one.
+// Returns the unit that has this length in metres: "m", "km", "cm", "mm", "ft" (international foot), "us-ft"
+// (US survey foot), "in", "yd". Empty for another length.
 std::string unit_of_metres(double metres);
 
 // The horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162). Empty

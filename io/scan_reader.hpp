@@ -26,7 +26,7 @@ struct Property {
   std::size_t offset;
 };
 
-// A row with more columns than this is refused by every reader: names and types of columns are held in
+// Every reader refuses rows with more columns than this, since it holds the names and types of columns in
 // memory.
 inline constexpr std::size_t kMostColumns = 10'000;
 inline constexpr const char* kTooManyColumns = "more than the 10,000 columns that are read";

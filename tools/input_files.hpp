@@ -12,7 +12,7 @@ namespace lacuna::tools {
 // that are not read are passed over, the last with a warning. "@FILE" stands for the files named in it, one
 // per line, relative to its folder; blank lines and lines that begin with # are passed over. A pose may
 // follow the name: `pose=` and its numbers, or a file that holds them (io/pose.hpp). Throws `Error` where a
-// folder or list names no scan, a pose is none, or for "-".
+// folder or list names no scan, where a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                      const io::ReadOptions& options);
 

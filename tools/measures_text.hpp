@@ -15,8 +15,8 @@ std::string print_area(double area, std::string_view unit);  // "3.97 m²"
 
 std::string print_power(double power_of_ten, std::string_view unit);  // "0.1 m", "1 m", "1,000 m"
 
-// x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So places of one scan have
-// as many decimals.
+// x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So all places of one scan
+// have equally many decimals.
 std::string print_place(const Eigen::Vector3d& place, double extent);
 
 }  // namespace lacuna::tools

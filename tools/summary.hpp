@@ -29,8 +29,8 @@ double length_bound(double extent);
 // Points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
 std::string print_left_out(const Counts& counts, const io::FilteredOut& filtered);
 
-// Lines of as many cells each, at least one line. Columns are as wide as their widest cell, the first to the
-// left, the others to the right.
+// Prints rows of equally many cells; there is at least one row. Each column is as wide as its widest cell.
+// The first column is aligned to the left, the others to the right.
 std::string print_table(const std::vector<std::vector<std::string>>& rows);
 
 std::string print_count(std::uint64_t count);  // "1,234,567"

@@ -16,7 +16,7 @@ std::string visible(std::string_view text);
 // end is made visible before it is printed.
 void show_output_visibly(std::FILE* file);
 
-// Why writing to `file` has failed for the first time, as errno says it; 0: it has not.
+// Returns the errno of the first failure to write to `file`; 0 if there was none.
 int output_failure();
 
 }  // namespace lacuna::tools

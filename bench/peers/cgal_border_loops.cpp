@@ -1,5 +1,5 @@
-// The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a text that
-// `lacuna evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
+// The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a
+// text that `lacuna evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
 #include "bench/peers/border_loops.hpp"
 #include "bench/peers/read_ply.hpp"
 

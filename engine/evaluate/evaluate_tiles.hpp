@@ -16,13 +16,13 @@ namespace lacuna {
 
 __extension__ using Int128 = __int128;
 
-// Counts of positive numbers in bins, of which each power of two has 64: their order is that of the bits.
+// Counts positive numbers in bins. Each power of two has 64 bins. Bins are in the order of the numbers.
 struct LengthBins {
   static constexpr int kShift = 46;  // bits of a number within a bin
   std::map<std::uint32_t, std::uint64_t> counts;
 
   static std::uint32_t bin_of(double length);  // positive
-  // In the middle of all, as if the numbers of a bin were spread evenly over it. 0 without any.
+  // Returns the median, as if the numbers of a bin were spread evenly over it. 0 without any number.
   double median() const;
 };
 

@@ -15,8 +15,8 @@ struct Vertex {
   friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
-// An edge of the boundary graph by the paper; a.id < b.id. Edges are taken in ascending order of (weight, lower id,
-// higher id).
+// An edge of the boundary graph of the paper; a.id < b.id. Edges are taken in ascending order of (weight,
+// lower id, higher id).
 struct BoundaryEdge {
   double weight;
   Vertex a, b;

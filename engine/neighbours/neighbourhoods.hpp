@@ -6,9 +6,10 @@
 namespace lacuna {
 
 // List p holds N_p of owned point p, nearest first, ties by id. N_p = { q : q in N_p^{k,eps} or p in
-// N_q^{k,eps} }. `points` must hold the owned points and every foreign point that a neighbourhood needs. Some are
-// among the k nearest of an owned one, others have an owned one among theirs (listed in `linked`), or lie
-// within eps. Others do no harm. `eps` is a length; 0: off. Cost: one search per owned point, and one more with eps.
+// N_q^{k,eps} }. `points` must hold the owned points and every foreign point that a neighbourhood needs. Some
+// of these are among the k nearest of an owned one. Others have an owned one among theirs (listed in
+// `linked`), or lie within eps. More points do no harm. `eps` is a length; 0: off. Cost: one search per owned
+// point, and one more with eps.
 Neighbourhoods find_neighbourhoods(const TilePoints& points, std::size_t k, double eps);
 
 }  // namespace lacuna

@@ -13,7 +13,7 @@ struct Disk {
   std::uint64_t free = 0;    // bytes that this user may write
 };
 
-// None where the system does not say.
+// Returns none where the system does not give the space.
 std::optional<Disk> disk_of(const std::filesystem::path& folder);
 
 // The line that says that the disk of a folder has too little; `needs`: "at least 3 GiB".

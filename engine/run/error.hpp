@@ -12,7 +12,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What was chosen is not possible: an option, or a value of a config.
+// The user has chosen an option, or a value of a config, that is not possible.
 class UsageError : public Error {
  public:
   using Error::Error;
@@ -23,7 +23,7 @@ class UsageError : public Error {
   throw Error("the input changed while it was read: " + how);
 }
 
-// What one step reads of another does not agree: a fault of the program or of the machine. `how`: what shows
+// The data of two steps do not agree. That is a fault of the program or of the machine. `how` says what shows
 // it.
 [[noreturn]] inline void fail_inconsistent(const std::string& how) {
   throw Error("the run contradicts itself: " + how + "; please report this");

@@ -38,8 +38,8 @@ struct Job {
   Memory memory;
   std::vector<PhaseTime> phases;
 
-  // Gives memory that was freed back to the system, where more than `share` of the limit is in use. At the
-  // end of each phase, between steps that need much, and within a phase where the limit is near.
+  // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
+  // each phase, between steps that need much, and within a phase where the limit is near.
   void trim(double share = 0.5) const;
   // A file of the workspace.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }

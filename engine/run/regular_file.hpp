@@ -1,4 +1,4 @@
-// What may be opened to be read.
+// Checks that a file may be opened and read.
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,7 @@ namespace lacuna {
 
 inline constexpr std::size_t kBatchesInRegisters = 32;  // more of them take much longer
 
-// The numbers of each lane in ascending order. Not for NaN.
+// Sorts the numbers of each lane in ascending order. Not for NaN.
 void sort_batches(Batch<double>* batches, std::size_t count);
 
 }  // namespace lacuna

@@ -27,7 +27,7 @@ inline constexpr std::uint64_t kLasSoftwareAt = 58;
 struct LasOrigin {
   std::filesystem::path file;
   LasHeader header;
-  bool has_crs = true;      // else its records "LASF_Projection" stay away, too: its system is not the scan's
+  bool has_crs = true;      // else its records "LASF_Projection" are left out: its system is not the scan's
   bool has_counts = false;  // bounds and numbers of returns go over, since the points are the same
 };
 

@@ -8,7 +8,7 @@
 
 namespace lacuna::io::laz {
 
-// The records of a chunk behind the first, which is not compressed.
+// The records of a chunk after the first, which is not compressed.
 std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                std::span<const std::byte> first);
 

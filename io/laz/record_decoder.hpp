@@ -6,7 +6,7 @@
 
 namespace lacuna::io::laz {
 
-// Decodes the records of a chunk behind the first, front to back.
+// Decodes the records of a chunk after the first, from front to back.
 class RecordDecoder {
  public:
   virtual ~RecordDecoder() = default;

@@ -26,8 +26,8 @@ Json begin_json(std::string_view schema);
 std::string print(const Json& json, int indent);
 
 // The content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does it.
-// Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: to print or to
-// copy such values is recursive.
+// Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: printing and
+// copying such values is recursive.
 Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {});
 
 Json list(const Eigen::Vector3d& vector);

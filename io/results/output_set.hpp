@@ -3,8 +3,8 @@
 // 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that has the mark
 //    of the same command. With Overwrite::kAny it may be the name of any regular file. Links, folders, pipes
 //    and devices are always refused.
-// 2. The content goes to a new file in a private folder next to the name, `.lacuna-XXXXXX/new`. Other names in
-//    the output folder are neither used nor examined. A file that is closed may be read there.
+// 2. The content goes to a new file in a private folder next to the name, `.lacuna-XXXXXX/new`. Other names
+//    in the output folder are neither used nor examined. A file that is closed may be read there.
 // 3. commit: all files are closed and on the disk before any name changes. Then older files move to
 //    `.lacuna-XXXXXX/old`, last added first; new ones take their names in the order of add. So the last file
 //    stands for all the others. The folders are synced, and the private ones go, with the older files.
@@ -70,7 +70,7 @@ class OutputSet {
   // An own file of this name, if there is one, goes with commit; any other stays.
   void drop(const std::filesystem::path& file, const FileMark& mark);
 
-  // All or none. Returns the names that have new files, in the order of add. Throws `Error`.
+  // Replaces all files or none. Returns the names that have new files, in the order of add. Throws `Error`.
   std::vector<std::filesystem::path> commit();
 
  private:

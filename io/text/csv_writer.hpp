@@ -12,8 +12,8 @@ namespace lacuna::io {
 class CsvWriter {
  public:
   // Writes the header line. Names are changed or quoted where this project's reader, or another, would
-  // mistake them. The characters ',' ';' '"' and control characters become '_'. A '_' comes before = + - and @
-  // at the start, which are formulas to a spreadsheet. Bytes that are not UTF-8 become U+FFFD. A name that
+  // misread them. The characters ',' ';' '"' and control characters become '_'. A '_' comes before = + - and
+  // @ at the start, which are formulas to a spreadsheet. Bytes that are not UTF-8 become U+FFFD. A name that
   // could be a number or a comment is put in quotes. A second equal name gets a number.
   CsvWriter(OutputFile& out, RowLayout layout);
 

@@ -17,8 +17,9 @@ bool looks_like_text(const FileStart& start);
 // options name columns, else a header line. That may be a comment just before the first line of values. It
 // must name as many columns as that line has, x, y and z among them. Else columns are x y z column_4 ... The
 // option "x=Easting" names a column of the header anew. Without names, a first column that counts the rows,
-// before three others at least, is an `Error`: it would be read as x. Names x y z nx ny nz count in upper case too. Every value is kFloat64; a
-// row with another number of fields, or one that is not a number, is an `Error`.
+// before at least three others, is an `Error`: it would be read as x. Names x y z nx ny nz count in upper
+// case too. Every value is kFloat64; a row with another number of fields, or one that is not a number, is an
+// `Error`.
 std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna::io

@@ -1,4 +1,5 @@
-// Tests that draw many cases and take long draw fewer where LACUNA_DRAWN_SHARE says so: `tools/check.sh --sanitize`.
+// Slow tests that draw many cases draw fewer where LACUNA_DRAWN_SHARE is set. `tools/check.sh --sanitize`
+// sets it.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 
 namespace lacuna {
 
-// LACUNA_DRAWN_SHARE of `cases`, at least one; all where it is not set.
+// Returns this share of `cases`, at least one; all where LACUNA_DRAWN_SHARE is not set.
 inline std::uint64_t draws(std::uint64_t cases) {
   const char* share = std::getenv("LACUNA_DRAWN_SHARE");
   const double some = share ? std::strtod(share, nullptr) * double(cases) : double(cases);

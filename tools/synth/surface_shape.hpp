@@ -13,7 +13,7 @@ struct SurfacePoint {
 
 // From the plane of the grid to space. Neighbours are one spacing apart on average. A torus is denser inside,
 // a sphere cap at its corners. A sphere is denser by up to 1.4 along the edges of its six panels, as their
-// geometry has it. A density factor is one of every panel.
+// geometry has it. A density factor applies to every panel.
 class SurfaceShape {
  public:
   SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);

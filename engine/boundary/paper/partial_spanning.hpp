@@ -30,9 +30,9 @@ struct PartialSpanning {
 
 // `edges`: all that have an owned end, in any order; a: owned. The edges passed on are spanned again with
 // those of other parts. That gives a graph whose loops are those of the whole, without the complete ones.
-// Most edges are certainly left out, and are not passed on; nor is what no loop needs: trees, and cycles
-// beyond a bridge. Without foreign vertices nothing is passed on. The graph lives in `scratch`. Cost: that of
-// spanning the part.
+// Most edges are certainly left out, and are not passed on. Trees, and cycles beyond a bridge, are not passed
+// on either: no loop needs them. Without foreign vertices nothing is passed on. The graph lives in `scratch`.
+// Cost: that of spanning the part.
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch);
 
