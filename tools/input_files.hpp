@@ -14,6 +14,6 @@ namespace lacuna::tools {
 // follow the name: `pose=` and its numbers, or a file that holds them (io/pose.hpp). Throws `Error` where a
 // folder or list names no scan, where a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
-                                     const io::ReadOptions& options);
+                                         const io::ReadOptions& options);
 
 }  // namespace lacuna::tools
