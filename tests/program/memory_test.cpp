@@ -211,7 +211,7 @@ void check_laz_of_one_chunk(std::uint32_t points) {
   }
 }
 
-TEST_CASE("LAZ of one chunk larger than the memory limit stays within it, with and without a chunk table") {
+TEST_CASE("LAZ of one large chunk stays within the memory limit, with and without a chunk table") {
   check_laz_of_one_chunk(4'000'000);
 }
 

@@ -348,7 +348,7 @@ TEST_CASE("numbers of a report have the digits that a reader needs") {
     for (const json& value : place) CHECK(value.dump().size() <= 11);  // 5400000.123
 }
 
-TEST_CASE("a large picture takes bounded memory") {
+TEST_CASE("large pictures stay within 400 MiB") {
   const Made made(sheet());
   const auto run = run_program({"render", made.out().string(), "--out",
                                 (made.scratch() / "large.png").string(), "--size", "9000x9000"});

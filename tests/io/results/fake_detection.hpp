@@ -16,20 +16,20 @@ namespace lacuna::test {
 class FakeDetection final : public Detection {
  public:
   Summary numbers;
-  std::vector<ReportedLoop> found;
+  std::vector<LoopMeasures> measures;
+  std::vector<Loop> found;  // the points of each loop
   std::vector<BoundaryPoint> boundary;
   std::vector<PointResult> results;
   std::size_t block = 2;
 
   FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
-    ReportedLoop loop;
+    Loop& loop = found.emplace_back();
     for (const std::uint64_t id : ids) {
-      loop.points.push_back(
+      loop.push_back(
           {.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}, .probability = 0.25f});
     }
-    loop.measures = {
-        .kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}};
-    found.push_back(loop);
+    measures.push_back(
+        {.kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}});
     return *this;
   }
 
@@ -48,14 +48,10 @@ class FakeDetection final : public Detection {
   }
 
   const Summary& summary() const override { return numbers; }
-  const std::vector<LoopMeasures>& loops() const override {
-    measures_.clear();
-    for (const ReportedLoop& loop : found) measures_.push_back(loop.measures);
-    return measures_;
-  }
+  const std::vector<LoopMeasures>& loops() const override { return measures; }
   void for_each_loop_point(std::size_t loop,
                            const std::function<void(const LoopPoint&)>& visit) const override {
-    for (const LoopPoint& point : found.at(loop).points) visit(point);
+    for (const LoopPoint& point : found.at(loop)) visit(point);
   }
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
     for (const BoundaryPoint& point : boundary) visit(point);
@@ -79,9 +75,6 @@ class FakeDetection final : public Detection {
   std::vector<SampledPoint> sample;
   ProbabilityLattice lattice;
   std::vector<ProbabilityVoxel> voxels;
-
- private:
-  mutable std::vector<LoopMeasures> measures_;  // of the loops found
 };
 
 }  // namespace lacuna::test

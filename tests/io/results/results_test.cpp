@@ -64,7 +64,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   detection.numbers.counts.candidates = 7;
   detection.numbers.bounds = {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(3, 4, 5)};
   detection.numbers.phases = {{"survey", 2}, {"evaluate", 3}};
-  detection.found[1].measures.area = std::nan("");
+  detection.measures[1].area = std::nan("");
   Config config;
   config.neighbourhood.k = 21;
   config.selection.holes_only = true;
