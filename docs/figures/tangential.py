@@ -9,7 +9,7 @@ FINE, COARSE = SCALES = 0, 1
 
 # C.7
 MAX_RADIUS, HOLE_RADIUS, MOST_RADIUS = 1.5, 0.85, 0.5
-COARSE_BOUND, SAME_HOLE = 2, 0.8
+COARSE_BOUND, SAME_HOLE, SURE = 2, 0.8, 0.75
 CLEAR_RADIUS, ADDED_LENGTH = 2.5, 4
 CONFIDENCE_MIDDLE, CONFIDENCE_SLOPE = 0.6, 25
 MIN_CURVE = 8
@@ -167,16 +167,17 @@ def confidence(curve):
 
 def choose_scale(fine, coarse):
     """The curves that stand (C.6)."""
-    on, stand = [[] for _ in fine], []  # coarse curves, by the fine one that they lie on
-    for curve in coarse:
-        shared = [len(set(points_of(curve)) & set(points_of(other))) for other in fine]
-        most = max(shared, default=0)
-        (on[shared.index(most)] if most else stand).append(curve)
-    for curve, coarser in zip(fine, on):
-        is_same = sum(map(length, coarser)) >= SAME_HOLE * length(curve)
-        is_surest = confidence(curve) >= max(map(confidence, coarser), default=0)
-        stand += [curve] if is_same or is_surest else coarser
-    return stand
+    def lies_on(curve, other):
+        return 4 * len(set(points_of(curve)) & set(points_of(other))) >= len(points_of(curve))
+
+    def stands(curve):
+        on = [other for other in coarse if lies_on(other, curve)]
+        is_surest = confidence(curve) >= max(map(confidence, on), default=0)
+        sure_length = sum(length(other) for other in on if confidence(other) >= SURE)
+        return is_surest or (confidence(curve) >= SURE and sure_length >= SAME_HOLE * length(curve))
+
+    standing = [curve for curve in fine if stands(curve)]
+    return standing + [curve for curve in coarse if not any(lies_on(curve, other) for other in standing)]
 
 
 class Surface:
@@ -195,7 +196,7 @@ class Surface:
         self.curves = [self.chain(scale) for scale in SCALES]
 
     def loops(self, min_confidence=0.5):
-        return choose_scale(*([c for c in curves if confidence(c) >= min_confidence] for curves in self.curves))
+        return [curve for curve in choose_scale(*self.curves) if confidence(curve) >= min_confidence]
 
     def edges_of(self, p):
         link = self.stars[p].link

@@ -56,7 +56,7 @@ with open("none.xyz", "w") as text:
 END
 
 "$program" detect utm.las --out utm "${formats[@]}" --quiet
-"$program" detect utm.las --out tiled "${formats[@]}" --quiet --threads 3 --tile-points 900 --memory-limit 100MiB
+"$program" detect utm.las --out tiled "${formats[@]}" --quiet --threads 3 --tile-points 900 --memory-limit 128MiB
 for file in loops.{gpkg,geojson,shp,shx,dbf,prj,cpg}; do
   cmp "utm/$file" "tiled/$file"
 done
