@@ -70,7 +70,7 @@ TEST_CASE("the library finds the holes that the program writes", "[library]") {
   Config config;
   config.selection.min_diameter = 9;
   const Holes found = find_holes(cloud.positions, config);
-  const auto report = nlohmann::json::parse(test::read_file(scratch / "out" / "holes.json"));
+  const auto report = test::read_json(scratch / "out" / "holes.json");
   REQUIRE(report["loops"].size() == found.loops.size());
   REQUIRE(found.loops.size() == 3);
   for (std::size_t i = 0; i < found.loops.size(); ++i) {

@@ -2,7 +2,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <fstream>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -29,8 +28,7 @@ json report_of(const std::vector<std::string>& arguments, const std::string& out
   const test::ProgramResult result = run_program(words);
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
-  std::ifstream in(out + "/holes.json");
-  return json::parse(in);
+  return test::read_json(out + "/holes.json");
 }
 
 TEST_CASE("scans in their own coordinates with poses, and filters, give the loops of the chosen points") {

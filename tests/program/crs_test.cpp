@@ -16,7 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::check_failure;
 using test::ProgramResult;
+using test::read_json;
 using test::run_program;
 using test::ScratchFolder;
 
@@ -43,26 +45,13 @@ std::string degrees_las() {
   return las.bytes();
 }
 
-nlohmann::json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return nlohmann::json::parse(in);
-}
-
-void check_refused(const ProgramResult& result, int exit_code, const std::string& named) {
-  INFO(result.err);
-  CHECK(result.exit_code == exit_code);
-  CHECK(result.out.empty());
-  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
-  CHECK(test::count_lines(result.err) == 1);
-}
-
 }  // namespace
 
 TEST_CASE("a scan in degrees is refused before the work with the ways out, and info says so") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("degrees.las", degrees_las());
   const fs::path out = scratch / "out";
-  check_refused(run_program({"detect", scan, "--out", out.string()}), 1,
+  check_failure(run_program({"detect", scan, "--out", out.string()}), 1,
                 "WGS 84 is in longitude and latitude, and holes need lengths; `pdal translate");
   CHECK_FALSE(fs::exists(out));
 
@@ -128,15 +117,15 @@ TEST_CASE("a system or unit that is none, or is not one of lengths, is an error 
     words.insert(words.end(), options.begin(), options.end());
     return run_program(words);
   };
-  check_refused(detect({"--crs", "EPSG:99999"}), 1, "--crs EPSG:99999: GDAL knows no such system");
-  check_refused(detect({"--crs", "PROJCS[\"nonsense\""}), 1, "GDAL knows no such system");
-  check_refused(detect({"--crs", "UTM32"}), 1, "--crs UTM32: is no coordinate reference system; allowed: ");
-  check_refused(detect({"--crs", "EPSG:7837"}), 1, "--crs EPSG:7837: is no system of positions");
+  check_failure(detect({"--crs", "EPSG:99999"}), 1, "--crs EPSG:99999: GDAL knows no such system");
+  check_failure(detect({"--crs", "PROJCS[\"nonsense\""}), 1, "GDAL knows no such system");
+  check_failure(detect({"--crs", "UTM32"}), 1, "--crs UTM32: is no coordinate reference system; allowed: ");
+  check_failure(detect({"--crs", "EPSG:7837"}), 1, "--crs EPSG:7837: is no system of positions");
   for (const char* code : {"EPSG:4326", "EPSG:4979", "EPSG:4326+5773"})
-    check_refused(detect({"--crs", code}), 1, "is in longitude and latitude, and holes need lengths");
-  check_refused(detect({"--crs", "EPSG:25832", "--unit", "ft"}), 1,
+    check_failure(detect({"--crs", code}), 1, "is in longitude and latitude, and holes need lengths");
+  check_failure(detect({"--crs", "EPSG:25832", "--unit", "ft"}), 1,
                 "--unit ft: contradicts --crs EPSG:25832");
-  check_refused(detect({"--unit", "furlong"}), 2, "unit = furlong is not possible; allowed: input, m, km");
+  check_failure(detect({"--unit", "furlong"}), 2, "unit = furlong is not possible; allowed: input, m, km");
   CHECK_FALSE(fs::exists(out));
 }
 

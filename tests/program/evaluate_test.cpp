@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::check_failure;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
@@ -28,14 +29,6 @@ nlohmann::json evaluate(std::vector<std::string> arguments) {
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   return nlohmann::json::parse(result.out);
-}
-
-void check_refused(const ProgramResult& result, int exit_code, const std::string& reason) {
-  INFO(result.err);
-  CHECK(result.exit_code == exit_code);
-  CHECK(result.out.empty());
-  CHECK(test::count_lines(result.err) == 1);
-  CHECK_THAT(result.err, Contains(reason));
 }
 
 // A plane with three holes and its result.
@@ -141,7 +134,7 @@ TEST_CASE("the truth is itself found, from either kind of file, without boundary
     CHECK(report.at("confidence_auc").is_null());
   }
   fs::rename(made.scan, made.folder / "other.ply");
-  check_refused(run_program({"evaluate", made.truth, made.truth}), 1, "--scan must name it");
+  check_failure(run_program({"evaluate", made.truth, made.truth}), 1, "--scan must name it");
   CHECK(evaluate({made.truth, made.truth, "--scan", (made.folder / "other.ply").string()}).at("found") == 4);
 }
 
@@ -171,7 +164,7 @@ TEST_CASE("a scan that is text is read with the columns of the run") {
   CHECK(report.at("spacing") == Approx(1));
   CHECK(report.at("found") == 1);
   fs::rename(scan, folder / "moved.txt");
-  check_refused(run_program({"evaluate", out, truth}), 1, "--scan must name it");
+  check_failure(run_program({"evaluate", out, truth}), 1, "--scan must name it");
   CHECK(evaluate({out, truth, "--scan", (folder / "moved.txt").string()}).at("found") == 1);
 }
 
@@ -308,7 +301,7 @@ TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
   const Made made;
   const auto refused = [&](std::vector<std::string> arguments, const std::string& reason) {
     arguments.insert(arguments.begin(), "evaluate");
-    check_refused(run_program(arguments), 1, reason);
+    check_failure(run_program(arguments), 1, reason);
   };
   const std::string square = made.folder.write("square.ply", kSquare);
   refused({"missing", made.truth}, "missing: cannot be opened");
@@ -332,11 +325,11 @@ TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
 }
 
 TEST_CASE("wrong usage of evaluate has exit code 2") {
-  check_refused(run_program({"evaluate"}), 2, "RESULT");
-  check_refused(run_program({"evaluate", "a"}), 2, "TRUTH");
-  check_refused(run_program({"evaluate", "a", "b", "--tolerance", "-1"}), 2, "--tolerance");
-  check_refused(run_program({"evaluate", "a", "b", "--tolerance", "nan"}), 2, "--tolerance");
-  check_refused(run_program({"evaluate", "a", "b", "--min-vertices", "-1"}), 2, "--min-vertices");
+  check_failure(run_program({"evaluate"}), 2, "RESULT");
+  check_failure(run_program({"evaluate", "a"}), 2, "TRUTH");
+  check_failure(run_program({"evaluate", "a", "b", "--tolerance", "-1"}), 2, "--tolerance");
+  check_failure(run_program({"evaluate", "a", "b", "--tolerance", "nan"}), 2, "--tolerance");
+  check_failure(run_program({"evaluate", "a", "b", "--min-vertices", "-1"}), 2, "--min-vertices");
 }
 
 }  // namespace lacuna

@@ -50,7 +50,7 @@ nlohmann::json detect_on_earth(const test::ScratchFolder& scratch) {
   REQUIRE(
       run_program({"detect", scan, "--out", (scratch / "out").string(), "--obj", "--dxf", "--vtp", "--quiet"})
           .exit_code == 0);
-  return nlohmann::json::parse(read_file(scratch / "out" / "holes.json"));
+  return test::read_json(scratch / "out" / "holes.json");
 }
 
 std::vector<ReadLoop> loops_of(const nlohmann::json& report) {

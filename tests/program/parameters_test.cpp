@@ -100,7 +100,7 @@ class Runs {
       bytes += name;
       if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += test::read_file(file);
     }
-    const auto holes = nlohmann::json::parse(test::read_file(out / "holes.json"));
+    const auto holes = test::read_json(out / "holes.json");
     for (const char* key : {"crs", "unit", "loops"}) bytes += holes[key].dump();
     fs::remove_all(out);
     return bytes;

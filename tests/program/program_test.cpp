@@ -23,19 +23,12 @@ namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
+using test::check_failure;
 using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
-
-void check_failure(const ProgramResult& result, int exit_code, const std::string& named) {
-  INFO(result.err);
-  CHECK(result.exit_code == exit_code);
-  CHECK(result.out.empty());
-  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
-  CHECK(test::count_lines(result.err) == 1);
-}
 
 TEST_CASE("a run counts its loops in words") {
   const ScratchFolder scratch;
@@ -90,7 +83,8 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
                 "x.las is not possible; allowed: a name that ends in .ply");
   check_failure(run_program({"render", "d", "--out", "x.jpg"}), 2, "allowed: a name that ends in .png");
   check_failure(run_program({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2, "--points 0");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2, "--holes 90");
+  check_failure(run_program({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2,
+                "--holes 90");
   check_failure(run_program({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
                 "--density-step");
   check_failure(run_program({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,

@@ -27,18 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
+using test::check_failure;
 using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
-
-void check_failure(const ProgramResult& result, const std::string& named) {
-  INFO(result.err);
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.err, StartsWith("lacuna: error: ") && Contains(named));
-  CHECK(test::count_lines(result.err) == 1);
-}
 
 // The program, run by a shell after `before`.
 ProgramResult run_in_shell(const std::string& before, const std::vector<std::string>& arguments,
@@ -73,7 +67,7 @@ TEST_CASE("a file over the size limit is an error, and the workspace is removed"
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.xyz", sheet(150));
   const fs::path out = scratch / "out";
-  check_failure(run_in_shell("ulimit -f 64; ", {"detect", scan, "--out", out.string(), "--quiet"}),
+  check_failure(run_in_shell("ulimit -f 64; ", {"detect", scan, "--out", out.string(), "--quiet"}), 1,
                 "File too large");
   CHECK_FALSE(fs::exists(out));
 }
@@ -146,11 +140,11 @@ TEST_CASE("where the summary cannot be written, the error says that the results 
   for (const std::string redirection : {"> /dev/full", ">&-"}) {
     const ProgramResult result =
         run_in_shell("", {"detect", scan, "--out", out, "--progress", "none"}, redirection);
-    check_failure(result, "cannot write to standard output: ");
+    check_failure(result, 1, "cannot write to standard output: ");
     CHECK_THAT(result.err, Contains("; the results in " + out + " are complete\n"));
     CHECK(count_entries(out) == 6);
   }
-  check_failure(run_in_shell("", {"info", scan}, "> /dev/full"),
+  check_failure(run_in_shell("", {"info", scan}, "> /dev/full"), 1,
                 "standard output: No space left on device\n");
 }
 
@@ -222,7 +216,8 @@ TEST_CASE("threads that cannot be started are an error of one line") {
   for (const std::string limit : {"5", "6", "7", "8", "9", "10", "11"}) {
     INFO("ulimit -u " << limit);
     const fs::path out = scratch / "open" / limit;
-    check_failure(run(limit, {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}), "thread");
+    check_failure(run(limit, {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}), 1,
+                  "thread");
     CHECK_FALSE(fs::exists(out));
   }
 }
@@ -252,7 +247,7 @@ TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") 
     // SIGCONT changes nothing.
     check_failure(test::run_program_until({"detect", scan, "--out", out.string(), "--quiet"}, SIGCONT,
                                           change_when_read),
-                  "scan.xyz: has changed during the run (");
+                  1, "scan.xyz: has changed during the run (");
     CHECK_FALSE(fs::exists(out));
   }
 }

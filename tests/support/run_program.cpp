@@ -8,7 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include <catch2/catch.hpp>
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -89,6 +91,18 @@ ProgramResult run_command(const std::vector<std::string>& words) {
 
 std::size_t count_lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+void check_failure(const ProgramResult& result, int exit_code, const std::string& named) {
+  INFO(result.err);
+  CHECK(result.exit_code == exit_code);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.err, Catch::Matchers::StartsWith("lacuna: error: ") && Catch::Matchers::Contains(named));
+  CHECK(count_lines(result.err) == 1);
+}
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+  return nlohmann::json::parse(read_file(file));
 }
 
 }  // namespace lacuna::test

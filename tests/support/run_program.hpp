@@ -4,10 +4,12 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
 namespace lacuna::test {
@@ -33,5 +35,12 @@ ProgramResult run_program_beside(const std::vector<std::string>& arguments,
                                  const std::function<void(pid_t)>& meanwhile);
 
 std::size_t count_lines(const std::string& text);
+
+// Checks that the program ended with this exit code, printed nothing on stdout, and one line of an error that
+// has `named` on stderr.
+void check_failure(const ProgramResult& result, int exit_code, const std::string& named);
+
+// The content of a result in JSON.
+nlohmann::json read_json(const std::filesystem::path& file);
 
 }  // namespace lacuna::test
