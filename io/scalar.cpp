@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -58,6 +59,32 @@ void copy_column(ConstColumn from, Column to, std::size_t count) {
         const double wide = static_cast<double>(value);
         std::memcpy(to.data + i * to.stride, &wide, sizeof(wide));
       }
+    }
+  });
+}
+
+float nearest_float(double value) {
+  using Limits = std::numeric_limits<float>;
+  if (std::abs(value) > static_cast<double>(Limits::max()))
+    return value > 0 ? Limits::infinity() : -Limits::infinity();
+  return static_cast<float>(value);
+}
+
+void put_floating(std::byte* to, Scalar type, double value) {
+  assert(!is_integer(type));
+  if (type == Scalar::kFloat32) {
+    const float narrow = nearest_float(value);
+    std::memcpy(to, &narrow, sizeof(narrow));
+  } else {
+    std::memcpy(to, &value, sizeof(value));
+  }
+}
+
+void copy_sums(ConstColumn from, double summand, Column to, std::size_t count) {
+  with_type(from.type, [&](auto value) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(&value, from.data + i * from.stride, sizeof(value));
+      put_floating(to.data + i * to.stride, to.type, static_cast<double>(value) + summand);
     }
   });
 }

@@ -65,13 +65,14 @@ void require(const CLI::App& command, const std::string& option) {
 }
 
 // Empty where every program reads what was written.
-std::string readers_note(const FileScan& scan, const std::vector<fs::path>& written) {
-  if (scan.single_precision()) return "";
+std::string readers_note(const FileScan& scan, const OutputConfig& config,
+                         const std::vector<fs::path>& written) {
+  if (scan.single_precision() || config.local_coordinates) return "";
   const bool has_pcd = std::any_of(written.begin(), written.end(),
                                    [](const fs::path& file) { return file.extension() == ".pcd"; });
   return std::string("note: PCL takes the 64-bit coordinates of ") + (has_pcd ? "PLY and PCD" : "PLY") +
          " files for 0 0 0" + (has_pcd ? ", Open3D those of PCD" : "") +
-         "; --points --points-format las or csv helps\n";
+         "; --local-coordinates helps, or --points --points-format las or csv\n";
 }
 
 // Writes the results; returns their summary.
@@ -115,7 +116,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
-  summary += readers_note(scan, written);
+  summary += readers_note(scan, config.output, written);
   if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
   return summary;
 }
@@ -148,7 +149,8 @@ void add_detect_command(CLI::App& app) {
       ->add_option("SCAN", arguments->scans,
                    "Scan files, folders of them, or @LIST of their names; several are one registered scan")
       ->type_name("SCAN");
-  command->add_option("--out", arguments->out, "Folder for the results; created if missing")->type_name("DIR");
+  command->add_option("--out", arguments->out, "Folder for the results; created if missing")
+      ->type_name("DIR");
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
   add_choice(*command, "--progress", kProgressStyles, arguments->progress,

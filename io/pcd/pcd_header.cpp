@@ -78,11 +78,22 @@ void parse_direction(Parser& parser, LineWords& words) {
   if (count == 4) std::copy(quaternion.begin(), quaternion.end(), parser.header.viewpoint.begin() + 3);
 }
 
+// What follows the "#".
+void parse_comment(Parser& parser, LineWords& words) {
+  std::vector<std::string_view> rest;
+  for (std::string_view word; rest.size() < kOffsetWords + 1 && words.next(word);) rest.push_back(word);
+  read_offset(parser.in, rest, parser.header.offset);
+}
+
 // False at the end of the header.
 bool parse_line(Parser& parser, std::string_view line) {
   LineWords words(parser.in, line);
   std::string_view keyword;
-  if (!words.next(keyword) || keyword.starts_with('#')) return true;
+  if (!words.next(keyword)) return true;
+  if (keyword.starts_with('#')) {
+    parse_comment(parser, words);
+    return true;
+  }
   if (keyword == "COLUMNS") keyword = "FIELDS";  // its name in some old files
   if (!parser.seen.insert(std::string(keyword)).second) {
     parser.fail("a second line " + in_quotes(keyword) + "; one is allowed");
@@ -183,6 +194,12 @@ std::size_t PcdHeader::row_bytes() const {
   return bytes;
 }
 
+std::optional<Eigen::Vector3d> PcdHeader::scanner() const {
+  const Eigen::Vector3d place = Eigen::Vector3d::Map(viewpoint.data());
+  if (place.isZero(0)) return std::nullopt;
+  return offset ? place + *offset : place;
+}
+
 std::size_t PcdHeader::padding_bytes() const {
   std::size_t bytes = 0;
   for (const PcdField& field : fields) bytes += field.is_padding() ? field.bytes() : 0;
@@ -220,8 +237,9 @@ std::string print_pcd_header(const PcdHeader& header) {
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     viewpoint += ' ' + std::string(digits.data(), end);
   }
-  return std::string(kPcdMark) + "VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types +
-         "\nCOUNT" + counts + "\nWIDTH " + std::to_string(header.width) + "\nHEIGHT " +
+  const std::string offset = header.offset ? "# " + print_offset(*header.offset) + '\n' : "";
+  return std::string(kPcdMark) + offset + "VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" +
+         types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(header.width) + "\nHEIGHT " +
          std::to_string(header.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
          std::to_string(header.rows) + "\nDATA " + pcd_name(header.encoding) + '\n';
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "io/input_file.hpp"
+#include "io/local_offset.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +35,11 @@ struct PcdHeader {
   std::uint64_t width = 0, height = 1;  // of the image that the rows are; their product is `rows`
   // The scanner's position, in the coordinates of the points, and the quaternion w x y z of its direction.
   std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};
+  LocalOffset offset;  // of the coordinates and the viewpoint, as a comment states it
 
   std::size_t row_bytes() const;
+  // Where the scanner is in the coordinates of the scan. None at 0 0 0 of the file, which is the default.
+  std::optional<Eigen::Vector3d> scanner() const;
   std::size_t padding_bytes() const;  // of them, in fields named "_"
 };
 

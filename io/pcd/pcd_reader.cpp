@@ -1,10 +1,12 @@
 #include "io/pcd/pcd_reader.hpp"
 
 #include "io/number.hpp"
+#include "io/offset_reader.hpp"
 #include "io/pcd/pcd_fields.hpp"
 #include "io/pcd/pcd_rows.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -17,8 +19,11 @@ class PcdReader final : public ScanReader {
   std::string format() const override { return std::string("PCD, ") + pcd_name(rows_.header().encoding); }
   const RowLayout& layout() const override { return layout_; }
   std::vector<Eigen::Vector3d> no_return_places() const override {
-    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Map(rows_.header().viewpoint.data())};
+    std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
+    if (const auto scanner = rows_.header().scanner()) places.push_back(*scanner);
+    return places;
   }
+  const LocalOffset& offset() const { return rows_.header().offset; }
   std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
@@ -50,7 +55,9 @@ bool looks_like_pcd(const FileStart& start) {
 }
 
 std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions&) {
-  return std::make_unique<PcdReader>(file);
+  auto reader = std::make_unique<PcdReader>(file);
+  const LocalOffset offset = reader->offset();
+  return with_offset(std::move(reader), offset);
 }
 
 }  // namespace lacuna::io

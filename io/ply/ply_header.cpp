@@ -113,7 +113,11 @@ void set_known_names(PlyHeader& header) {
 
 // False at the end of the header.
 bool parse_line(Parser& parser, Words words) {
-  if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
+  if (words.empty() || words[0] == "obj_info") return true;
+  if (words[0] == "comment") {
+    read_offset(parser.in, words.subspan(1), parser.header.offset);
+    return true;
+  }
   if (words[0] == "Created" && words.size() > 1 && words[1] == "by")
     return true;  // of Blender 2.4, without "comment"
   if (words[0] == "end_header") return false;
@@ -190,6 +194,7 @@ PlyHeader read_ply_header(InputFile& in) {
 std::string print_ply_header(const PlyHeader& header, std::string_view comment) {
   std::string text = std::string("ply\nformat ") + ply_name(header.format) + " 1.0\n";
   text += "comment " + std::string(comment) + '\n';
+  if (header.offset) text += "comment " + print_offset(*header.offset) + '\n';
   for (const PlyElement& element : header.elements) {
     text += "element " + element.name + ' ' + std::to_string(element.count) + '\n';
     for (const PlyProperty& property : element.properties) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/input_file.hpp"
+#include "io/local_offset.hpp"
 #include "io/scan_reader.hpp"
 
 #include <cstdint>
@@ -33,6 +34,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
+  LocalOffset offset;  // of the coordinates, as a comment states it
 };
 
 // Reads up to and with "end_header" and its line end. All lines of the file end with a carriage return alone
@@ -42,7 +44,7 @@ struct PlyHeader {
 // declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);
 
-// The header as text, "\n" at line ends, with one comment.
+// The header as text, "\n" at line ends, with one comment, and a second one for the offset.
 std::string print_ply_header(const PlyHeader& header, std::string_view comment);
 
 }  // namespace lacuna::io

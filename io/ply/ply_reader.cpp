@@ -1,6 +1,7 @@
 #include "io/ply/ply_reader.hpp"
 
 #include "io/input_file.hpp"
+#include "io/offset_reader.hpp"
 #include "io/ply/ply_body.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/ply/ply_rows.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -46,6 +48,8 @@ class PlyReader final : public ScanReader {
 
   std::string format() const override { return std::string("PLY, ") + ply_name(header_.format); }
   const RowLayout& layout() const override { return layout_; }
+
+  const LocalOffset& offset() const { return header_.offset; }
 
   std::optional<std::uint64_t> expected_rows() const override { return header_.elements[element_].count; }
 
@@ -96,7 +100,9 @@ bool looks_like_ply(const FileStart& start) {
 }
 
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions&) {
-  return std::make_unique<PlyReader>(file);
+  auto reader = std::make_unique<PlyReader>(file);
+  const LocalOffset offset = reader->offset();
+  return with_offset(std::move(reader), offset);
 }
 
 }  // namespace lacuna::io

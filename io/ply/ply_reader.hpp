@@ -10,8 +10,9 @@ namespace lacuna::io {
 
 bool looks_like_ply(const FileStart& start);
 
-// Any scalar types; lists and other elements are passed over, but must be complete, and nothing may follow
-// the last one. A file too short for what its header declares is an `Error` at once.
+// Coordinates are those of the scan: an offset in the header is added. Any scalar types; lists and other
+// elements are passed over, but must be complete, and nothing may follow the last one. A file too short for
+// what its header declares is an `Error` at once.
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna::io

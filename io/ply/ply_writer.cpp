@@ -2,6 +2,7 @@
 
 #include "io/scalar.hpp"
 
+#include <array>
 #include <bit>
 #include <cassert>
 #include <utility>
@@ -10,13 +11,24 @@ namespace lacuna::io {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
-PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements) : out_(out) {
-  const PlyHeader header{.format = PlyFormat::kLittleEndian, .elements = std::move(elements)};
+PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset)
+    : out_(out), offset_(offset) {
+  const PlyHeader header{
+      .format = PlyFormat::kLittleEndian, .elements = std::move(elements), .offset = offset};
   for (const PlyElement& element : header.elements) {
     assert(!element.has_lists());
     missing_bytes_ += element.count * element.layout().stride;
   }
   out_.write(print_ply_header(header, "lacuna detect"));
+}
+
+void PlyWriter::put_position(Scalar type, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d in_file = offset_ ? position - *offset_ : position;
+  std::array<std::byte, sizeof(double)> bytes;
+  for (const double coordinate : in_file) {
+    put_floating(bytes.data(), type, coordinate);
+    put_bytes(std::span(bytes).first(size_of(type)));
+  }
 }
 
 void PlyWriter::put_as(Scalar type, double value) {

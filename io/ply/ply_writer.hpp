@@ -1,6 +1,7 @@
 // Binary little endian PLY, as a stream of values.
 #pragma once
 
+#include "io/local_offset.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/results/output_file.hpp"
 
@@ -17,8 +18,9 @@ inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1
 
 class PlyWriter {
  public:
-  // Writes the header. The elements have no lists; their counts are final.
-  PlyWriter(OutputFile& out, std::vector<PlyElement> elements);
+  // Writes the header. The elements have no lists; their counts are final. Coordinates are relative to the
+  // offset, if there is one.
+  PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset = {});
 
   // Values must follow in the order and with the types of the header.
   template <class T>
@@ -26,6 +28,8 @@ class PlyWriter {
     static_assert(std::is_arithmetic_v<T>);
     put_bytes(std::as_bytes(std::span(&value, 1)));
   }
+  // A position of the scan, each coordinate as kFloat32 or kFloat64.
+  void put_position(Scalar type, const Eigen::Vector3d& position);
   // Some values, as `Scalar` type of the header.
   void put_as(Scalar type, double value);
   void put_bytes(std::span<const std::byte> bytes);
@@ -35,6 +39,7 @@ class PlyWriter {
 
  private:
   OutputFile& out_;
+  LocalOffset offset_;
   std::uint64_t missing_bytes_ = 0;
 };
 

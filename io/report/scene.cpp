@@ -70,6 +70,7 @@ void read_holes(const fs::path& file, Scene& scene) {
       scene.bounds = {vector(rest.at("min")), vector(rest.at("max"))};
       scene.origin = scene.bounds.min();
       if (const double edge = scene.bounds.sizes().maxCoeff(); edge > 0) scene.edge = edge;
+      if (!scene.holes.at("offset").is_null()) scene.rounding = 0x1p-22 * (scene.edge + 1);
     }
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is not as lacuna detect writes it: " + error.what());
@@ -86,8 +87,18 @@ const Property& find(const fs::path& file, const RowLayout& layout, std::string_
   return *property;
 }
 
+// Whether a position lies outside of the bounds, by more than its rounding.
 bool is_stray(const Scene& scene, const Eigen::Vector3d& position) {
-  return scene.strays > 0 && !scene.bounds.contains(position);
+  if (scene.strays == 0) return false;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(scene.rounding);
+  return !Eigen::AlignedBox3d(scene.bounds.min() - margin, scene.bounds.max() + margin).contains(position);
+}
+
+// Relative to the scene's origin. What rounding has put outside of the bounds lies on them.
+Eigen::Vector3f place_in(const Scene& scene, const Eigen::Vector3d& position) {
+  Eigen::Vector3d inside = position;
+  if (scene.rounding > 0) inside = position.cwiseMax(scene.bounds.min()).cwiseMin(scene.bounds.max());
+  return (inside - scene.origin).cast<float>();
 }
 
 void read_points(const fs::path& file, std::size_t most, Scene& scene) {
@@ -112,7 +123,7 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
       const std::size_t i = taken * rows / wanted - before;
       if (is_stray(scene, positions[i])) continue;
       const Eigen::Vector3f normal = normals[i].cast<float>();
-      scene.points.positions.push_back((positions[i] - scene.origin).cast<float>());
+      scene.points.positions.push_back(place_in(scene, positions[i]));
       scene.points.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0));
       scene.points.probabilities.push_back(static_cast<float>(probabilities[i]));
       colours.take(i);
@@ -161,7 +172,7 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
       if (!is_shown[loop]) continue;
       ++lengths[loop];
       if (is_stray(scene, positions[i])) has_stray[loop] = true;
-      loops.vertices.push_back((positions[i] - scene.origin).cast<float>());
+      loops.vertices.push_back(place_in(scene, positions[i]));
     }
   }
   std::size_t kept = 0;

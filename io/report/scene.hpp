@@ -25,6 +25,7 @@ struct Scene {
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
   double edge = 1;                  // of the cube from there that holds everything; above 0
+  double rounding = 0;              // bound of what local coordinates (--local-coordinates) are off by
 
   struct Points {
     std::vector<Eigen::Vector3f> positions;

@@ -3,9 +3,11 @@
 #include "engine/criteria/criteria.hpp"
 #include "engine/run/error.hpp"
 #include "io/scalar.hpp"
+#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -26,10 +28,20 @@ std::vector<const Property*> find_sources(const RowLayout& from, std::span<const
   return sources;
 }
 
+// What makes a coordinate of the scan one of the file.
+std::optional<double> summand_of(const Property& column, const LocalOffset& offset) {
+  const auto axis = std::find(kPositionNames.begin(), kPositionNames.end(), column.name);
+  if (!offset || axis == kPositionNames.end()) return std::nullopt;
+  return -(*offset)[axis - kPositionNames.begin()];
+}
+
 class JoinedRows final : public InputRows {
  public:
-  JoinedRows(const FileScan& scan, RowLayout joined, std::size_t first, std::size_t end)
-      : scan_(scan), joined_(std::move(joined)), file_(first), end_(end) {}
+  JoinedRows(const FileScan& scan, RowLayout joined, std::size_t first, std::size_t end,
+             const LocalOffset& offset)
+      : scan_(scan), joined_(std::move(joined)), file_(first), end_(end) {
+    for (const Property& column : joined_.properties) summands_.push_back(summand_of(column, offset));
+  }
 
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
     for (; file_ < end_; ++file_, reader_.reset()) {
@@ -50,20 +62,25 @@ class JoinedRows final : public InputRows {
     for (std::size_t i = 0; i < joined_.properties.size(); ++i) {
       const Property& to = joined_.properties[i];
       const Column column{.data = out + to.offset, .stride = stride, .type = to.type};
-      if (const Property* source = sources_[i]) {
-        copy_column({.data = rows_.bytes.data() + source->offset,
-                     .stride = reader_->layout().stride,
-                     .type = source->type},
-                    column, rows_.count);
-      } else {
+      if (sources_[i] == nullptr) {
         fill_missing(column, rows_.count);
+        continue;
+      }
+      const ConstColumn source{.data = rows_.bytes.data() + sources_[i]->offset,
+                               .stride = reader_->layout().stride,
+                               .type = sources_[i]->type};
+      if (summands_[i]) {
+        copy_sums(source, *summands_[i], column, rows_.count);
+      } else {
+        copy_column(source, column, rows_.count);
       }
     }
   }
 
   const FileScan& scan_;
   RowLayout joined_;
-  std::vector<const Property*> sources_;  // in the reader's layout, one for each column
+  std::vector<const Property*> sources_;         // in the reader's layout, one for each column
+  std::vector<std::optional<double>> summands_;  // likewise; none: the column stays as it is
   std::size_t file_, end_;
   std::unique_ptr<ScanReader> reader_;
   RowBatch rows_;
@@ -135,13 +152,13 @@ RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_
   return packed_layout(joined);
 }
 
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined) {
-  return joined_rows(scan, std::move(joined), 0, scan.files().size());
+std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, const LocalOffset& offset) {
+  return std::make_unique<JoinedRows>(scan, std::move(joined), 0, scan.files().size(), offset);
 }
 
 std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
                                        std::size_t end) {
-  return std::make_unique<JoinedRows>(scan, std::move(joined), first, end);
+  return std::make_unique<JoinedRows>(scan, std::move(joined), first, end, std::nullopt);
 }
 
 void for_each_annotated_block(

@@ -4,6 +4,7 @@
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
+#include "io/local_offset.hpp"
 #include "io/scan_reader.hpp"
 
 #include <cstddef>
@@ -49,7 +50,9 @@ RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_
 // The joined rows of the files [first, end).
 std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
                                        std::size_t end);
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined);
+// Those of all files. Positions are relative to the offset, if there is one: x y z are floats then.
+std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined,
+                                       const LocalOffset& offset = {});
 
 // Calls visit(block, rows): rows of `input_bytes`, then the results, packed; all blocks in order, none larger
 // than a few MiB for rows of usual size. Throws `Error`, with `name`, if rows and results differ in number.

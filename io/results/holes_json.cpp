@@ -1,4 +1,5 @@
 #include "io/results/json.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"
 #include "io/scalar.hpp"
 
@@ -68,6 +69,8 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
   json["bounds"] = corners(summary.bounds);
   json["strays"] = strays_json(summary.strays);
+  const LocalOffset offset = local_offset(detection, config.output);
+  json["offset"] = offset ? list(*offset) : Json();
   json["probability"] = summary.probabilities;
   json["resolution"] = summary.resolution;
   json["mean_neighbours"] = summary.mean_neighbours;

@@ -1,5 +1,6 @@
 #include "engine/run/error.hpp"
 #include "io/ply/ply_writer.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/loop_colours.hpp"
 #include "io/results/results.hpp"
 
@@ -16,13 +17,15 @@ std::uint64_t count_points(const Detection& detection) {
 
 }  // namespace
 
-void write_loops(const Detection& detection, const FileScan& scan, OutputFile& out) {
+void write_loops(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                 OutputFile& out) {
   const std::uint64_t points = count_points(detection);
   if (points > std::numeric_limits<std::int32_t>::max()) {
     throw Error(out.path().string() + ": " + std::to_string(points) +
                 " points on loops; the format allows 2147483647");
   }
-  PlyElement vertex{.name = "vertex", .count = points, .properties = position_and_id(detection, scan)};
+  PlyElement vertex{
+      .name = "vertex", .count = points, .properties = position_and_id(detection, scan, config)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;
   vertex.properties.insert(vertex.properties.end() - 1, {"scalar_loop", Scalar::kInt32, {}});
@@ -34,13 +37,13 @@ void write_loops(const Detection& detection, const FileScan& scan, OutputFile& o
   const PlyElement edge{.name = "edge",
                         .count = points,
                         .properties = {{"vertex1", Scalar::kInt32, {}}, {"vertex2", Scalar::kInt32, {}}}};
-  PlyWriter writer(out, {vertex, edge});
+  PlyWriter writer(out, {vertex, edge}, local_offset(detection, config));
 
   for (std::size_t loop = 0; loop < detection.loops().size(); ++loop) {
     const LoopMeasures& measures = detection.loops()[loop];
     const LoopColour& colour = colour_of(measures.kind);
     detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
-      for (const double component : point.position) writer.put_as(coordinate, component);
+      writer.put_position(coordinate, point.position);
       writer.put(static_cast<std::int32_t>(loop));
       writer.put_as(id, static_cast<double>(value(point.id)));
       writer.put(static_cast<std::uint8_t>(measures.kind == LoopKind::kOuter));

@@ -1,4 +1,5 @@
 #include "engine/run/error.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/points.hpp"
 #include "io/results/points_pcd_rows.hpp"
 
@@ -17,9 +18,10 @@ void check_rows(const std::string& name, std::uint64_t rows) {
                 std::to_string(kMostRows) + "; --points-format ply or las holds more");
 }
 
-PcdInput pcd_input(const FileScan& scan, std::span<const ResultColumn> results) {
-  std::optional<PcdInput> kept = kept_pcd_input(scan, results);
-  return kept ? std::move(*kept) : converted_pcd_input(scan, results);
+PcdInput pcd_input(const FileScan& scan, const OutputConfig& config, std::span<const ResultColumn> results,
+                   const LocalOffset& offset) {
+  std::optional<PcdInput> kept = kept_pcd_input(scan, results, offset);
+  return kept ? std::move(*kept) : converted_pcd_input(scan, config, results, offset);
 }
 
 }  // namespace
@@ -30,7 +32,9 @@ void check_points_pcd(const FileScan& scan, const OutputConfig&) {
 
 std::uint64_t pcd_row_bytes(const FileScan& scan, const OutputConfig& config) {
   const std::vector<ResultColumn> results = result_columns(scan, config);
-  return bytes_of(results) + pcd_input(scan, results).header.row_bytes();
+  LocalOffset any;
+  if (config.local_coordinates) any = Eigen::Vector3d(0, 0, 0);
+  return bytes_of(results) + pcd_input(scan, config, results, any).header.row_bytes();
 }
 
 void write_points_pcd(const Detection& detection, const FileScan& scan, const OutputConfig& config,
@@ -39,7 +43,7 @@ void write_points_pcd(const Detection& detection, const FileScan& scan, const Ou
   const std::uint64_t rows = detection.summary().counts.points;
   check_rows(out.path().string(), rows);
 
-  PcdInput input = pcd_input(scan, results);
+  PcdInput input = pcd_input(scan, config, results, local_offset(detection, config));
   PcdHeader& header = input.header;
   if (header.width * header.height != rows) {
     header.width = rows;

@@ -1,3 +1,4 @@
+#include "io/results/local_coordinates.hpp"
 #include "io/results/points_pcd_rows.hpp"
 #include "io/scalar.hpp"
 
@@ -20,10 +21,11 @@ struct Converted {
   std::size_t channels = 3;
 };
 
-Converted converted_fields(const FileScan& scan, std::span<const ResultColumn> results) {
-  const RowLayout joined = join_layouts(scan.layouts(), [&](const RowLayout& layout, std::size_t i) {
-    return is_earlier_result(layout, i, results);
-  });
+Converted converted_fields(const FileScan& scan, const OutputConfig& config,
+                           std::span<const ResultColumn> results) {
+  const RowLayout joined = join_layouts(
+      written_layouts(scan, config),
+      [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results); });
   constexpr std::array kChannels = {"red", "green", "blue", "alpha"};
   const auto is_byte = [&](const char* name) {
     const Property* const found = joined.find(name);
@@ -76,8 +78,8 @@ Converted converted_fields(const FileScan& scan, std::span<const ResultColumn> r
 // Joined rows with the bytes of colours as one value of four bytes, blue lowest.
 class PackedRows final : public InputRows {
  public:
-  PackedRows(const FileScan& scan, Converted made)
-      : rows_(joined_rows(scan, made.layout)), made_(std::move(made)) {}
+  PackedRows(const FileScan& scan, Converted made, const LocalOffset& offset)
+      : rows_(joined_rows(scan, made.layout, offset)), made_(std::move(made)) {}
 
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
     const std::size_t count = rows_->next(max_rows, stride, block);
@@ -113,11 +115,13 @@ std::string pcd_name_of(const std::string& name) {
   return name;
 }
 
-PcdInput converted_pcd_input(const FileScan& scan, std::span<const ResultColumn> results) {
-  Converted made = converted_fields(scan, results);
+PcdInput converted_pcd_input(const FileScan& scan, const OutputConfig& config,
+                             std::span<const ResultColumn> results, const LocalOffset& offset) {
+  Converted made = converted_fields(scan, config, results);
   PcdInput input;
   input.header.fields = made.fields;
-  input.rows = std::make_unique<PackedRows>(scan, std::move(made));
+  input.header.offset = offset;
+  input.rows = std::make_unique<PackedRows>(scan, std::move(made), offset);
   return input;
 }
 

@@ -1,7 +1,9 @@
 // The rows of points.pcd, without the results: those of PCD files as they are, or the columns of any formats.
 #pragma once
 
+#include "engine/config.hpp"
 #include "io/file_scan.hpp"
+#include "io/local_offset.hpp"
 #include "io/pcd/pcd_header.hpp"
 #include "io/results/annotated_rows.hpp"
 
@@ -18,11 +20,14 @@ struct PcdInput {
 };
 
 // Without the fields that the results replace. None unless all files are PCD with the same fields and stay
-// where they are. Throws `Error`.
-std::optional<PcdInput> kept_pcd_input(const FileScan& scan, std::span<const ResultColumn> results);
+// where they are. With an offset, x y z are floats relative to it, here and below. Else, where a file has
+// local coordinates, they are doubles. Throws `Error`.
+std::optional<PcdInput> kept_pcd_input(const FileScan& scan, std::span<const ResultColumn> results,
+                                       const LocalOffset& offset);
 
 // In PCL's conventions: colours of bytes are one field.
-PcdInput converted_pcd_input(const FileScan& scan, std::span<const ResultColumn> results);
+PcdInput converted_pcd_input(const FileScan& scan, const OutputConfig& config,
+                             std::span<const ResultColumn> results, const LocalOffset& offset);
 
 // A column as a field, and PCL's name of it: normals have other ones.
 PcdField pcd_field_of(std::string name, Scalar type);

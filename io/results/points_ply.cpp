@@ -1,5 +1,6 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/results/annotated_rows.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/points.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct PlyColumns {
   RowLayout input;
 
   PlyColumns(const FileScan& scan, const OutputConfig& config) : results(result_columns(scan, config)) {
-    const auto& layouts = scan.layouts();
+    const std::vector<RowLayout> layouts = written_layouts(scan, config);
     if (std::none_of(layouts.begin(), layouts.end(), has_own_quality)) {
       const auto loop = std::find_if(results.begin(), results.end(),
                                      [](const auto& result) { return result.name == kBeforeQuality; });
@@ -48,8 +49,9 @@ void write_points_ply(const Detection& detection, const FileScan& scan, const Ou
     vertex.properties.push_back({property.name, property.type, {}});
   for (const ResultColumn& result : columns.results)
     vertex.properties.push_back({result.name, result.type, {}});
-  PlyWriter writer(out, {vertex});
-  const std::unique_ptr<InputRows> input = joined_rows(scan, columns.input);
+  const LocalOffset offset = local_offset(detection, config);
+  PlyWriter writer(out, {vertex}, offset);
+  const std::unique_ptr<InputRows> input = joined_rows(scan, columns.input, offset);
   for_each_annotated_block(detection, *input, columns.input.stride, columns.results, out.path().string(),
                            [&](const auto& block, std::size_t) { writer.put_bytes(block); });
   writer.finish();

@@ -7,6 +7,7 @@
 #include "io/report/report.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/loops_dxf.hpp"
 #include "io/results/loops_obj.hpp"
 #include "io/results/loops_vtp.hpp"
@@ -54,8 +55,10 @@ bool needs_gis_library(const Config& config) {
 // In the order in which they appear: holes.json comes last, and stands for all the others.
 const std::vector<ResultFile>& all_results() {
   static const std::vector<ResultFile> results = {
-      {"loops.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_loops(d, s, out); }, always},
-      {"boundary.ply", kPlyMark, [](D d, S s, C, OutputFile& out) { write_boundary(d, s, out); }, always},
+      {"loops.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); },
+       always},
+      {"boundary.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); },
+       always},
       {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points_ply(d, s, c.output, out); },
        has_points<PointsFormat::kPly>},
       {"points.las", points_las_mark(),
@@ -175,8 +178,9 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
   return set.commit();
 }
 
-std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan) {
-  const Scalar coordinate = scan.single_precision() ? Scalar::kFloat32 : Scalar::kFloat64;
+std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,
+                                         const OutputConfig& config) {
+  const Scalar coordinate = coordinate_type(scan, config);
   const bool small = detection.summary().counts.points <= std::numeric_limits<std::uint32_t>::max();
   return {{"x", coordinate, {}},
           {"y", coordinate, {}},

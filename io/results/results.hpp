@@ -47,12 +47,14 @@ void write_table(const Detection& detection, OutputFile& out);
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
 // (0: hole, 1: outer), quality, red green blue (io/results/loop_colours.hpp). Element edge: vertex1 vertex2,
-// closing each loop.
-void write_loops(const Detection& detection, const FileScan& scan, OutputFile& out);
+// closing each loop. Coordinates here and below: io/results/local_coordinates.hpp.
+void write_loops(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                 OutputFile& out);
 
 // Every point that is coherent or on a loop, in ascending id: x y z, scalar_probability, scalar_id,
 // scalar_loop (-1: none), quality (the probability).
-void write_boundary(const Detection& detection, const FileScan& scan, OutputFile& out);
+void write_boundary(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                    OutputFile& out);
 
 // The points of the sample, in ascending id: x y z, scalar_id, nx ny nz, scalar_probability, and the colours
 // of the input. These are red green blue and intensity, as far as a file has them. Reads every file once more
@@ -70,8 +72,9 @@ void write_probability_grid(const Detection& detection, OutputFile& out);
 // How a probability.vdb begins.
 std::string_view vdb_mark();
 
-// For the writers: x, y and z in the scan's precision, and the id. PLY has no integer of 64 bits: ids
+// For the writers: x, y and z of their type, and the id. PLY has no integer of 64 bits: ids
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
-std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan);
+std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,
+                                         const OutputConfig& config);
 
 }  // namespace lacuna::io

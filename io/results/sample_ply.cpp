@@ -2,6 +2,7 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/property_name.hpp"
 #include "io/results/annotated_rows.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"
 
 #include <algorithm>
@@ -55,26 +56,27 @@ class ColourRows {
 }  // namespace
 
 std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  const std::uint64_t position = 3 * (scan.single_precision() ? sizeof(float) : sizeof(double));
+  const std::uint64_t position = 3 * size_of(coordinate_type(scan, config));
   const std::uint64_t id = sizeof(std::uint32_t);
   return position + id + kComputed.size() * sizeof(float) + colour_columns(scan, config).stride;
 }
 
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out) {
-  PlyElement vertex{
-      .name = "vertex", .count = detection.sampled_points(), .properties = position_and_id(detection, scan)};
+  PlyElement vertex{.name = "vertex",
+                    .count = detection.sampled_points(),
+                    .properties = position_and_id(detection, scan, config)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;
   for (const char* const name : kComputed) vertex.properties.push_back({name, Scalar::kFloat32, {}});
   const RowLayout columns = colour_columns(scan, config);
   for (const Property& column : columns.properties)
     vertex.properties.push_back({column.name, column.type, {}});
-  PlyWriter writer(out, {vertex});
+  PlyWriter writer(out, {vertex}, local_offset(detection, config));
 
   ColourRows colours(scan, columns);
   detection.for_each_sampled_point([&](const SampledPoint& point) {
-    for (const double component : point.position) writer.put_as(coordinate, component);
+    writer.put_position(coordinate, point.position);
     writer.put_as(id, static_cast<double>(value(point.id)));
     for (const float component : point.normal) writer.put(component);
     writer.put(point.probability);

@@ -288,20 +288,24 @@ TEST_CASE(
 
 TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {
   const ScratchFolder scratch;
-  const auto output = [&](const std::string& scan, const std::string& format) {
-    return run_program({"detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format",
-                        format, "--overwrite"})
-        .out;
+  const auto output = [&](const std::string& scan, const std::string& format,
+                          const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {
+        "detect",          scan,   "--out",      (scratch / "out").string(), "--points",
+        "--points-format", format, "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words).out;
   };
   const std::string doubles = scratch.write("scan.txt", sheet(20));
   const std::string note = "note: PCL takes the 64-bit coordinates of PLY ";
   CHECK_THAT(output(doubles, "pcd"), Contains(note + "and PCD files for 0 0 0, Open3D those of PCD; "));
-  CHECK_THAT(output(doubles, "csv"), Contains(note + "files for 0 0 0; "));
+  CHECK_THAT(output(doubles, "csv"), Contains(note + "files for 0 0 0; --local-coordinates helps, or "));
   const std::string floats = scratch.write(
       "scan.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
       "end_header\n1 2 3\n");
   CHECK_THAT(output(floats, "pcd"), Contains("written: ") && !Contains("note:"));
+  CHECK_THAT(output(doubles, "pcd", {"--local-coordinates"}), Contains("written: ") && !Contains("note:"));
 }
 
 TEST_CASE("a workspace elsewhere is used, and kept with --keep-workspace") {

@@ -14,12 +14,13 @@ printf '%s\n' "$work/torus.ply" "$work/few.xyz pose=5 0 0 0 0 0 1" >"$work/list"
 "$program" detect "$work/torus.ply" --out "$work/tiled" --quiet --threads 3 --tile-points 900 --memory-limit 100MiB
 "$program" detect "@$work/list" --out "$work/two" --quiet --no-coordinates
 "$program" detect "$work/few.xyz" --out "$work/none" --quiet 2>/dev/null
+"$program" detect "$work/torus.ply" --out "$work/local" --quiet --local-coordinates
 
 for file in holes.json holes.csv loops.ply boundary.ply; do
   cmp "$work/one/$file" "$work/tiled/$file"
 done
 # Debian's own python3, since python3-jsonschema is a package of it.
-/usr/bin/python3 - docs/holes.schema.json "$work"/{one,two,none}/holes.json <<'END'
+/usr/bin/python3 - docs/holes.schema.json "$work"/{one,two,none,local}/holes.json <<'END'
 import csv, json, sys
 from pathlib import Path
 import jsonschema
@@ -30,17 +31,22 @@ validator = jsonschema.Draft202012Validator(schema)
 reports = [json.loads(Path(name).read_text(encoding="utf-8")) for name in sys.argv[2:]]
 for report in reports:
     validator.validate(report)
-one, two, none = reports
+one, two, none, local = reports
 assert len(one["loops"]) == 3 and not none["loops"]
 assert all(len(loop["ids"]) == len(loop["coordinates"]) == loop["points"] for loop in one["loops"])
 assert [loop["ids"] for loop in two["loops"]] == [loop["ids"] for loop in one["loops"]]
 assert two["inputs"][1]["first_id"] == one["counts"]["points"]
 assert two["inputs"][1]["points"] == 3 and two["inputs"][1]["pose"][3] == 5
+assert all(report["offset"] is None for report in (one, two, none))
+bounds = local["strays"]["rest"]
+assert all(abs(2 * at - low - high) <= 1 for at, low, high in zip(local["offset"], bounds["min"], bounds["max"]))
+assert local["loops"] == one["loops"]
 with open(Path(sys.argv[2]).parent / "holes.csv", encoding="utf-8", newline="") as table:
     rows = list(csv.DictReader(table))
 assert [float(row["area"]) for row in rows] == [loop["area"] for loop in one["loops"]]
 
-for break_it in (lambda r: r.pop("schema"), lambda r: r["loops"][0].update(kind="rim"), lambda r: r.update(tiles=4)):
+for break_it in (lambda r: r.pop("schema"), lambda r: r.pop("offset"), lambda r: r.update(offset=[0.5, 0, 0]),
+                 lambda r: r.update(offset=[0, 0]), lambda r: r["loops"][0].update(kind="rim"), lambda r: r.update(tiles=4)):
     broken = json.loads(json.dumps(one))
     break_it(broken)
     assert not validator.is_valid(broken)
