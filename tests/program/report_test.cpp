@@ -135,11 +135,31 @@ TEST_CASE("a signal while the report is made leaves the earlier results and thei
   }
 }
 
+TEST_CASE("the page carries the licence of three.js, which it contains") {
+  const Made made(sheet(), {"--report"});
+  std::string page = made.page();
+  const std::size_t library = page.find("Number.EPSILON===undefined");
+  REQUIRE(library != page.npos);
+  std::replace(page.begin(), page.end(), '\n', ' ');
+  page.erase(std::unique(page.begin(), page.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+             page.end());
+  // As /usr/share/doc/libjs-three/copyright has it.
+  for (const char* const part :
+       {"three.js release 111 and OrbitControls. The MIT License. Copyright (c) 2010-2019 three.js authors",
+        "Permission is hereby granted, free of charge, to any person obtaining a copy",
+        "The above copyright notice and this permission notice shall be included in all copies or "
+        "substantial "
+        "portions of the Software.",
+        "THE SOFTWARE IS PROVIDED \"AS IS\", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED"}) {
+    CHECK_THAT(page, Contains(part));
+  }
+}
+
 TEST_CASE("the data of a report are the loops and the sample, to a millionth of the scan's extent") {
   const Made made(sheet().translated(kUtm), {"--report"});
   const std::string page = made.page();
   const json report = json::parse(element(page, "report"));
-  const json holes = json::parse(read_file(made.out() / "holes.json"));
+  const json holes = test::read_json(made.out() / "holes.json");
   CHECK(page.starts_with("<!doctype html>\n<!-- Lacuna report"));
   CHECK(report.at("title") == "sc<an.txt");
   CHECK(page.find("sc<an.txt") == page.npos);  // no text of the scan is taken for a tag
@@ -233,7 +253,8 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
     return run.err;
   };
   const std::string out = made.out().string();
-  CHECK_THAT(refused(out + "/nowhere"), Contains("/nowhere: not a folder; allowed: a folder with results of lacuna detect"));
+  CHECK_THAT(refused(out + "/nowhere"),
+             Contains("/nowhere: not a folder; allowed: a folder with results of lacuna detect"));
   const std::string holes = read_file(made.out() / "holes.json");
   const auto write = [&](const std::string& text) { std::ofstream(made.out() / "holes.json") << text; };
   for (std::size_t size = 0; size < holes.size() - 2; size += 1777) {
