@@ -95,6 +95,8 @@ std::uint64_t Job::tile_points(std::uint64_t points) const {
     return std::clamp(static_cast<std::uint64_t>(config.run.tile_points), sizes.least, sizes.most);
   // Halves are not quite equal: without space for the larger ones some would be halved once more.
   const std::uint64_t threads = arena.threads(), share = points * 9 / 8 / (kTilesPerThread * threads);
+  // Without the fixed bytes of each further tile: tiles are rarely full, and `for_each_within_budget` holds
+  // the budget. Smaller tiles cost more time: within 64 MiB, 16 threads took 17 % longer with them counted.
   const std::uint64_t wanted = std::min(std::clamp(share, kLeast, kMost), sizes.most / threads);
   return std::max(wanted, sizes.least);
 }
