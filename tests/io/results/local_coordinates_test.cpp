@@ -200,6 +200,9 @@ TEST_CASE("an offset in a header is added to the positions, and to nothing else"
       "F\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 1\nDATA ascii\n9 0.5 1 2\n";
   const auto reader = open_scan(folder.write("a.pcd", pcd), {});
   CHECK(reader->no_return_places() == Points{Point(0, 0, 0), Point(500'001, -0.5, 1003)});
+  std::string unknown = pcd;
+  unknown.replace(unknown.find("VIEWPOINT 1 2 3"), 15, "VIEWPOINT 0 0 0");
+  CHECK(open_scan(folder.write("unknown.pcd", unknown), {})->no_return_places() == Points{Point(0, 0, 0)});
   CHECK(read_table(folder / "a.pcd").rows[0] == std::vector<double>{9, 500'000.5, -1.5, 1002});
 }
 
@@ -272,6 +275,11 @@ TEST_CASE("points.pcd of PCD files keeps all but their positions, whatever offse
   const std::string doubles = write({first}, false, "doubles");
   CHECK((doubles == write({real}, false, "plain")));
   check_points("doubles", 1);
+  // An unknown scanner stays unknown.
+  std::string unknown = "VERSION .7\n" + fields + rows.str();
+  unknown.replace(unknown.find("500001.5 5400002 300"), 20, "0 0 0");
+  CHECK_THAT(write({folder.write("unknown.pcd", unknown)}, true, "unknown"),
+             Contains("\nVIEWPOINT 0 0 0 0.5 0.5 0.5 0.5\n"));
   // Two files with another offset each.
   std::string shifted = local;
   shifted.replace(shifted.find("lacuna offset 500005"), 20, "lacuna offset 500004");
