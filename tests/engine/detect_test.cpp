@@ -163,11 +163,11 @@ TEST_CASE("a punched plane has its hole and its outer curve, as in the plain met
 }
 
 TEST_CASE("random clouds with random parameters give the results of the plain method under any tiling") {
-  for (std::uint64_t seed = 1; seed <= draws(250); ++seed) check_seed(seed);
+  for (std::uint64_t seed = 1; seed <= draws(50); ++seed) check_seed(seed);
 }
 
 TEST_CASE("two thousand more random clouds give the results of the plain method", "[.slow]") {
-  for (std::uint64_t seed = 251; seed <= 2250; ++seed) check_seed(seed);
+  for (std::uint64_t seed = 51; seed <= 2250; ++seed) check_seed(seed);
 }
 
 TEST_CASE("clouds made to be hard give the results of the plain method with random parameters", "[.slow]") {
@@ -191,6 +191,7 @@ TEST_CASE("tiling and threads never show, on a cloud made to be hard") {
   const std::string one_tile = run_engine(cloud, tiled(config, 1'000'000, 1)).bytes();
   for (const std::int64_t tile_points : {1, 50, 500, 5'000}) {
     for (const std::int64_t threads : {1, 2, 8}) {
+      if (tile_points == 1 && threads == 2) continue;  // the slowest
       INFO(tile_points << " points a tile, " << threads << " threads");
       CHECK(run_engine(cloud, tiled(config, tile_points, threads)).bytes() == one_tile);
     }
@@ -199,8 +200,8 @@ TEST_CASE("tiling and threads never show, on a cloud made to be hard") {
 }
 
 // Thick with noise, nearly every point is a candidate: most of the graph is loops that reach over many tiles.
-TEST_CASE("tiling never shows in a tangle of short loops across many tiles") {
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+void check_tangles(std::uint64_t first, std::uint64_t last) {
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
     const Cloud cloud = scattered(1500, seed).scaled(40).noisy(0.5, seed).shuffled(seed);
     Config config;
     config.spanning.e = 3 + static_cast<std::int64_t>(seed % 8);
@@ -208,9 +209,17 @@ TEST_CASE("tiling never shows in a tangle of short loops across many tiles") {
     const std::string one_tile = run_engine(cloud, tiled(config, 1'000'000, 1)).bytes();
     for (const std::int64_t tile_points : {1, 40, 300})
       CHECK(run_engine(cloud, tiled(config, tile_points)).bytes() == one_tile);
-    if (seed <= 4)
+    if (seed % 4 == 1)
       check_equal(run_engine(cloud, tiled(config, 100)), reference::detect(cloud.positions, {}, config));
   }
+}
+
+TEST_CASE("tiling never shows in a tangle of short loops across many tiles") {
+  check_tangles(1, 5);
+}
+
+TEST_CASE("tiling never shows in many more tangles of short loops across many tiles", "[.slow]") {
+  check_tangles(6, 40);
 }
 
 // ---- Degenerate and difficult clouds -------------------------------------------------------------------

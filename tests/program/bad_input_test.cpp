@@ -317,7 +317,9 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
       scratch.write("scan.ply", binary_ply(plane(300).punched({150, 150}, 8).jittered(0.2, 1)));
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{}, {"--points", "--normals"}, {"--vdb"}, {"--orient-normals"}}) {
+    const bool is_usual = options.empty() || options[0] == "--points";
     for (const std::string limit : {"64MiB", "1GiB"}) {
+      if (!is_usual && limit == "1GiB") continue;
       std::vector<std::string> arguments = {"info", scan, "--json", "--memory-limit", limit};
       arguments.insert(arguments.end(), options.begin(), options.end());
       const auto needs = nlohmann::json::parse(run_program(arguments).out);

@@ -73,7 +73,7 @@ void check_limit(const Cloud& cloud, const std::vector<std::string>& more = {}) 
 }
 
 TEST_CASE("a volume of random points stays within the memory limit") {
-  check_limit(volume(300'000, 1));
+  check_limit(volume(200'000, 1));
 }
 
 TEST_CASE("a scan thinned in several shares stays within the memory limit") {

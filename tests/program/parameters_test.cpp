@@ -143,6 +143,12 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   };
   constexpr Setting kSettings[] = {
       {LoopMethod::kTangential, false}, {LoopMethod::kTangential, true}, {LoopMethod::kPaper, true}};
+  // With points there are more results. So an effect without points is one with points, too, and no effect
+  // with points is none without.
+  const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
+    const bool needs_points = parameter.needs.options.starts_with("--points");
+    return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
+  };
   for (const auto& [method, with_points] : kSettings) {
     Config config;
     config.loops.method = method;
@@ -154,6 +160,7 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
       set_other(parameter, runs.workspace());
       const bool has_effect = parameter.needs.is_given(changed) && parameter.section != "run";
+      if (follows(parameter, method, with_points, has_effect)) continue;
       INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
       CHECK((runs.results(changed) != before) == has_effect);
     }

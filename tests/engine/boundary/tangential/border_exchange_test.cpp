@@ -112,11 +112,19 @@ TEST_CASE("wedges in uneven and noisy clouds are those of a single tile, and clo
   }
 }
 
-TEST_CASE("wedges of drawn clouds are those of a single tile, and close to curves") {
-  for (std::uint64_t seed = 1; seed <= draws(40); ++seed) {
+void check_drawn(std::uint64_t first, std::uint64_t last) {
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
     INFO("seed " << seed);
     check_tilings(random_cloud(20'000 + seed));
   }
+}
+
+TEST_CASE("wedges of drawn clouds are those of a single tile, and close to curves") {
+  check_drawn(1, draws(12));
+}
+
+TEST_CASE("wedges of many more drawn clouds are those of a single tile, and close to curves", "[.slow]") {
+  check_drawn(13, 12 + draws(100));
 }
 
 TEST_CASE("the exchange between tiles does not depend on the number of threads") {

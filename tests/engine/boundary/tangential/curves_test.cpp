@@ -174,10 +174,10 @@ TEST_CASE("a curve is split where it passes a point again, into curves that pass
 }
 
 // Whatever the curve, its parts pass each point once and have all its points, the same in mapped arrays.
-TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
-  Random random(11);
-  for (int round = 0; round < 60; ++round) {
-    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, round < 56 ? 200 : 30'000)));
+void check_random_curves(std::uint64_t seed, int rounds, int longest) {
+  Random random(seed);
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, longest)));
     const auto points = static_cast<std::int64_t>(passed.size()) / random.whole(1, 8) + 3;
     for (auto& p : passed) p = static_cast<std::uint64_t>(random.whole(0, points));
     const std::vector<CurvePoint> curve = curve_of(passed);
@@ -199,6 +199,15 @@ TEST_CASE("random curves are split into simple ones, in memory and in mapped fil
                                  [](const auto& a, const auto& b) { return ids(a) == ids(b); });
     CHECK(same);
   }
+}
+
+TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
+  check_random_curves(11, 56, 200);
+  check_random_curves(12, 1, 30'000);
+}
+
+TEST_CASE("long random curves are split into simple ones, in memory and in mapped files", "[.slow]") {
+  check_random_curves(13, 10, 30'000);
 }
 
 TEST_CASE("confidence is a logistic function of the mean clearness along the curve and some length more") {
