@@ -38,6 +38,12 @@ if has pcl_convert_pcd_ascii_binary; then
   pcl_convert_pcd_ascii_binary pcd/points.pcd ascii.pcd 0 >pcl.log 2>&1
   grep -q "^POINTS $points$" ascii.pcd
   grep -q "scalar_probability" ascii.pcd
+  # This program has points of floats, which take doubles for 0 0 0. Local coordinates keep their extent of 39.
+  awk 'BEGIN { for (i = 0; i < 1600; ++i) printf "%.2f %.2f 300\n", 500000.25 + i % 40, 5400000.25 + int(i / 40) }' >utm.xyz
+  "$program" detect utm.xyz --out local --points --points-format pcd --local-coordinates --quiet
+  pcl_demean_cloud local/points.pcd middle.pcd >pcl.log 2>&1
+  pcl_convert_pcd_ascii_binary middle.pcd ascii.pcd 0 >pcl.log 2>&1
+  sed '1,/^DATA/d' ascii.pcd | awk '$1 > 19.4 && $2 > 19.4 { found = 1 } END { exit !found }'
 fi
 
 if has pdal; then
