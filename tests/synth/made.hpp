@@ -130,6 +130,9 @@ inline std::size_t rims_of(SurfaceKind kind) {
 inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves,     SurfaceKind::kCylinder,
                                       SurfaceKind::kTorus, SurfaceKind::kSphereCap, SurfaceKind::kSphere,
                                       SurfaceKind::kCube};
+inline constexpr std::array kAllScenes{SceneKind::kRoom,  SceneKind::kCourt,  SceneKind::kHall,
+                                       SceneKind::kVault, SceneKind::kStreet, SceneKind::kPlant,
+                                       SceneKind::kAerial};
 inline constexpr std::array kAllPositions{PositionKind::kJittered, PositionKind::kRandom};
 inline constexpr std::array kPanelKinds{SurfaceKind::kSphere, SurfaceKind::kCube};
 

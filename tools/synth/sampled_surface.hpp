@@ -36,7 +36,7 @@ struct Lattice {
   }
 };
 
-// About 4 nodes per point, but at most 3 million, and fewer for more than 4 stations. A place that no station
+// About 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place that no station
 // samples counts as sampled all the same unless it lies in a hole. Holes are balls with a radius of 2
 // spacings of the nearest sampled places, in which nothing is sampled. All within 3 spacings of their middle
 // belongs to them. Places on the far side of a thin thing are not near.

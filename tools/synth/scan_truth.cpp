@@ -87,8 +87,7 @@ void to_canonical(std::vector<std::uint64_t>& ids) {
 
 ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) {
   const Visibility visibility(scanner);
-  const std::vector<Curve> curves =
-      boundary_curves(sample_surfaces(scanner, visibility, points), scanner, visibility);
+  const std::vector<Curve> curves = boundary_curves(sample_surfaces(scanner, visibility, points), visibility);
   double whole = 0;
   for (const Curve& curve : curves)
     for_each_side(curve, [&](const CurvePlace&, const CurvePlace&, double length) { whole += length; });
