@@ -162,7 +162,7 @@ class Loop:
 
 
 def loops_of(arguments, case, logistic, config):
-    """Loops that are joined or parted run along true ones, and take no part."""
+    """Loops that are joined, parted or along steps of density take no part: they are neither right nor wrong."""
     folder = arguments.work / "out" / "calibrate" / case.name
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--overwrite", "--threads", 1,
          "--config", config, "--min-confidence", arguments.least])
@@ -171,7 +171,7 @@ def loops_of(arguments, case, logistic, config):
     verdicts = json.loads(run([arguments.lacuna, "evaluate", folder, case.truth, "--json", *positions,
                                "--min-vertices", case.min_vertices]))["loop_matches"]
     return [Loop(case.group, logistic.evidence(loop["confidence"]), match["verdict"] != "false")
-            for loop, match in zip(found, verdicts, strict=True) if match["verdict"] not in ("joined", "parted")]
+            for loop, match in zip(found, verdicts, strict=True) if match["verdict"] not in ("joined", "parted", "step")]
 
 
 def detect_all(arguments, cases, logistic):

@@ -119,11 +119,11 @@ TEST_CASE(
   CHECK(hash(SceneKind::kRoom, Order::kScanline) == 0x25d59ce3a4bffc8du);
   CHECK(hash(SceneKind::kCourt, Order::kRandom) == 0x3aa0958aba795917u);
   CHECK(hash(SceneKind::kHall, Order::kScanline) == 0x8db3d5542b4e6719u);
-  CHECK(fnv1a(read_file(folder / "made.loops.txt")) == 0x75acfa9cc7674a91u);
+  CHECK(fnv1a(without_steps(read_file(folder / "made.loops.txt"))) == 0x75acfa9cc7674a91u);
   CHECK(hash(SceneKind::kVault, Order::kScanline) == 0x41896b837057aafbu);
   CHECK(hash(SceneKind::kStreet, Order::kScanline) == 0x5f27a7eb5ccbb76au);
   CHECK(hash(SceneKind::kPlant, Order::kScanline) == 0x9829e56d3e014692u);
-  CHECK(hash(SceneKind::kAerial, Order::kScanline) == 0x14f799799ae9fa62u);
+  CHECK(hash(SceneKind::kAerial, Order::kScanline) == 0xcb50ef4483ab50f3u);
 }
 
 TEST_CASE("a scan has about the wanted number of points, of every station, with intensities in range") {

@@ -59,7 +59,7 @@ void add_houses(Scene& scene, const Terrain& ground, std::uint64_t seed) {
       scene.houses.push_back({.base = {x, y, ground.height(x, y) - kFoundation},
                               .half_length = random.uniform(draw + 5, 6, 10),
                               .half_width = random.uniform(draw + 6, 4, 6),
-                              .eaves = kFoundation + random.uniform(draw + 7, 3, 8),
+                              .eaves = kFoundation + random.uniform(draw + 7, 4.5, 9),
                               .rise = flat ? 0 : random.uniform(draw + 8, 1.5, 4),
                               .cosine = cosine,
                               .sine = sine,

@@ -75,6 +75,7 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   const std::vector<NamedLoop> loops = truth.loops();
   write_truth_head(truth_file, options.out);
   for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
+  for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};

@@ -42,6 +42,8 @@ class Scanner {
  public:
   // Below this cosine of the angle of incidence nothing comes back.
   static constexpr double kGrazing = 0.03;
+  // From the air, walls are seen at less than this one. They have a few points, too few for a surface.
+  static constexpr double kGrazingFromAir = 0.35;
 
   // Throws `Error` when no ray returns anything.
   Scanner(const ScanOptions& options, Scene scene);
@@ -53,6 +55,8 @@ class Scanner {
   double lowest() const { return lowest_; }              // turns
   double highest() const { return lowest_ + upright_; }  // turns
   double max_range() const { return max_range_; }
+  // A surface counts as sampled from this cosine of the angle of incidence on.
+  double least_cosine() const { return scene_.flown ? kGrazingFromAir : kGrazing; }
   double strip_length() const { return scene_.stand_high.x - scene_.stand_low.x; }
 
   // Where the ray of a sweep to this place starts.

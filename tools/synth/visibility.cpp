@@ -70,7 +70,8 @@ Cause Visibility::cause(const SurfacePlace& place, std::uint32_t number) const {
   if (elevation < lowest_) return {scene.flown ? Cause::kStrip : Cause::kBelow, sweep.station};
   if (elevation > highest_) return {scene.flown ? Cause::kStrip : Cause::kAbove, sweep.station};
   if (range > scanner_.max_range()) return {Cause::kFar, sweep.station};
-  if ((place.two_sided ? std::fabs(facing) : facing) < Scanner::kGrazing) return {Cause::kEdge, place.shape};
+  if ((place.two_sided ? std::fabs(facing) : facing) < scanner_.least_cosine())
+    return {Cause::kEdge, place.shape};
   const Hit hit = cast(scene, {eye, direction});
   if (hit.range > range + kSamePlace) return {Cause::kDoor, place.shape};
   if (hit.reflectance == 0 && scene.is_wall(hit.shape)) return {Cause::kWindow, hit.shape};
