@@ -12,14 +12,10 @@ namespace {
 
 constexpr double kJump = 2;  // of the spacing
 
-Lattice sampled_by(const Lattice& lattice, const Visibility& station) {
+Lattice sampled_by(const Lattice& lattice, std::size_t station, std::size_t stations) {
   Lattice own = lattice;
-  for (std::int32_t row = 0; row < own.rows; ++row) {
-    for (std::int32_t column = 0; column < own.columns; ++column) {
-      std::uint8_t& sampled = own.sampled[own.node(column, row)];
-      sampled = sampled != 0 && station.any(own.at(column, row));
-    }
-  }
+  for (std::size_t node = 0; node < own.sampled.size(); ++node)
+    own.sampled[node] = lattice.by_station[node * stations + station];
   return own;
 }
 
@@ -50,8 +46,8 @@ void cut(const Curve& curve, const Holds& holds, std::vector<Curve>& pieces) {
 std::vector<Curve> density_steps(const std::vector<Lattice>& lattices, const Scanner& scanner,
                                  const Visibility& visibility) {
   std::vector<Curve> steps;
-  if (scanner.stations().size() == 1) return steps;
-  for (std::uint32_t station = 0; station < scanner.stations().size(); ++station) {
+  const std::size_t stations = scanner.stations().size();
+  for (std::uint32_t station = 0; stations > 1 && station < stations; ++station) {
     const Visibility own = visibility.only(station), others = visibility.without(station);
     for (const Lattice& lattice : lattices) {
       const auto is_step = [&](const CurvePlace& at) {
@@ -59,7 +55,8 @@ std::vector<Curve> density_steps(const std::vector<Lattice>& lattices, const Sca
         const SurfacePlace place{at.position, at.normal, at.shape, lattice.patch.two_sided};
         return others.spacing(place) >= kJump * visibility.spacing(place);
       };
-      for (const Curve& curve : patch_curves(sampled_by(lattice, own), own)) cut(curve, is_step, steps);
+      for (const Curve& curve : patch_curves(sampled_by(lattice, station, stations), own))
+        cut(curve, is_step, steps);
     }
   }
   return steps;

@@ -150,9 +150,18 @@ std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& v
         static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
     lattice.spacing.resize(size);
     lattice.sampled.resize(size);
+    lattice.by_station.resize(size * scanner.stations().size());
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
-      lattice.spacing[node] = static_cast<float>(visibility.spacing(lattice.at(column, row)));
-      lattice.sampled[node] = lattice.spacing[node] > 0;
+      const SurfacePlace place = lattice.at(column, row);
+      double sum = 0;
+      for (const std::uint32_t sweep : visibility.sweeps()) {
+        const double density = visibility.density(place, sweep);
+        if (density == 0) continue;
+        sum += density;
+        lattice.by_station[node * scanner.stations().size() + scanner.sweeps()[sweep].station] = true;
+      }
+      lattice.spacing[node] = sum > 0 ? static_cast<float>(1 / std::sqrt(sum)) : 0;
+      lattice.sampled[node] = sum > 0;
     });
   }
   close_gaps(lattices, visibility);

@@ -17,6 +17,7 @@ struct Lattice {
   double step;                        // metres, the larger of both directions
   std::vector<float> spacing;         // of the points around each node; 0: no station samples it
   std::vector<std::uint8_t> sampled;  // by a station, or in a gap too narrow for a hole
+  std::vector<bool> by_station;       // is the node sampled: station after station of each node
 
   std::size_t node(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

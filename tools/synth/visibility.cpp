@@ -95,7 +95,9 @@ Vec3 Visibility::facing(const SurfacePlace& place) const {
   return place.normal;
 }
 
-double Visibility::density(const SurfacePlace& place, const Sweep& sweep) const {
+double Visibility::density(const SurfacePlace& place, std::uint32_t number) const {
+  if (cause(place, number).kind != Cause::kNone) return 0;
+  const Sweep& sweep = scanner_.sweeps()[number];
   const Scene& scene = scanner_.scene();
   const Vec3 eye = scanner_.eye(sweep, place.position);
   const Vec3 arm = place.position - eye;
@@ -119,8 +121,7 @@ double Visibility::density(const SurfacePlace& place, const Sweep& sweep) const 
 
 double Visibility::spacing(const SurfacePlace& place) const {
   double sum = 0;
-  for (const std::uint32_t sweep : sweeps_)
-    if (cause(place, sweep).kind == Cause::kNone) sum += density(place, scanner_.sweeps()[sweep]);
+  for (const std::uint32_t sweep : sweeps_) sum += density(place, sweep);
   return sum > 0 ? 1 / std::sqrt(sum) : 0;
 }
 

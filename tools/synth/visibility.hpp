@@ -57,14 +57,15 @@ class Visibility {
   // The normal on the side of the first station that samples the place; that of the surface where none does.
   Vec3 facing(const SurfacePlace& place) const;
 
+  // Points per square metre that one sweep leaves around the place; 0 if it does not sample it.
+  double density(const SurfacePlace& place, std::uint32_t sweep) const;
+
   // Mean distance of the points that all sweeps leave around the place; 0 if none samples it. For a scanner
   // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
   // so, since their points lie close in one direction only.
   double spacing(const SurfacePlace& place) const;
 
  private:
-  double density(const SurfacePlace& place, const Sweep& sweep) const;
-
   const Scanner& scanner_;
   double lowest_, highest_;  // sines of the elevation
   std::vector<std::uint32_t> sweeps_;

@@ -2,6 +2,8 @@
 
 #include "tests/io/io_support.hpp"
 
+#include <sstream>
+
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
@@ -53,10 +55,11 @@ TEST_CASE("the comment before a loop is its name, that of the file is none", "[i
 
 TEST_CASE("a line that begins with #step is a step of density, and neither a loop nor a name", "[io]") {
   const ScratchFolder folder;
-  std::string many = "#step";
-  for (int id = 0; id < 1000; ++id) many += " " + std::to_string(id);
-  const std::string file =
-      folder.write("a.txt", "# head\n1 2 3\n#step 4 5 4\n 7 8\n" + many + "\n9\n#steps 1 2\n# step 3\n");
+  std::ostringstream many;
+  many << "#step";
+  for (int id = 0; id < 1000; ++id) many << ' ' << id;
+  const std::string file = folder.write(
+      "a.txt", "# head\n1 2 3\n#step 4 5 4\n 7 8\n" + many.str() + "\n9\n#steps 1 2\n# step 3\n");
   CHECK(read_loops(file) == Loops{{1, 2, 3}, {7, 8}, {9}});
   for (const NamedLoopIds& loop : read_named_loops(file)) CHECK((loop.name.empty() || loop.name == "head"));
   const Loops steps = read_steps(file);
