@@ -56,7 +56,8 @@ std::string print_scores(const EvaluationText& text) {
       << print_count(scores.found) << "\n  missed      " << print_count(scores.missed) << "\n  loops       "
       << print_count(scores.loops) << "\n  false       " << print_count(scores.false_loops)
       << "\n  joined      " << print_count(scores.joined) << "\n  parted      " << print_count(scores.parted)
-      << "\n  unsampled   " << (truth.surface ? print_count(scores.unsampled) : "-") << "\n  repeated    "
+      << "\n  step        " << (truth.steps.empty() ? "-" : print_count(scores.steps)) << "\n  unsampled   "
+      << (truth.surface ? print_count(scores.unsampled) : "-") << "\n  repeated    "
       << print_count(scores.repeated) << "\n  recall      " << print_share(scores.recall)
       << "\n  precision   " << print_share(scores.precision) << "\n  spacing     "
       << print_number(truth.spacing, "%.6g") << ", tolerance " << print_number(text.rule.tolerance, "%g")
@@ -84,12 +85,13 @@ std::string print_loops(const EvaluationText& text) {
                                    : "-"});
   }
   if (rows.size() > 1) tables += print_rows(std::move(rows));
-  rows = {{"loop", "points", "verdict", "true loop", "on it", "covered", "on any", "at unsampled"}};
+  rows = {
+      {"loop", "points", "verdict", "true loop", "on it", "covered", "on any", "on step", "at unsampled"}};
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
     const LoopMatch& match = evaluation.loops.loops[i];
     rows.push_back({std::to_string(i), print_count(result.loops[i].size()), name_of(match.verdict),
                     print_index(match.true_loop), print_number(match.on), print_number(match.covered),
-                    print_number(match.on_any), print_share(match.at_unsampled)});
+                    print_number(match.on_any), print_share(match.on_step), print_share(match.at_unsampled)});
   }
   if (rows.size() > 1) tables += print_rows(std::move(rows));
   return tables;
@@ -102,6 +104,7 @@ std::string print_conclusion(const LoopScores& scores) {
       << (scores.false_loops == 1 ? " is false" : " are false");
   for (const auto& [count, name] :
        {std::pair(scores.joined, "joined"), std::pair(scores.parted, "parted"),
+        std::pair(scores.steps, scores.steps == 1 ? "step" : "steps"),
         std::pair(scores.unsampled, "unsampled"), std::pair(scores.repeated, "repeated")}) {
     if (count > 0) out << ", " << print_count(count) << " " << name;
   }

@@ -50,6 +50,7 @@ std::string print_json(const EvaluationText& text) {
                {"repeated", scores.repeated},
                {"joined", scores.joined},
                {"parted", scores.parted},
+               {"step", scores.steps},
                {"unsampled", scores.unsampled},
                {"recall", or_null(scores.recall)},
                {"precision", or_null(scores.precision)},
@@ -84,6 +85,7 @@ std::string print_json(const EvaluationText& text) {
                                     {"on_any", match.on_any},
                                     {"on", match.on},
                                     {"covered", match.covered},
+                                    {"on_step", or_null(match.on_step)},
                                     {"at_unsampled", or_null(match.at_unsampled)}});
   }
   // Names of files need not be UTF-8.

@@ -70,6 +70,8 @@ std::string print_sentence(const EvaluationText& text) {
       "loops join true loops, or one with other places");
   add(scores.parted, "loop follows a part of a true loop", "loops follow parts of true loops");
   add(scores.repeated, "loop repeats a found one", "loops repeat found ones");
+  add(scores.steps, "loop follows a step of density, with points on both sides",
+      "loops follow steps of density, with points on both sides");
   add(scores.unsampled, "loop goes around a place of the surface without points: right, but no true loop",
       "loops go around places of the surface without points: right, but no true loops");
   add(scores.short_loops, "true loop is too short to count (--min-vertices)",
@@ -155,6 +157,8 @@ const char* describe(EdgeDecision verdict) {
       return "joined with";
     case EdgeDecision::kParted:
       return "part of";
+    case EdgeDecision::kStep:
+      return "step of density";
     case EdgeDecision::kUnsampled:
       return "unsampled place";
     case EdgeDecision::kFalse:
@@ -179,8 +183,8 @@ std::string print_others(const EvaluationText& text, double extent) {
     const std::size_t i = loops[at];
     const LoopMatch& match = matches[i];
     std::string verdict = describe(match.verdict);
-    if (match.true_loop && match.verdict != EdgeDecision::kFalse &&
-        match.verdict != EdgeDecision::kUnsampled) {
+    if (match.true_loop &&
+        (match.verdict == EdgeDecision::kJoined || match.verdict == EdgeDecision::kParted)) {
       const std::string& name = text.truth.loops[*match.true_loop].name;
       verdict += " " + (name.empty() ? "true loop " + std::to_string(*match.true_loop) : visible(name));
     }

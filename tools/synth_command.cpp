@@ -29,8 +29,13 @@ constexpr std::array<Choice<SurfaceKind>, 7> kKinds{{{"plane", SurfaceKind::kPla
                                                      {"cube", SurfaceKind::kCube}}};
 constexpr std::array<Choice<PositionKind>, 2> kPositions{
     {{"jittered", PositionKind::kJittered}, {"random", PositionKind::kRandom}}};
-constexpr std::array<Choice<SceneKind>, 3> kScenes{
-    {{"room", SceneKind::kRoom}, {"court", SceneKind::kCourt}, {"hall", SceneKind::kHall}}};
+constexpr std::array<Choice<SceneKind>, 7> kScenes{{{"room", SceneKind::kRoom},
+                                                    {"court", SceneKind::kCourt},
+                                                    {"hall", SceneKind::kHall},
+                                                    {"vault", SceneKind::kVault},
+                                                    {"street", SceneKind::kStreet},
+                                                    {"plant", SceneKind::kPlant},
+                                                    {"aerial", SceneKind::kAerial}}};
 constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, {"random", Order::kRandom}}};
 
 // What both kinds of scan have.
@@ -109,13 +114,23 @@ void add_surface(CLI::App& synth) {
 }
 
 void add_scan(CLI::App& synth) {
-  CLI::App& app = *synth.add_subcommand(
-      "scan", "A scene as terrestrial laser scanners measure it, in metres, and its true loops");
+  CLI::App& app =
+      *synth.add_subcommand("scan", "A scene as laser scanners measure it, in metres, and its true loops");
   const auto options = std::make_shared<ScanOptions>();
   ScanOptions& o = *options;
   add_common(app, o);
-  add_choice(app, "--scene", kScenes, o.scene, "what is scanned")->default_str("room");
-  app.add_option("--stations", o.stations, "from how many places, 1 to 255")
+  add_choice(app, "--scene", kScenes, o.scene, "what is scanned; aerial: from the air")->default_str("room");
+  app.add_option("--stations", o.stations,
+                 "from how many places, or in how many strips from the air, 1 to 255")
+      ->check(whole_number())
+      ->capture_default_str();
+  app.add_option("--station-factor", o.station_factor,
+                 "points of the first station over those of each other one, 0.01 to 100")
+      ->check(real_number())
+      ->capture_default_str();
+  app.add_option(
+         "--sweeps", o.sweeps,
+         "sweeps of each station, 1 to 8; several are tilted by 25 degrees, so that their lines cross")
       ->check(whole_number())
       ->capture_default_str();
   app.add_option("--noise", o.noise, "Gaussian noise along the ray, standard deviation in metres")
@@ -128,7 +143,7 @@ void add_scan(CLI::App& synth) {
                  "error of the place of each station after the first, standard deviation in metres")
       ->check(real_number())
       ->capture_default_str();
-  app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres")
+  app.add_option("--max-range", o.max_range, "what is farther returns nothing, metres; not from the air")
       ->check(real_number())
       ->capture_default_str();
   app.add_option("--ring-ratio", o.ring_ratio,
@@ -136,7 +151,8 @@ void add_scan(CLI::App& synth) {
                  "5 or more")
       ->check(real_number())
       ->capture_default_str();
-  app.add_option("--field-of-view", o.field_of_view, "lowest and highest elevation, degrees")
+  app.add_option("--field-of-view", o.field_of_view,
+                 "lowest and highest elevation, degrees; not from the air")
       ->check(real_number())
       ->type_name("LOW HIGH")
       ->default_str("-60 90");

@@ -18,6 +18,8 @@ constexpr const char* name_of(accuracy::EdgeDecision verdict) {
       return "joined";
     case EdgeDecision::kParted:
       return "parted";
+    case EdgeDecision::kStep:
+      return "step";
     case EdgeDecision::kUnsampled:
       return "unsampled";
     case EdgeDecision::kFalse:

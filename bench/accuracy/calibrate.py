@@ -92,8 +92,46 @@ def range_sets(arguments):
                         lambda made=(scene, perspective, noise, seed % 2 == 0, seed): range_map(*made))
 
 
+def lidar_sets(arguments):
+    """Every scene, and each thing that makes a lidar scan harder. Other seeds and values than in sets.py."""
+    def to_top(degrees, *options):
+        return ["--field-of-view", -60, degrees, *options]
+
+    scans = {"room-top85": to_top(85, "--stations", 1),
+             "room-noise": ["--noise", 0.03],  # about the spacing
+             "room-rings8": ["--ring-ratio", 8, "--stations", 3],
+             "room-crossing": ["--sweeps", 2, "--ring-ratio", 3],
+             "room-step": ["--station-factor", 10],
+             "court-top88": to_top(88, "--stations", 3),
+             "court-registration": ["--stations", 4, "--registration", 0.01],
+             "court-rings3": ["--ring-ratio", 3],
+             "court-step": ["--station-factor", 6, "--noise", 0.005],
+             "hall-top85": to_top(85, "--noise", 0.01),
+             "hall-crossing": ["--sweeps", 3, "--ring-ratio", 6, "--stations", 3],
+             "hall-rings5": ["--ring-ratio", 5, "--noise", 0.02],
+             "vault-top90": to_top(90, "--stations", 3),
+             "vault-top88": to_top(88, "--stations", 2, "--noise", 0.008),
+             "vault-noise": ["--stations", 4, "--noise", 0.06],
+             "vault-step": ["--stations", 3, "--station-factor", 7],
+             "street-top85": to_top(85, "--stations", 3, "--registration", 0.01),
+             "street-rings8": ["--stations", 3, "--ring-ratio", 8],
+             "street-crossing": ["--stations", 3, "--sweeps", 3, "--ring-ratio", 5],
+             "plant-top88": to_top(88, "--stations", 4),
+             "plant-noise": ["--stations", 3, "--noise", 0.05],
+             "plant-registration": ["--stations", 3, "--registration", 0.02, "--ring-ratio", 3],
+             "aerial-even": ["--stations", 3, "--noise", 0.03],
+             "aerial-noise": ["--stations", 5, "--noise", 0.15, "--registration", 0.1],
+             "aerial-rings": ["--stations", 4, "--ring-ratio", 3],
+             "aerial-step": ["--stations", 2, "--station-factor", 6, "--noise", 0.05]}
+    for seed, (name, options) in enumerate(scans.items(), start=501):
+        yield synth(arguments, "lidar", f"fit-{name}", "scan",
+                    ["--scene", name.split("-")[0], "--points", 150_000, "--seed", seed, *options])
+
+
 def fit_sets(arguments):
-    return [*surface_sets(arguments), *mesh_sets(arguments), *range_sets(arguments)]
+    """Without --lidar none of the scans is a lidar scan: the present evidence does not serve these."""
+    return [*surface_sets(arguments), *mesh_sets(arguments), *range_sets(arguments),
+            *(lidar_sets(arguments) if arguments.lidar else ())]
 
 
 def test_sets(arguments):
@@ -124,7 +162,7 @@ class Loop:
 
 
 def loops_of(arguments, case, logistic, config):
-    """Loops that are joined or parted run along true ones, and take no part."""
+    """Loops that are joined, parted or along steps of density take no part: they are neither right nor wrong."""
     folder = arguments.work / "out" / "calibrate" / case.name
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--overwrite", "--threads", 1,
          "--config", config, "--min-confidence", arguments.least])
@@ -133,7 +171,7 @@ def loops_of(arguments, case, logistic, config):
     verdicts = json.loads(run([arguments.lacuna, "evaluate", folder, case.truth, "--json", *positions,
                                "--min-vertices", case.min_vertices]))["loop_matches"]
     return [Loop(case.group, logistic.evidence(loop["confidence"]), match["verdict"] != "false")
-            for loop, match in zip(found, verdicts, strict=True) if match["verdict"] not in ("joined", "parted")]
+            for loop, match in zip(found, verdicts, strict=True) if match["verdict"] not in ("joined", "parted", "step")]
 
 
 def detect_all(arguments, cases, logistic):
@@ -211,6 +249,7 @@ def parse_arguments():
                         help="fits, each to the loops found with the constants of the one before; with 0 the program's "
                              "own constants are checked (default 3)")
     parser.add_argument("--least", type=float, default=0.02, help="confidence of the loops that take part (default 0.02)")
+    parser.add_argument("--lidar", action="store_true", help="lidar scans take part in the fit, too")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
     return parser.parse_args()
 

@@ -7,7 +7,7 @@ import subprocess
 from sets import run
 
 # Numbers of loops from `lacuna evaluate`. All are columns of the CSV; all but the first are columns of the table.
-COUNTS = ("true", "found", "false", "joined", "parted", "repeated")
+COUNTS = ("true", "found", "false", "joined", "parted", "step", "repeated")
 PCL_NEIGHBOURS = [15, 30]
 PCL_DEGREES = [90, 120]
 CGAL_BOUNDS = [1.5, 2, 3, 4]  # circumradii of triangles, spacings

@@ -220,6 +220,33 @@ def lidar_sets(arguments):
                     ["--scene", name.split("-")[0], "--points", 200_000, "--seed", seed, *options])
 
 
+def hard_lidar_sets(arguments):
+    """By group: what makes each of its scans hard."""
+    groups = {"lidar-view": {"room": ["--stations", 1, "--field-of-view", -60, 85],
+                             "vault": ["--stations", 3, "--field-of-view", -60, 85],
+                             "hall": ["--stations", 2, "--field-of-view", -55, 88, "--noise", 0.005]},
+              "lidar-noise": {"room": ["--noise", 0.03],  # about the spacing
+                              "plant": ["--stations", 3, "--noise", 0.05],
+                              "street": ["--stations", 3, "--noise", 0.05]},
+              "lidar-rings": {"court": ["--stations", 3, "--ring-ratio", 5],
+                              "vault": ["--stations", 3, "--ring-ratio", 5, "--noise", 0.01],
+                              "street": ["--stations", 3, "--ring-ratio", 5, "--noise", 0.01]},
+              "lidar-crossing": {"room": ["--stations", 1, "--sweeps", 3, "--ring-ratio", 5],
+                                 "hall": ["--stations", 3, "--sweeps", 3, "--ring-ratio", 5],
+                                 "plant": ["--stations", 3, "--sweeps", 2, "--ring-ratio", 4, "--noise", 0.01]},
+              "lidar-steps": {"room": ["--stations", 2, "--station-factor", 10],
+                              "court": ["--stations", 2, "--station-factor", 8],
+                              "vault": ["--stations", 3, "--station-factor", 5]},
+              "aerial": {"aerial-even": ["--stations", 4, "--noise", 0.03],
+                         "aerial-noise": ["--stations", 3, "--noise", 0.2, "--registration", 0.1],
+                         "aerial-lines": ["--stations", 3, "--ring-ratio", 2.5],
+                         "aerial-steps": ["--stations", 3, "--station-factor", 5, "--noise", 0.05]}}
+    scans = [(group, name, options) for group, own in groups.items() for name, options in own.items()]
+    for seed, (group, name, options) in enumerate(scans, start=61):
+        yield synth(arguments, group, name if group == "aerial" else f"{group}-{name}", "scan",
+                    ["--scene", name.split("-")[0], "--points", 150_000, "--seed", seed, *options])
+
+
 def quick_sets(arguments):
     """Small ones of every kind, for tools/check.sh."""
     def holes(kind, *options):
@@ -257,4 +284,4 @@ def quick_sets(arguments):
 
 # By group; a group of the table may be one of several that a function yields.
 GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, uneven_mesh_sets, degraded_sets, range_sets, range_made_sets,
-          lidar_sets, quick_sets]
+          lidar_sets, hard_lidar_sets, quick_sets]

@@ -69,11 +69,20 @@ std::string read_comment(InputFile& in, std::string_view first) {
   return text;
 }
 
-// "# window" is "window"; the mark of the file is no name.
+// "# window" is "window"; the mark of the file is no name, and a step of density is none.
 std::string name_in(std::string comment) {
-  if (comment.starts_with(kLoopsTextMark)) return {};
+  if (comment.starts_with(kLoopsTextMark) || comment.starts_with(std::string(kStepMark) + " ")) return {};
   comment.erase(0, comment.find_first_not_of("# "));
   return comment;
+}
+
+std::uint64_t parse_id(const InputFile& in, std::string_view word) {
+  std::uint64_t id = 0;
+  if (!parse_number(word, id)) {
+    in.fail_at_line(in.line() + 1, in_quotes(word) + " is not a point id, " +
+                                       describe_number<std::uint64_t>() + "; a line is the ids of one loop");
+  }
+  return id;
 }
 
 std::vector<NamedLoopIds> read_text_loops(InputFile& in) {
@@ -86,13 +95,7 @@ std::vector<NamedLoopIds> read_text_loops(InputFile& in) {
         name = word->size() <= kLongestComment ? name_in(read_comment(in, std::string(*word))) : "";
         break;
       }
-      std::uint64_t id = 0;
-      if (!parse_number(*word, id)) {
-        in.fail_at_line(in.line() + 1, in_quotes(*word) + " is not a point id, " +
-                                           describe_number<std::uint64_t>() +
-                                           "; a line is the ids of one loop");
-      }
-      loop.push_back(id);
+      loop.push_back(parse_id(in, *word));
     }
     while (!in.end_row()) in.next_word();  // the rest of a comment
     if (!loop.empty()) loops.push_back({std::move(loop), std::exchange(name, "")});
@@ -112,6 +115,20 @@ std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
   std::vector<LoopIds> loops;
   for (NamedLoopIds& loop : read_named_loops(file)) loops.push_back(std::move(loop.ids));
   return loops;
+}
+
+std::vector<LoopIds> read_steps(const std::filesystem::path& file) {
+  std::vector<LoopIds> steps;
+  InputFile in(file);
+  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return steps;
+  while (in.next_row()) {
+    if (const auto word = in.next_word(); word && *word == kStepMark) {
+      LoopIds& step = steps.emplace_back();
+      while (const auto id = in.next_word()) step.push_back(parse_id(in, *id));
+    }
+    while (!in.end_row()) in.next_word();
+  }
+  return steps;
 }
 
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {

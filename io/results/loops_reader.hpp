@@ -28,6 +28,13 @@ inline constexpr std::string_view kLoopsTextMark = "# one boundary loop per line
 // one blank; what exceeds 200 bytes is left out. Loops of a PLY file have no names.
 std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 
+// How a line with a step of density begins in a file of true loops; for other readers it is a comment.
+inline constexpr std::string_view kStepMark = "#step";
+
+// Reads the steps of density: rows of ids, in which neighbours are joined by an edge. They are closed where
+// the first id is the last, too. Only text has steps. Throws `Error`.
+std::vector<LoopIds> read_steps(const std::filesystem::path& file);
+
 // The ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);
 

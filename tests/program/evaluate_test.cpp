@@ -276,6 +276,38 @@ TEST_CASE("loops on true loops without a match, and loops around gaps in the poi
           Contains("\n  unsampled   1\n"));
 }
 
+TEST_CASE("loops along the steps of density that the truth names are counted apart") {
+  const ScratchFolder folder;
+  std::string rows;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 30; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  // Squares of 8 x 8 points.
+  const auto around = [](int x, int y) {
+    std::string line;
+    for (int i = 0; i < 7; ++i) line += std::to_string(30 * y + x + i) + " ";
+    for (int i = 0; i < 7; ++i) line += std::to_string(30 * (y + i) + x + 7) + " ";
+    for (int i = 7; i > 0; --i) line += std::to_string(30 * (y + 7) + x + i) + " ";
+    for (int i = 7; i > 0; --i) line += std::to_string(30 * (y + i) + x) + " ";
+    return line;
+  };
+  const std::string scan = folder.write("scan.xyz", rows);
+  const std::string truth = folder.write("truth.txt", around(1, 1) + "\n#step " + around(18, 18) + "\n");
+  const std::string found =
+      folder.write("found.txt", around(1, 1) + "\n" + around(18, 18) + "\n" + around(18, 1));
+  const auto report = evaluate({found, truth, "--scan", scan});
+  CHECK((report.at("found") == 1 && report.at("step") == 1 && report.at("false") == 1));
+  CHECK(report.at("precision") == 0.5);
+  CHECK(report.at("loop_matches")[1].at("verdict") == "step");
+  CHECK(report.at("loop_matches")[1].at("on_step") == 1);
+  CHECK(report.at("loop_matches")[0].at("on_step").is_null());
+  const ProgramResult text = run_program({"evaluate", found, truth, "--scan", scan, "--verbose"});
+  CHECK_THAT(text.out, Contains("\n  1 loop follows a step of density, with points on both sides\n") &&
+                           Contains("step of density\n") && Contains("\n  step        1\n") &&
+                           Contains("Of 3 loops, 1 is false, 1 step.\n"));
+  const std::string other = folder.write("other.txt", around(1, 1) + "\n#step 1 900\n");
+  check_refused(run_program({"evaluate", found, other, "--scan", scan}), 1, "other.txt: id 900");
+}
+
 TEST_CASE("confidences of the report are judged by the area under the ROC curve") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("square.ply", kSquare);

@@ -56,7 +56,8 @@ TEST_CASE("the synth command makes what the options say") {
 
   run("synth scan " + quoted(out) +
       " --scene hall --points 5000 --stations 3 --noise 0.01 --outliers 0.1 --max-range 20" +
-      " --registration 0.03 --ring-ratio 4 --field-of-view -30 60 --truth " + quoted(out + ".txt"));
+      " --registration 0.03 --ring-ratio 4 --field-of-view -30 60 --sweeps 2 --station-factor 3 --truth " +
+      quoted(out + ".txt"));
   CHECK(rows_of(out, 17).size() == Approx(5000).epsilon(0.1));
   ScanOptions scan = {.out = options.out, .scene = SceneKind::kHall, .points = 5000, .stations = 3};
   scan.noise = 0.01;
@@ -65,6 +66,8 @@ TEST_CASE("the synth command makes what the options say") {
   scan.registration = 0.03;
   scan.ring_ratio = 4;
   scan.field_of_view = {-30, 60};
+  scan.sweeps = 2;
+  scan.station_factor = 3;
   write_scan(scan);
   CHECK(read_file(out) == read_file(scan.out));
   CHECK(loops_of(out + ".txt") == loops_of(folder / "again.loops.txt"));

@@ -96,6 +96,15 @@ inline std::vector<std::vector<std::uint64_t>> loops_of(const std::filesystem::p
   return loops;
 }
 
+// The lines of loops, without those of steps of density.
+inline std::string without_steps(const std::string& truth) {
+  std::istringstream in(truth);
+  std::string kept;
+  for (std::string line; std::getline(in, line);)
+    if (!line.starts_with("#step ")) kept += line + "\n";
+  return kept;
+}
+
 // What the comment before each loop says.
 inline std::vector<std::string> names_of(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -130,6 +139,9 @@ inline std::size_t rims_of(SurfaceKind kind) {
 inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves,     SurfaceKind::kCylinder,
                                       SurfaceKind::kTorus, SurfaceKind::kSphereCap, SurfaceKind::kSphere,
                                       SurfaceKind::kCube};
+inline constexpr std::array kAllScenes{SceneKind::kRoom,  SceneKind::kCourt,  SceneKind::kHall,
+                                       SceneKind::kVault, SceneKind::kStreet, SceneKind::kPlant,
+                                       SceneKind::kAerial};
 inline constexpr std::array kAllPositions{PositionKind::kJittered, PositionKind::kRandom};
 inline constexpr std::array kPanelKinds{SurfaceKind::kSphere, SurfaceKind::kCube};
 

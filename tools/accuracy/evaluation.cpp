@@ -10,6 +10,7 @@
 #include "tools/accuracy/loop_kind.hpp"
 #include "tools/accuracy/mesh_boundary.hpp"
 #include "tools/accuracy/spacing.hpp"
+#include "tools/accuracy/step_loops.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -196,6 +197,8 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, const Resul
   if (mesh) {
     take_mesh(triangles, truth);
   } else {
+    truth.steps = read_steps(file);
+    for (const LoopIds& step : truth.steps) check_ids(file, step, truth);
     take_loops(std::move(loops), truth);
   }
   return truth;
@@ -218,6 +221,7 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   const double tolerance = rule.tolerance * truth.spacing;
   const MatchRule match{.tolerance = tolerance, .min_vertices = rule.min_vertices};
   evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
+  mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
   if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
   if (result.boundary) {
     check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);

@@ -34,7 +34,8 @@ struct Truth {
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::uint64_t> stand_ins;
   std::vector<TrueLoop> loops;
-  double spacing = 0;  // median, over the places that take part
+  std::vector<io::LoopIds> steps;  // of density; see io::read_steps()
+  double spacing = 0;              // median, over the places that take part
   std::optional<Surface> surface;
 };
 

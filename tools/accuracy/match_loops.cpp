@@ -151,6 +151,7 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
     scores.repeated += loop.verdict == EdgeDecision::kRepeated;
     scores.joined += loop.verdict == EdgeDecision::kJoined;
     scores.parted += loop.verdict == EdgeDecision::kParted;
+    scores.steps += loop.verdict == EdgeDecision::kStep;
     scores.unsampled += loop.verdict == EdgeDecision::kUnsampled;
   }
   const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
@@ -158,7 +159,8 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
     return static_cast<double>(part) / static_cast<double>(whole);
   };
   scores.recall = share(scores.found, scores.true_loops);
-  scores.precision = share(scores.loops - scores.false_loops - scores.joined - scores.parted, scores.loops);
+  const std::size_t judged = scores.loops - scores.steps;
+  scores.precision = share(judged - scores.false_loops - scores.joined - scores.parted, judged);
   return scores;
 }
 

@@ -28,6 +28,7 @@ enum class EdgeDecision {
   kShort,      // matches only a true loop that does not count: neither right nor wrong
   kJoined,     // matches none, but runs along several that count
   kParted,     // matches none, but is a part of one that counts
+  kStep,       // along a step of density; match_loops does not know it
   kUnsampled,  // around a place of the surface without points; match_loops does not know it
   kFalse,      // none of these
 };
@@ -41,6 +42,7 @@ struct LoopMatch {
   double on_any = 0;                   // share of its points on the true loops that count
   double on = 0;                       // share of its points on that true loop
   double covered = 0;                  // share of that true loop's vertices on it
+  std::optional<double> on_step;       // share of its points on steps of density
   std::optional<double> at_unsampled;  // share of its points at an unsampled place inside it
 };
 
@@ -52,9 +54,10 @@ struct TrueMatch {
 struct LoopScores {
   std::size_t true_loops = 0, found = 0, missed = 0;  // of those that count
   std::size_t short_loops = 0;                        // true ones that do not
-  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, unsampled = 0;
-  std::optional<double> recall;     // found of the true ones; none: there are none
-  std::optional<double> precision;  // neither false, joined nor parted of the loops; none: there are none
+  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0, unsampled = 0;
+  std::optional<double> recall;  // found of the true ones; none: there are none
+  std::optional<double>
+      precision;  // neither false, joined nor parted of the loops but steps; none: there are none
 };
 
 struct LoopAccuracy {
@@ -72,8 +75,8 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
 
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
 // half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do
-// those that are neither right nor wrong (short, joined, parted, unsampled). There is no value where either
-// kind is missing.
+// those that are neither right nor wrong (short, joined, parted, step, unsampled). There is no value where
+// either kind is missing.
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
 
 }  // namespace lacuna::accuracy

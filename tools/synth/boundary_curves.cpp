@@ -36,11 +36,10 @@ struct PatchCurves {
   std::vector<std::size_t> patches;  // of each curve
 };
 
-PatchCurves trace(const std::vector<Lattice>& lattices, const Scanner& scanner,
-                  const Visibility& visibility) {
+PatchCurves trace(const std::vector<Lattice>& lattices, const Visibility& visibility) {
   PatchCurves all;
   for (std::size_t patch = 0; patch < lattices.size(); ++patch) {
-    for (Curve& curve : patch_curves(lattices[patch], scanner, visibility)) {
+    for (Curve& curve : patch_curves(lattices[patch], visibility)) {
       all.curves.push_back(std::move(curve));
       all.patches.push_back(patch);
     }
@@ -148,9 +147,8 @@ void join(const std::vector<Curve>& pieces, std::vector<Curve>& closed) {
 
 }  // namespace
 
-std::vector<Curve> boundary_curves(const std::vector<Lattice>& lattices, const Scanner& scanner,
-                                   const Visibility& visibility) {
-  const PatchCurves all = trace(lattices, scanner, visibility);
+std::vector<Curve> boundary_curves(const std::vector<Lattice>& lattices, const Visibility& visibility) {
+  const PatchCurves all = trace(lattices, visibility);
   const std::vector<bool> joined = junctions(all, lattices, visibility);
   std::vector<Curve> closed, pieces;
   std::size_t offset = 0;

@@ -24,7 +24,6 @@ using Curve = std::vector<CurvePlace>;
 // them where sampling ends. Where two patches touch and both are sampled, the surface goes on. Both curves
 // are cut out there, and the ends that are left are joined, the nearest first. So a curve may run over
 // several patches.
-std::vector<Curve> boundary_curves(const std::vector<Lattice>& lattices, const Scanner& scanner,
-                                   const Visibility& visibility);
+std::vector<Curve> boundary_curves(const std::vector<Lattice>& lattices, const Visibility& visibility);
 
 }  // namespace lacuna::synth

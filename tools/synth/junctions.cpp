@@ -73,7 +73,8 @@ Junctions::Junctions(const std::vector<Lattice>& lattices, const Visibility& vis
 bool Junctions::surface_goes_on(const CurvePlace& place, std::size_t patch) const {
   const bool shadow = place.cause.kind == Cause::kShadow;
   const bool closed = place.cause.kind == Cause::kNone;
-  if (!place.at_end && !shadow && !closed) return false;
+  const bool opening = place.cause.kind == Cause::kDoor;
+  if (!place.at_end && !shadow && !closed && !opening) return false;
   const Vec3 p = place.position + kAbove * place.normal;
   for (std::size_t other = 0; other < lattices_.size(); ++other) {
     const Lattice& lattice = lattices_[other];

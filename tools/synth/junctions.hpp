@@ -13,7 +13,7 @@ class Junctions {
   Junctions(const std::vector<Lattice>& lattices, const Visibility& visibility);
 
   // Does another patch pass through this place of a curve, and is it sampled there? It can only at the end of
-  // a patch, at the foot of a thing, and in a gap that was closed.
+  // a patch, at the foot of a thing, around an opening, and in a gap that was closed.
   bool surface_goes_on(const CurvePlace& place, std::size_t patch) const;
 
  private:

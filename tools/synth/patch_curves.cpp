@@ -34,8 +34,7 @@ struct Crossing {
 
 class Tracer {
  public:
-  Tracer(const Lattice& lattice, const Scanner& scanner, const Visibility& visibility)
-      : lattice_(lattice), scanner_(scanner), visibility_(visibility) {}
+  Tracer(const Lattice& lattice, const Visibility& visibility) : lattice_(lattice), visibility_(visibility) {}
 
   std::vector<Curve> curves() {
     for (std::int32_t row = -1; row < lattice_.rows; ++row)
@@ -102,7 +101,7 @@ class Tracer {
     const SurfacePlace inside = lattice_.at(in.column, in.row);
     const double spacing = double{lattice_.spacing[lattice_.node(in.column, in.row)]};
     CurvePlace place{.position = inside.position,
-                     .normal = facing(inside),
+                     .normal = visibility_.facing(inside),
                      .spacing = spacing,
                      .shape = lattice_.patch.shape,
                      .cause = {Cause::kEdge, lattice_.patch.shape},
@@ -122,26 +121,15 @@ class Tracer {
       (visibility_.any(at(middle)) ? from : to) = middle;
     }
     place.position = at(from).position;
-    for (std::uint32_t station = 0; station < scanner_.stations().size(); ++station) {
-      if (visibility_.cause(at(from), station).kind != Cause::kNone) continue;
-      place.cause = visibility_.cause(at(to), station);
+    for (const std::uint32_t sweep : visibility_.sweeps()) {
+      if (visibility_.cause(at(from), sweep).kind != Cause::kNone) continue;
+      place.cause = visibility_.cause(at(to), sweep);
       break;
     }
     return place;
   }
 
-  // The normal on the side of a station that samples the place; that of the patch where none does.
-  Vec3 facing(const SurfacePlace& place) const {
-    for (std::uint32_t station = 0; station < scanner_.stations().size(); ++station) {
-      if (visibility_.cause(place, station).kind != Cause::kNone) continue;
-      const double side = dot(scanner_.stations()[station] - place.position, place.normal);
-      return side < 0 ? -1 * place.normal : place.normal;
-    }
-    return place.normal;
-  }
-
   const Lattice& lattice_;
-  const Scanner& scanner_;
   const Visibility& visibility_;
   std::unordered_map<EdgeKey, Crossing> crossings_;
   std::vector<EdgeKey> order_;  // as they were found
@@ -149,9 +137,8 @@ class Tracer {
 
 }  // namespace
 
-std::vector<Curve> patch_curves(const Lattice& lattice, const Scanner& scanner,
-                                const Visibility& visibility) {
-  return Tracer(lattice, scanner, visibility).curves();
+std::vector<Curve> patch_curves(const Lattice& lattice, const Visibility& visibility) {
+  return Tracer(lattice, visibility).curves();
 }
 
 }  // namespace lacuna::synth

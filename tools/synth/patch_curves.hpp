@@ -8,6 +8,6 @@
 namespace lacuna::synth {
 
 // Every curve is closed: outside of the patch nothing is sampled.
-std::vector<Curve> patch_curves(const Lattice& lattice, const Scanner& scanner, const Visibility& visibility);
+std::vector<Curve> patch_curves(const Lattice& lattice, const Visibility& visibility);
 
 }  // namespace lacuna::synth

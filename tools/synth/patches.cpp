@@ -9,26 +9,25 @@ namespace lacuna::synth {
 namespace {
 
 constexpr double kInset = 1e-4;  // metres
+constexpr Vec3 kUp{0, 0, 1};
 
 // From [0, 1] to the inside of [-half, half].
 double across(double share, double half) {
   return (2 * share - 1) * (half - kInset);
 }
 
-Patch patch_of(const Wall& wall, std::uint32_t shape) {
+void add_patches(const Wall& wall, std::uint32_t shape, std::vector<Patch>& patches) {
   const Vec3 middle = wall.corner + 0.5 * wall.width * wall.u + 0.5 * wall.height * wall.v;
   const auto place = [wall, middle](double u, double v) {
     return middle + across(u, 0.5 * wall.width) * wall.u + across(v, 0.5 * wall.height) * wall.v;
   };
   const Vec3 normal = cross(wall.u, wall.v);
-  return {shape, true, wall.width, wall.height, place, [normal](double, double) { return normal; }};
+  patches.push_back(
+      {shape, true, wall.width, wall.height, place, [normal](double, double) { return normal; }});
 }
 
-void add_faces(const Box& box, std::uint32_t shape, std::vector<Patch>& patches) {
-  const auto outward = [&](Vec3 a) {
-    return Vec3{box.cosine * a.x - box.sine * a.y, box.sine * a.x + box.cosine * a.y, a.z};
-  };
-  const Vec3 axes[3] = {outward({1, 0, 0}), outward({0, 1, 0}), outward({0, 0, 1})};
+void add_patches(const Box& box, std::uint32_t shape, std::vector<Patch>& patches) {
+  const Vec3 axes[3] = {turned_back(box, {1, 0, 0}), turned_back(box, {0, 1, 0}), {0, 0, 1}};
   const double halves[3] = {box.half.x, box.half.y, box.half.z};
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 along_u = axes[(axis + 1) % 3], along_v = axes[(axis + 2) % 3];
@@ -46,7 +45,7 @@ void add_faces(const Box& box, std::uint32_t shape, std::vector<Patch>& patches)
 }
 
 // The faces of a cube, blown up.
-void add_panels(const Ball& ball, std::uint32_t shape, std::vector<Patch>& patches) {
+void add_patches(const Ball& ball, std::uint32_t shape, std::vector<Patch>& patches) {
   constexpr Vec3 kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double size = 0.25 * kTwoPi * ball.radius;
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,7 +60,7 @@ void add_panels(const Ball& ball, std::uint32_t shape, std::vector<Patch>& patch
   }
 }
 
-void add_panels(const Column& column, std::uint32_t shape, std::vector<Patch>& patches) {
+void add_patches(const Column& column, std::uint32_t shape, std::vector<Patch>& patches) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     const auto normal = [=](double u, double) {
       const auto [sine, cosine] = sin_cos(0.25 * (quarter + u));
@@ -84,27 +83,74 @@ void add_panels(const Column& column, std::uint32_t shape, std::vector<Patch>& p
                      }});
 }
 
+void add_patches(const Pipe& pipe, std::uint32_t shape, std::vector<Patch>& patches) {
+  const Vec3 side = normalized(cross(pipe.along, std::fabs(pipe.along.z) < 0.9 ? kUp : Vec3{1, 0, 0}));
+  const Vec3 up = cross(side, pipe.along);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const auto normal = [=](double u, double) {
+      const auto [sine, cosine] = sin_cos(0.25 * (quarter + u));
+      return cosine * side + sine * up;
+    };
+    const auto place = [=](double u, double v) {
+      const double along = 0.5 * pipe.length + across(v, 0.5 * pipe.length);
+      return pipe.start + along * pipe.along + pipe.radius * normal(u, v);
+    };
+    patches.push_back({shape, false, 0.25 * kTwoPi * pipe.radius, pipe.length, place, normal});
+  }
+}
+
+void add_patches(const Vault& vault, std::uint32_t shape, std::vector<Patch>& patches) {
+  const Vec3 side = cross(vault.along, kUp);
+  const auto normal = [=](double u, double) {
+    const auto [sine, cosine] = sin_cos(0.5 * u);
+    return cosine * side + sine * kUp;
+  };
+  const auto place = [=](double u, double v) {
+    const double along = 0.5 * vault.length + across(v, 0.5 * vault.length);
+    return vault.start + along * vault.along + vault.radius * normal(u, v);
+  };
+  patches.push_back({shape, true, 0.5 * kTwoPi * vault.radius, vault.length, place, normal});
+}
+
+void add_patches(const House& house, std::uint32_t shape, std::vector<Patch>& patches) {
+  const auto add = [&](double width, double height, Vec3 normal, const auto& own_place) {
+    const auto place = [=](double u, double v) { return house.base + turned_back(house, own_place(u, v)); };
+    const Vec3 outward = turned_back(house, normalized(normal));
+    patches.push_back({shape, false, width, height, place, [outward](double, double) { return outward; }});
+  };
+  const double pitch = house.rise / house.half_width;
+  const double slope = house.half_width * std::sqrt(1 + pitch * pitch);
+  const double half_x = house.half_length, half_y = house.half_width, eaves = house.eaves;
+  for (const double side : {-1.0, 1.0}) {
+    add(2 * half_x, eaves, {0, side, 0}, [=](double u, double v) {
+      return Vec3{across(u, half_x), side * half_y, 0.5 * eaves + across(v, 0.5 * eaves)};
+    });
+    add(2 * half_y, eaves + house.rise, {side, 0, 0}, [=](double u, double v) {
+      const double y = across(u, half_y), half = 0.5 * house.top(y);
+      return Vec3{side * half_x, y, half + across(v, half)};
+    });
+    add(2 * half_x, slope, {0, side * pitch, 1}, [=](double u, double v) {
+      const double y = 0.5 * half_y + across(v, 0.5 * half_y);
+      return Vec3{across(u, half_x), side * y, house.top(y)};
+    });
+  }
+}
+
+void add_patches(const Terrain& terrain, std::uint32_t shape, std::vector<Patch>& patches) {
+  const auto x = [length = terrain.length](double u) { return 0.5 * length + across(u, 0.5 * length); };
+  const auto y = [width = terrain.width](double v) { return 0.5 * width + across(v, 0.5 * width); };
+  const auto place = [=](double u, double v) { return Vec3{x(u), y(v), terrain.height(x(u), y(v))}; };
+  const auto normal = [=](double u, double v) { return normalized(kUp - terrain.slope(x(u), y(v))); };
+  patches.push_back({shape, false, terrain.length, terrain.width, place, normal});
+}
+
 }  // namespace
 
 std::vector<Patch> patches_of(const Scene& scene) {
   std::vector<Patch> patches;
-  std::uint32_t shape = 0;
-  for (const Wall& wall : scene.walls) {
-    if (wall.reflectance > 0) patches.push_back(patch_of(wall, shape));
-    ++shape;
-  }
-  for (const Box& box : scene.boxes) {
-    if (box.reflectance > 0) add_faces(box, shape, patches);
-    ++shape;
-  }
-  for (const Ball& ball : scene.balls) {
-    if (ball.reflectance > 0) add_panels(ball, shape, patches);
-    ++shape;
-  }
-  for (const Column& column : scene.columns) {
-    if (column.reflectance > 0) add_panels(column, shape, patches);
-    ++shape;
-  }
+  for_each_shape(scene, [&](const auto& shape, std::uint32_t number) {
+    if (shape.reflectance > 0) add_patches(shape, number, patches);
+  });
   return patches;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNodesPerPoint = 4;
 constexpr double kMostNodes = 3e6;
-constexpr double kMostRays = 1.2e7;   // one per node and station
+constexpr double kMostRays = 1.2e7;   // one per node and sweep
 constexpr double kFewestNodes = 3e5;  // where there are so many points
 constexpr double kFewestSteps = 6;    // along each side of a patch
 constexpr double kHoleRadius = 2;     // spacings: narrower gaps are no holes
@@ -53,23 +53,20 @@ struct SampledBorder {
 };
 
 // The side of a two-sided patch is that of the first station that samples it.
-SurfacePlace with_side(SurfacePlace place, const Scanner& scanner, const Visibility& visibility) {
-  for (std::uint32_t station = 0; place.two_sided && station < scanner.stations().size(); ++station) {
-    if (visibility.cause(place, station).kind != Cause::kNone) continue;
-    if (dot(scanner.stations()[station] - place.position, place.normal) < 0) place.normal = -1 * place.normal;
-    place.two_sided = false;
-  }
+SurfacePlace with_side(SurfacePlace place, const Visibility& visibility) {
+  if (!place.two_sided || !visibility.any(place)) return place;
+  place.normal = visibility.facing(place);
+  place.two_sided = false;
   return place;
 }
 
-SampledBorder border_of(const std::vector<Lattice>& lattices, const Scanner& scanner,
-                        const Visibility& visibility) {
+SampledBorder border_of(const std::vector<Lattice>& lattices, const Visibility& visibility) {
   SampledBorder border;
   for (const Lattice& lattice : lattices) {
     const auto holds = [&](std::size_t node) { return lattice.spacing[node] > 0; };
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
       if (!holds(node) || !is_border(lattice, column, row, holds)) return;
-      border.places.push_back(with_side(lattice.at(column, row), scanner, visibility));
+      border.places.push_back(with_side(lattice.at(column, row), visibility));
       border.spheres.push_back({border.places.back().position, kHoleRadius * double{lattice.spacing[node]}});
     });
   }
@@ -119,9 +116,8 @@ SphereIndex rounds_of(const std::vector<Lattice>& lattices, const std::vector<st
   return SphereIndex(std::move(rounds));
 }
 
-void close_gaps(std::vector<Lattice>& lattices, const Scanner& scanner, const Visibility& visibility) {
-  const std::vector<std::vector<float>> radii =
-      radii_around(lattices, border_of(lattices, scanner, visibility));
+void close_gaps(std::vector<Lattice>& lattices, const Visibility& visibility) {
+  const std::vector<std::vector<float>> radii = radii_around(lattices, border_of(lattices, visibility));
   const SphereIndex rounds = rounds_of(lattices, radii);
   for (std::size_t i = 0; i < lattices.size(); ++i) {
     Lattice& lattice = lattices[i];
@@ -144,7 +140,7 @@ std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& v
   double area = 0;
   for (const Patch& patch : patches) area += patch.width * patch.height;
   const double affordable =
-      std::max(kMostRays / static_cast<double>(scanner.stations().size()), kFewestNodes);
+      std::max(kMostRays / static_cast<double>(visibility.sweeps().size()), kFewestNodes);
   const double nodes = std::min({kNodesPerPoint * static_cast<double>(points), kMostNodes, affordable});
   const double step = std::sqrt(area / nodes);
   std::vector<Lattice> lattices;
@@ -154,12 +150,21 @@ std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& v
         static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
     lattice.spacing.resize(size);
     lattice.sampled.resize(size);
+    lattice.by_station.resize(size * scanner.stations().size());
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
-      lattice.spacing[node] = static_cast<float>(visibility.spacing(lattice.at(column, row)));
-      lattice.sampled[node] = lattice.spacing[node] > 0;
+      const SurfacePlace place = lattice.at(column, row);
+      double sum = 0;
+      for (const std::uint32_t sweep : visibility.sweeps()) {
+        const double density = visibility.density(place, sweep);
+        if (density == 0) continue;
+        sum += density;
+        lattice.by_station[node * scanner.stations().size() + scanner.sweeps()[sweep].station] = true;
+      }
+      lattice.spacing[node] = sum > 0 ? static_cast<float>(1 / std::sqrt(sum)) : 0;
+      lattice.sampled[node] = sum > 0;
     });
   }
-  close_gaps(lattices, scanner, visibility);
+  close_gaps(lattices, visibility);
   return lattices;
 }
 

@@ -17,6 +17,7 @@ struct Lattice {
   double step;                        // metres, the larger of both directions
   std::vector<float> spacing;         // of the points around each node; 0: no station samples it
   std::vector<std::uint8_t> sampled;  // by a station, or in a gap too narrow for a hole
+  std::vector<bool> by_station;       // is the node sampled: station after station of each node
 
   std::size_t node(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -36,7 +37,7 @@ struct Lattice {
   }
 };
 
-// About 4 nodes per point, but at most 3 million, and fewer for more than 4 stations. A place that no station
+// About 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place that no station
 // samples counts as sampled all the same unless it lies in a hole. Holes are balls with a radius of 2
 // spacings of the nearest sampled places, in which nothing is sampled. All within 3 spacings of their middle
 // belongs to them. Places on the far side of a thin thing are not near.

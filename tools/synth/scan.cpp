@@ -30,6 +30,8 @@ void check(const ScanOptions& o) {
   require(
       o.field_of_view[0] >= -90 && o.field_of_view[0] + 1 <= o.field_of_view[1] && o.field_of_view[1] <= 90,
       "--field-of-view: needs -90 <= lowest < highest <= 90 degrees, 1 degree apart");
+  require(o.station_factor >= 0.01 && o.station_factor <= 100, "--station-factor: must be 0.01 to 100");
+  require(o.sweeps >= 1 && o.sweeps <= 8, "--sweeps: must be 1 to 8");
   for (const double offset : o.translate) {
     require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 metres");
     require(o.coordinates == Coordinates::kDouble || std::fabs(offset) <= 10'000,
@@ -37,20 +39,26 @@ void check(const ScanOptions& o) {
   }
 }
 
+void check_flight(const ScanOptions& o) {
+  require(o.sweeps == 1, "--sweeps: a flight has one sweep on each strip");
+  require(o.field_of_view == kFieldOfView, "--field-of-view: a flight has its own, 20 degrees to both sides");
+}
+
 }  // namespace
 
 ScanSummary write_scan(const ScanOptions& options) {
-  return write_scan(options, make_scene(options.scene));
+  return write_scan(options, make_scene(options.scene, options.seed));
 }
 
 ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   check(options);
+  if (scene.flown) check_flight(options);
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
   OutputSet set(options.overwrite);
   OutputFile& truth_file = set.add(truth_path, kTruthMark);
   PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kScanAndIntensity);
   const Scanner scanner(options, scene);
-  const std::uint64_t count = scanner.rays().count();
+  const std::uint64_t count = scanner.rays();
   ScanTruth truth(scanner, options.points);
   const Permutation shuffled(count, options.seed);
 
@@ -60,12 +68,14 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
     const std::optional<Echo> echo = scanner.measure(ray, index);
     if (!echo) continue;
     truth.note(*echo, index, ply.count());
-    ply.add(echo->position, static_cast<std::uint8_t>(ray.station), static_cast<float>(echo->intensity));
+    ply.add(echo->position, static_cast<std::uint8_t>(scanner.sweeps()[ray.sweep].station),
+            static_cast<float>(echo->intensity));
   }
 
   const std::vector<NamedLoop> loops = truth.loops();
   write_truth_head(truth_file, options.out);
   for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
+  for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};

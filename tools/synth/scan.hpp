@@ -20,7 +20,8 @@ struct ScanSummary {
 // the far distance return nothing. Each point has its station (`scan`) and an `intensity` in [0, 1]. Every
 // point is a function of the seed and its ray alone; memory does not depend on their number.
 //
-// Another file has the true loops (scan_truth.hpp), with a comment before each that says what it is.
+// Another file has the true loops (scan_truth.hpp), with a comment before each that says what it is. Steps of
+// density follow.
 ScanSummary write_scan(const ScanOptions& options);
 
 // Writes the scan of a given scene.

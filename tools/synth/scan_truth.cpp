@@ -1,5 +1,6 @@
 #include "tools/synth/scan_truth.hpp"
 
+#include "tools/synth/density_steps.hpp"
 #include "tools/synth/ring.hpp"
 
 #include <algorithm>
@@ -61,23 +62,6 @@ std::string name_of(const Curve& curve, const Scene& scene) {
   return text.empty() ? list(edges) : text;
 }
 
-// One sphere per place, with its shape. Places are a step apart at most, but for long ways.
-std::vector<Sphere> walk(const Curve& curve, double least_step, std::vector<std::uint32_t>& shapes) {
-  std::vector<Sphere> spheres;
-  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace& to, double length) {
-    const double step = std::max(kPlaceStep * std::min(from.spacing, to.spacing), least_step);
-    const double steps = from.long_way ? 1 : std::max(std::ceil(length / step), 1.0);
-    for (double i = 0; i < steps; ++i) {
-      const double share = i / steps;
-      const CurvePlace& near = share < 0.5 ? from : to;
-      spheres.push_back(
-          {from.position + share * (to.position - from.position), kSearchRadius * near.spacing});
-      shapes.push_back(near.shape);
-    }
-  });
-  return spheres;
-}
-
 void to_canonical(std::vector<std::uint64_t>& ids) {
   std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
   if (ids.back() < ids[1]) std::reverse(ids.begin() + 1, ids.end());
@@ -87,23 +71,40 @@ void to_canonical(std::vector<std::uint64_t>& ids) {
 
 ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) {
   const Visibility visibility(scanner);
-  const std::vector<Curve> curves =
-      boundary_curves(sample_surfaces(scanner, visibility, points), scanner, visibility);
+  const std::vector<Lattice> lattices = sample_surfaces(scanner, visibility, points);
+  const std::vector<Curve> curves = boundary_curves(lattices, visibility);
   double whole = 0;
   for (const Curve& curve : curves)
     for_each_side(curve, [&](const CurvePlace&, const CurvePlace&, double length) { whole += length; });
   std::vector<Sphere> spheres;
-  std::vector<std::uint32_t> shapes;
   for (const Curve& curve : curves) {
     const std::string name = name_of(curve, scanner.scene());
-    if (name.empty()) continue;
-    const std::vector<Sphere> own = walk(curve, whole / kMostPlaces, shapes);
-    loops_.push_back({spheres.size(), spheres.size() + own.size(), name});
-    spheres.insert(spheres.end(), own.begin(), own.end());
+    if (!name.empty()) add(curve, whole / kMostPlaces, name, spheres);
   }
-  for (const std::uint32_t shape : shapes)
-    places_.push_back({shape, std::numeric_limits<double>::infinity(), kNobody, kNobody});
+  for (const Curve& step : density_steps(lattices, scanner, visibility))
+    add(step, whole / kMostPlaces, {}, spheres);
   index_ = SphereIndex(std::move(spheres));
+}
+
+// One sphere per place. Places are a step apart at most, but for long ways. A step is not closed.
+void ScanTruth::add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres) {
+  const std::size_t begin = places_.size();
+  const auto add_place = [&](Vec3 position, const CurvePlace& near) {
+    spheres.push_back({position, kSearchRadius * near.spacing});
+    places_.push_back({near.shape, std::numeric_limits<double>::infinity(), kNobody, kNobody});
+  };
+  std::size_t sides = name.empty() ? curve.size() - 1 : curve.size();
+  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace& to, double length) {
+    if (sides == 0) return add_place(from.position, from);
+    --sides;
+    const double step = std::max(kPlaceStep * std::min(from.spacing, to.spacing), least_step);
+    const double steps = from.long_way ? 1 : std::max(std::ceil(length / step), 1.0);
+    for (double i = 0; i < steps; ++i) {
+      const double share = i / steps;
+      add_place(from.position + share * (to.position - from.position), share < 0.5 ? from : to);
+    }
+  });
+  rows_.push_back({begin, places_.size(), std::move(name)});
 }
 
 void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
@@ -118,24 +119,42 @@ void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
   });
 }
 
+// The points nearest to the places of a row, those in turn that differ; none where points are rare.
+std::vector<std::uint64_t> ScanTruth::ids_along(const Row& row) const {
+  std::vector<std::uint64_t> ids;
+  std::size_t present = 0;
+  for (const Place& place : std::span(places_).subspan(row.begin, row.end - row.begin)) {
+    if (place.id == kNobody) continue;
+    ++present;
+    if (ids.empty() || ids.back() != place.id) ids.push_back(place.id);
+  }
+  if (static_cast<double>(present) < kSharePresent * static_cast<double>(row.end - row.begin)) return {};
+  return ids;
+}
+
 std::vector<NamedLoop> ScanTruth::loops() const {
   std::vector<NamedLoop> all;
-  for (const Loop& loop : loops_) {
-    std::vector<std::uint64_t> ids;
-    std::size_t present = 0;
-    for (const Place& place : std::span(places_).subspan(loop.begin, loop.end - loop.begin)) {
-      if (place.id == kNobody) continue;
-      ++present;
-      if (ids.empty() || ids.back() != place.id) ids.push_back(place.id);
-    }
-    if (static_cast<double>(present) < kSharePresent * static_cast<double>(loop.end - loop.begin)) continue;
+  for (const Row& row : rows_) {
+    if (row.name.empty()) continue;
+    std::vector<std::uint64_t> ids = ids_along(row);
     if (ids.size() > 1 && ids.back() == ids.front()) ids.pop_back();
     ids = without_returns(std::move(ids));
     if (ids.size() < kFewestPoints) continue;
     to_canonical(ids);
-    all.push_back({std::move(ids), loop.name});
+    all.push_back({std::move(ids), row.name});
   }
   std::sort(all.begin(), all.end(), [](const NamedLoop& a, const NamedLoop& b) { return a.ids < b.ids; });
+  return all;
+}
+
+std::vector<std::vector<std::uint64_t>> ScanTruth::steps() const {
+  std::vector<std::vector<std::uint64_t>> all;
+  for (const Row& row : rows_) {
+    if (!row.name.empty()) continue;
+    std::vector<std::uint64_t> ids = ids_along(row);
+    if (ids.size() >= kFewestPoints) all.push_back(std::move(ids));
+  }
+  std::sort(all.begin(), all.end());
   return all;
 }
 

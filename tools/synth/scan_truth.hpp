@@ -18,7 +18,7 @@ struct NamedLoop {
 // A true loop is the sequence of points that are nearest to a place on a boundary curve, as the place goes
 // around. Only points on the surface of the place count, and only where they would lie without noise, strays
 // and errors of registration. So these change nothing. The surface's holes have such curves, and its outer
-// edges.
+// edges. Steps of density (density_steps.hpp) become rows of points in the same way.
 class ScanTruth {
  public:
   explicit ScanTruth(const Scanner& scanner, std::uint64_t points);
@@ -31,19 +31,26 @@ class ScanTruth {
   // edge in closed gaps.
   std::vector<NamedLoop> loops() const;
 
+  // Once all are noted: the points along each step, 12 or more, sorted. Where a row is closed, its first
+  // point is its last, too.
+  std::vector<std::vector<std::uint64_t>> steps() const;
+
  private:
   struct Place {
     std::uint32_t shape;
     double nearest;  // squared
     std::uint64_t ray, id;
   };
-  struct Loop {
+  struct Row {
     std::size_t begin, end;  // places
-    std::string name;
+    std::string name;        // empty: a step
   };
 
+  void add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres);
+  std::vector<std::uint64_t> ids_along(const Row& row) const;
+
   std::vector<Place> places_;
-  std::vector<Loop> loops_;
+  std::vector<Row> rows_;
   SphereIndex index_;
 };
 

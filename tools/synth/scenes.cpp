@@ -1,14 +1,7 @@
-// The scenes themselves. Metres; the floor is z = 0 with a corner at the origin.
-#include "tools/synth/scene.hpp"
+#include "tools/synth/scenes.hpp"
 
 namespace lacuna::synth {
 
-namespace {
-
-constexpr double kPaint = 0.8, kStone = 0.5, kWood = 0.6, kLeaf = 0.45, kMetal = 0.3, kBlack = 0;
-constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
-
-// Four walls, each with the openings given, from y = 0 on counterclockwise; u runs along +x or +y.
 void add_walls(Scene& scene, double length, double width, double height, double reflectance,
                const std::vector<Opening> (&openings)[4]) {
   scene.walls.push_back({{0, 0, 0}, kX, kZ, length, height, reflectance, openings[0]});
@@ -18,11 +11,10 @@ void add_walls(Scene& scene, double length, double width, double height, double 
 }
 
 void add_level(Scene& scene, const char* name, double length, double width, double z, double reflectance,
-               std::vector<Opening> openings = {}) {
+               std::vector<Opening> openings) {
   scene.walls.push_back({{0, 0, z}, kX, kY, length, width, reflectance, std::move(openings), name});
 }
 
-// Rows of windows, `pitch` metres apart from `start` on.
 std::vector<Opening> windows(int count, double start, double pitch, double width,
                              std::vector<std::pair<double, double>> floors) {
   std::vector<Opening> all;
@@ -31,6 +23,13 @@ std::vector<Opening> windows(int count, double start, double pitch, double width
       all.push_back({start + i * pitch, sill, start + i * pitch + width, head, Opening::kGlass});
   return all;
 }
+
+void add_car(Scene& scene, Vec3 at, double cosine, double sine) {
+  scene.boxes.push_back({at + Vec3{0, 0, 0.5}, {2.2, 0.9, 0.5}, cosine, sine, kMetal, "car"});
+  scene.boxes.push_back({at + Vec3{0, 0, 1.25}, {1.2, 0.8, 0.25}, cosine, sine, kBlack, "car roof"});
+}
+
+namespace {
 
 void add_table(Scene& scene, Vec3 at, double length, double width) {
   scene.boxes.push_back({at + Vec3{0, 0, 0.72}, {length / 2, width / 2, 0.02}, 1, 0, kWood, "table top"});
@@ -132,12 +131,20 @@ Scene hall() {
 
 }  // namespace
 
-Scene make_scene(SceneKind kind) {
+Scene make_scene(SceneKind kind, std::uint64_t seed) {
   switch (kind) {
     case SceneKind::kCourt:
       return court();
     case SceneKind::kHall:
       return hall();
+    case SceneKind::kVault:
+      return vault();
+    case SceneKind::kStreet:
+      return street();
+    case SceneKind::kPlant:
+      return plant();
+    case SceneKind::kAerial:
+      return aerial(seed);
     case SceneKind::kRoom:
       break;
   }

@@ -21,5 +21,7 @@ std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std
 void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
 // A comment with what the loop is, and a line with its ids.
 void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
+// A step of density: a comment with the ids along it, for io::read_steps().
+void write_step(io::OutputFile& file, const std::vector<std::uint64_t>& step);
 
 }  // namespace lacuna::synth

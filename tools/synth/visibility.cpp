@@ -29,6 +29,10 @@ std::string in_words(const Cause& cause, const Scene& scene) {
       return "tripod circle of station " + std::to_string(cause.number);
     case Cause::kAbove:
       return "zenith circle of station " + std::to_string(cause.number);
+    case Cause::kWater:
+      return "water";
+    case Cause::kStrip:
+      return "side of strip " + std::to_string(cause.number);
     case Cause::kFar:
       return "out of range";
     case Cause::kNone:
@@ -38,51 +42,86 @@ std::string in_words(const Cause& cause, const Scene& scene) {
 }
 
 Visibility::Visibility(const Scanner& scanner)
-    : scanner_(scanner),
-      lowest_(sin_cos(scanner.lowest()).sin),
-      highest_(sin_cos(scanner.highest()).sin),
-      step_(kTwoPi * std::max(1 / static_cast<double>(scanner.rays().scanlines),
-                              (scanner.highest() - scanner.lowest()) /
-                                  static_cast<double>(scanner.rays().per_scanline))) {}
+    : scanner_(scanner), lowest_(sin_cos(scanner.lowest()).sin), highest_(sin_cos(scanner.highest()).sin) {
+  for (std::uint32_t sweep = 0; sweep < scanner.sweeps().size(); ++sweep) sweeps_.push_back(sweep);
+}
 
-Cause Visibility::cause(const SurfacePlace& place, std::uint32_t station) const {
+Visibility Visibility::only(std::uint32_t station) const {
+  Visibility part = *this;
+  std::erase_if(part.sweeps_, [&](std::uint32_t s) { return scanner_.sweeps()[s].station != station; });
+  return part;
+}
+
+Visibility Visibility::without(std::uint32_t station) const {
+  Visibility part = *this;
+  std::erase_if(part.sweeps_, [&](std::uint32_t s) { return scanner_.sweeps()[s].station == station; });
+  return part;
+}
+
+Cause Visibility::cause(const SurfacePlace& place, std::uint32_t number) const {
   const Scene& scene = scanner_.scene();
-  const Vec3 eye = scanner_.stations()[station];
+  const Sweep& sweep = scanner_.sweeps()[number];
+  const Vec3 eye = scanner_.eye(sweep, place.position);
   const Vec3 arm = place.position - eye;
   const double range = std::sqrt(dot(arm, arm));
   const Vec3 direction = (1 / range) * arm;
   const double facing = -dot(direction, place.normal);
-  if (direction.z < lowest_) return {Cause::kBelow, station};
-  if (direction.z > highest_) return {Cause::kAbove, station};
-  if (range > scanner_.max_range()) return {Cause::kFar, station};
-  if ((place.two_sided ? std::fabs(facing) : facing) < Scanner::kGrazing) return {Cause::kEdge, place.shape};
-  const Hit hit = cast(scene, eye, direction);
+  const double elevation = dot(direction, scene.flown ? sweep.y : sweep.axis);
+  if (elevation < lowest_) return {scene.flown ? Cause::kStrip : Cause::kBelow, sweep.station};
+  if (elevation > highest_) return {scene.flown ? Cause::kStrip : Cause::kAbove, sweep.station};
+  if (range > scanner_.max_range()) return {Cause::kFar, sweep.station};
+  if ((place.two_sided ? std::fabs(facing) : facing) < scanner_.least_cosine())
+    return {Cause::kEdge, place.shape};
+  const Hit hit = cast(scene, {eye, direction});
   if (hit.range > range + kSamePlace) return {Cause::kDoor, place.shape};
-  if (hit.reflectance == 0 && hit.shape < scene.walls.size()) return {Cause::kWindow, hit.shape};
+  if (hit.reflectance == 0 && scene.is_wall(hit.shape)) return {Cause::kWindow, hit.shape};
+  if (hit.reflectance == 0 && scene.is_terrain(hit.shape)) return {Cause::kWater, hit.shape};
   if (hit.shape != place.shape) return {Cause::kShadow, hit.shape};
   if (hit.range < range - kSamePlace) return {Cause::kEdge, place.shape};
   return {};
 }
 
 bool Visibility::any(const SurfacePlace& place) const {
-  for (std::uint32_t station = 0; station < scanner_.stations().size(); ++station)
-    if (cause(place, station).kind == Cause::kNone) return true;
-  return false;
+  return std::any_of(sweeps_.begin(), sweeps_.end(),
+                     [&](std::uint32_t sweep) { return cause(place, sweep).kind == Cause::kNone; });
 }
 
-double Visibility::density(const SurfacePlace& place, std::uint32_t station) const {
-  const Vec3 arm = place.position - scanner_.stations()[station];
+Vec3 Visibility::facing(const SurfacePlace& place) const {
+  for (const std::uint32_t sweep : sweeps_) {
+    if (cause(place, sweep).kind != Cause::kNone) continue;
+    const Vec3 eye = scanner_.eye(scanner_.sweeps()[sweep], place.position);
+    return dot(eye - place.position, place.normal) < 0 ? -1 * place.normal : place.normal;
+  }
+  return place.normal;
+}
+
+double Visibility::density(const SurfacePlace& place, std::uint32_t number) const {
+  if (cause(place, number).kind != Cause::kNone) return 0;
+  const Sweep& sweep = scanner_.sweeps()[number];
+  const Scene& scene = scanner_.scene();
+  const Vec3 eye = scanner_.eye(sweep, place.position);
+  const Vec3 arm = place.position - eye;
   const double square = dot(arm, arm);
   const double range = std::sqrt(square);
   const double incidence = std::max(std::fabs(dot(arm, place.normal)) / range, kLeastIncidence);
-  const double elevation = std::max(std::sqrt(arm.x * arm.x + arm.y * arm.y) / range, kLeastElevation);
-  return incidence / (square * step_ * step_ * elevation);
+  const double share =
+      scene.foliage.empty() ? 1 : share_through_leaves(scene, {eye, (1 / range) * arm}, range);
+  // Steps between rays: around the axis in turns, or along the strip in its lengths; and of the elevation.
+  const double around = 1 / static_cast<double>(sweep.scanlines);
+  const double along = (scanner_.highest() - scanner_.lowest()) / static_cast<double>(sweep.per_scanline);
+  if (scene.flown) {
+    const double step = std::max(scanner_.strip_length() * around, range * kTwoPi * along);
+    return share * incidence / (step * step);
+  }
+  const double step = kTwoPi * std::max(around, along);
+  const double right = dot(arm, sweep.x), forward = dot(arm, sweep.y);
+  const double elevation = std::max(std::sqrt(right * right + forward * forward) / range, kLeastElevation);
+  return share * incidence / (square * step * step * elevation);
 }
 
 double Visibility::spacing(const SurfacePlace& place) const {
   double sum = 0;
-  for (std::uint32_t station = 0; station < scanner_.stations().size(); ++station)
-    if (cause(place, station).kind == Cause::kNone) sum += density(place, station);
+  for (const std::uint32_t sweep : sweeps_) sum += density(place, sweep);
   return sum > 0 ? 1 / std::sqrt(sum) : 0;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lacuna::synth {
 
@@ -16,8 +17,10 @@ struct Cause {
     kShadow,  // of the shape
     kWindow,
     kDoor,
+    kWater,
     kBelow,  // the field of view of the station
     kAbove,
+    kStrip,  // to a side of it
     kFar
   } kind = kNone;
   std::uint32_t number = 0;  // of the shape, or of the station
@@ -37,23 +40,35 @@ struct SurfacePlace {
 
 class Visibility {
  public:
+  // By the sweeps of all stations.
   explicit Visibility(const Scanner& scanner);
 
-  // The cause is kNone if the station samples the place.
-  Cause cause(const SurfacePlace& place, std::uint32_t station) const;
+  // By those of one station, or of all others.
+  Visibility only(std::uint32_t station) const;
+  Visibility without(std::uint32_t station) const;
+
+  // Numbers in Scanner::sweeps().
+  const std::vector<std::uint32_t>& sweeps() const { return sweeps_; }
+
+  // The cause is kNone if the sweep samples the place.
+  Cause cause(const SurfacePlace& place, std::uint32_t sweep) const;
   bool any(const SurfacePlace& place) const;
 
-  // Mean distance of the points that all stations leave around the place; 0 if none samples it. For a scanner
+  // The normal on the side of the first station that samples the place; that of the surface where none does.
+  Vec3 facing(const SurfacePlace& place) const;
+
+  // Points per square metre that one sweep leaves around the place; 0 if it does not sample it.
+  double density(const SurfacePlace& place, std::uint32_t sweep) const;
+
+  // Mean distance of the points that all sweeps leave around the place; 0 if none samples it. For a scanner
   // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
   // so, since their points lie close in one direction only.
   double spacing(const SurfacePlace& place) const;
 
  private:
-  double density(const SurfacePlace& place, std::uint32_t station) const;
-
   const Scanner& scanner_;
   double lowest_, highest_;  // sines of the elevation
-  double step_;              // radians between rays, in the coarser direction
+  std::vector<std::uint32_t> sweeps_;
 };
 
 }  // namespace lacuna::synth

@@ -2,6 +2,8 @@
 
 #include "tests/io/io_support.hpp"
 
+#include <sstream>
+
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
@@ -49,6 +51,25 @@ TEST_CASE("the comment before a loop is its name, that of the file is none", "[i
   CHECK(named("# no\n\n# yes\n\n1 2\n#\n3\n# of none\n") == Names{"yes", ""});
   CHECK(named("# " + std::string(300, 'x') + "\n1\n#" + std::string(300, 'x') + "\n2\n") == Names{"", ""});
   CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).at(0).name.empty());
+}
+
+TEST_CASE("a line that begins with #step is a step of density, and neither a loop nor a name", "[io]") {
+  const ScratchFolder folder;
+  std::ostringstream many;
+  many << "#step";
+  for (int id = 0; id < 1000; ++id) many << ' ' << id;
+  const std::string file = folder.write(
+      "a.txt", "# head\n1 2 3\n#step 4 5 4\n 7 8\n" + many.str() + "\n9\n#steps 1 2\n# step 3\n");
+  CHECK(read_loops(file) == Loops{{1, 2, 3}, {7, 8}, {9}});
+  for (const NamedLoopIds& loop : read_named_loops(file)) CHECK((loop.name.empty() || loop.name == "head"));
+  const Loops steps = read_steps(file);
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0] == LoopIds{4, 5, 4});
+  CHECK(steps[1].size() == 1000);
+  CHECK(read_steps(folder.write("none.txt", "1 2 3\n")).empty());
+  CHECK(read_steps(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).empty());
+  CHECK_THAT(error_of([&] { read_steps(folder.write("b.txt", "1 2\n#step 3 x\n")); }),
+             Catch::Matchers::Contains("line 2: 'x' is not a point id"));
 }
 
 TEST_CASE("loops as text that are no ids are reported with their line", "[io]") {

@@ -1,0 +1,19 @@
+// Loops along steps of density, where points lie on both sides, much sparser on one.
+#pragma once
+
+#include "tools/accuracy/match_loops.hpp"
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::accuracy {
+
+// A false loop becomes a step if `share` of its points are within the tolerance of the edges of steps. It
+// becomes joined if `share` of its points are near those or a true loop that counts. Steps are as
+// io::read_steps() gives them; without any, nothing changes. Cost: n log n.
+void mark_steps(std::span<const io::LoopIds> loops, std::span<const io::LoopIds> steps,
+                std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
+                const MatchRule& rule, LoopAccuracy& accuracy);
+
+}  // namespace lacuna::accuracy
