@@ -305,7 +305,7 @@ TEST_CASE("loops along the steps of density that the truth names are counted apa
                            Contains("step of density\n") && Contains("\n  step        1\n") &&
                            Contains("Of 3 loops, 1 is false, 1 step.\n"));
   const std::string other = folder.write("other.txt", around(1, 1) + "\n#step 1 900\n");
-  check_refused(run_program({"evaluate", found, other, "--scan", scan}), 1, "other.txt: id 900");
+  check_failure(run_program({"evaluate", found, other, "--scan", scan}), 1, "other.txt: id 900");
 }
 
 TEST_CASE("confidences of the report are judged by the area under the ROC curve") {

@@ -117,7 +117,6 @@ TEST_CASE("a signal while the report is made leaves the earlier results and thei
     }
     return files;
   };
-  const auto before = contents();
   const auto is_at_report = [&] {  // the other results are complete
     for (const fs::path& folder : find_folders(made.out(), kTemporaryPrefix)) {
       std::error_code error;
@@ -126,12 +125,19 @@ TEST_CASE("a signal while the report is made leaves the earlier results and thei
     return false;
   };
   for (const int signal : {SIGTERM, SIGKILL}) {
+    const auto before = contents();
     const auto ended = test::run_program_until(
         {"detect", made.scan(), "--out", made.out().string(), "--report", "--quiet", "--k", "16"}, signal,
         is_at_report);
     if (ended.exit_code == 0) continue;  // a busy machine: the signal came too late
     CHECK(ended.exit_code == 128 + signal);
-    CHECK(contents() == before);
+    const auto after = contents();
+    // On a busy machine the signal may come when all results are in place. Then all are new.
+    const auto is_new = [&](const char* name) {
+      return after.at(made.out() / name) != before.at(made.out() / name);
+    };
+    if (is_new("holes.json") && is_new("report.html")) continue;
+    CHECK(after == before);
   }
 }
 
