@@ -138,38 +138,16 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
 // False loops around unsampled places of the surface become unsampled. Those along true loops as well become
 // joined.
 void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
-  std::vector<LoopMatch*> matches;
-  std::vector<LoopIds> loops;
-  for (std::size_t i = 0; i < result.loops.size(); ++i) {
-    if (accuracy.loops[i].verdict != EdgeDecision::kFalse) continue;
-    matches.push_back(&accuracy.loops[i]);
-    loops.push_back(result.loops[i]);
+  std::vector<LoopIds> loops = result.loops;  // those that are not false: without points
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (accuracy.loops[i].verdict != EdgeDecision::kFalse) loops[i].clear();
   }
-  std::vector<TrueLoop> counting;
-  for (std::size_t i = 0; i < truth.loops.size(); ++i) {
-    if (accuracy.true_loops[i].counts) counting.push_back(truth.loops[i]);
-  }
-  const EdgeTree true_edges = tree_of_truth(counting, truth.positions);
-  const auto at_unsampled = points_at_unsampled(
+  const auto unsampled = points_at_unsampled(
       loops, *truth.surface,
       {.positions = truth.positions, .stand_ins = truth.stand_ins, .spacing = truth.spacing});
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    std::size_t unsampled = 0, either = 0;
-    for (std::size_t p = 0; p < loops[i].size(); ++p) {
-      true_edges.owners_within(truth.positions[loops[i][p]], rule.tolerance, near);
-      unsampled += at_unsampled[i][p];
-      either += at_unsampled[i][p] || !near.empty();
-    }
-    const auto points = static_cast<double>(loops[i].size());
-    matches[i]->at_unsampled = static_cast<double>(unsampled) / points;
-    if (matches[i]->at_unsampled >= rule.share) {
-      matches[i]->verdict = EdgeDecision::kUnsampled;
-    } else if (static_cast<double>(either) / points >= rule.share) {
-      matches[i]->verdict = EdgeDecision::kJoined;
-    }
-  }
-  accuracy.scores = score_loops(accuracy.loops, accuracy.true_loops);
+  decide_false_loops(
+      result.loops, truth.loops, truth.positions, rule, EdgeDecision::kUnsampled, &LoopMatch::at_unsampled,
+      [&](std::size_t loop, std::size_t point) { return unsampled[loop][point]; }, accuracy);
 }
 
 }  // namespace

@@ -164,6 +164,38 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
   return scores;
 }
 
+void decide_false_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
+                        std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
+                        EdgeDecision verdict, std::optional<double> LoopMatch::*share,
+                        const std::function<bool(std::size_t loop, std::size_t point)>& at,
+                        LoopAccuracy& accuracy) {
+  std::vector<TrueLoop> counting;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (accuracy.true_loops[i].counts) counting.push_back(truth[i]);
+  }
+  const EdgeTree true_edges = tree_of_truth(counting, positions);
+  std::vector<std::size_t> near;
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    LoopMatch& match = accuracy.loops[loop];
+    if (match.verdict != EdgeDecision::kFalse) continue;
+    std::size_t there = 0, either = 0;
+    for (std::size_t i = 0; i < loops[loop].size(); ++i) {
+      true_edges.owners_within(positions[loops[loop][i]], rule.tolerance, near);
+      const bool is_there = at(loop, i);
+      there += is_there;
+      either += is_there || !near.empty();
+    }
+    const auto points = static_cast<double>(loops[loop].size());
+    match.*share = static_cast<double>(there) / points;
+    if (match.*share >= rule.share) {
+      match.verdict = verdict;
+    } else if (static_cast<double>(either) / points >= rule.share) {
+      match.verdict = EdgeDecision::kJoined;
+    }
+  }
+  accuracy.scores = score_loops(accuracy.loops, accuracy.true_loops);
+}
+
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence) {
   assert(confidence.size() == loops.size());
   struct Judged {

@@ -4,6 +4,7 @@
 #include "tools/accuracy/true_loops.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -72,6 +73,16 @@ LoopAccuracy match_loops(std::span<const io::LoopIds> loops, std::span<const Tru
                          std::span<const Eigen::Vector3d> positions, const MatchRule& rule);
 
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
+
+// Decides on false loops once more. One becomes `verdict` if `share` of its points are `at(loop, point)`,
+// both counted from 0. It becomes joined if `share` of them are there or near a true loop that counts. `at`
+// is called for false loops alone. The share of the former goes into that member of its match. Cost: n log n,
+// and that of `at`.
+void decide_false_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
+                        std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
+                        EdgeDecision verdict, std::optional<double> LoopMatch::*share,
+                        const std::function<bool(std::size_t loop, std::size_t point)>& at,
+                        LoopAccuracy& accuracy);
 
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
 // half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do

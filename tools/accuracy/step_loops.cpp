@@ -2,8 +2,8 @@
 
 #include "tools/accuracy/edge_tree.hpp"
 
-#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace lacuna::accuracy {
 using namespace io;
@@ -24,29 +24,13 @@ void mark_steps(std::span<const LoopIds> loops, std::span<const LoopIds> steps,
                 std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
                 const MatchRule& rule, LoopAccuracy& accuracy) {
   if (steps.empty()) return;
-  const EdgeTree step_edges = tree_of_steps(steps, positions), true_edges = tree_of_truth(truth, positions);
+  const EdgeTree edges = tree_of_steps(steps, positions);
   std::vector<std::size_t> near;
-  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    LoopMatch& match = accuracy.loops[loop];
-    if (match.verdict != EdgeDecision::kFalse) continue;
-    std::size_t on_step = 0, on_either = 0;
-    for (const std::uint64_t id : loops[loop]) {
-      step_edges.owners_within(positions[id], rule.tolerance, near);
-      const bool at_step = !near.empty();
-      true_edges.owners_within(positions[id], rule.tolerance, near);
-      on_step += at_step;
-      on_either += at_step || std::any_of(near.begin(), near.end(),
-                                          [&](std::size_t hit) { return accuracy.true_loops[hit].counts; });
-    }
-    const auto points = static_cast<double>(loops[loop].size());
-    match.on_step = static_cast<double>(on_step) / points;
-    if (match.on_step >= rule.share) {
-      match.verdict = EdgeDecision::kStep;
-    } else if (static_cast<double>(on_either) / points >= rule.share) {
-      match.verdict = EdgeDecision::kJoined;
-    }
-  }
-  accuracy.scores = score_loops(accuracy.loops, accuracy.true_loops);
+  const auto at = [&](std::size_t loop, std::size_t point) {
+    edges.owners_within(positions[loops[loop][point]], rule.tolerance, near);
+    return !near.empty();
+  };
+  decide_false_loops(loops, truth, positions, rule, EdgeDecision::kStep, &LoopMatch::on_step, at, accuracy);
 }
 
 }  // namespace lacuna::accuracy

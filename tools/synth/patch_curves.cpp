@@ -101,7 +101,7 @@ class Tracer {
     const SurfacePlace inside = lattice_.at(in.column, in.row);
     const double spacing = double{lattice_.spacing[lattice_.node(in.column, in.row)]};
     CurvePlace place{.position = inside.position,
-                     .normal = visibility_.facing(inside),
+                     .normal = visibility_.facing(inside).value_or(inside.normal),
                      .spacing = spacing,
                      .shape = lattice_.patch.shape,
                      .cause = {Cause::kEdge, lattice_.patch.shape},

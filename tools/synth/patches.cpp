@@ -83,33 +83,36 @@ void add_patches(const Column& column, std::uint32_t shape, std::vector<Patch>& 
                      }});
 }
 
+// A part of a cylinder's inside or outside, `turns` of it from `first` on. `side` and `up` are at right
+// angles to its axis and to each other.
+struct Arc {
+  Vec3 start, along;
+  double length, radius;
+  Vec3 side, up;
+};
+
+Patch patch_of(const Arc& arc, double first, double turns, std::uint32_t shape, bool two_sided) {
+  const auto normal = [=](double u, double) {
+    const auto [sine, cosine] = sin_cos(first + turns * u);
+    return cosine * arc.side + sine * arc.up;
+  };
+  const auto place = [=](double u, double v) {
+    const double along = 0.5 * arc.length + across(v, 0.5 * arc.length);
+    return arc.start + along * arc.along + arc.radius * normal(u, v);
+  };
+  return {shape, two_sided, turns * kTwoPi * arc.radius, arc.length, place, normal};
+}
+
 void add_patches(const Pipe& pipe, std::uint32_t shape, std::vector<Patch>& patches) {
   const Vec3 side = normalized(cross(pipe.along, std::fabs(pipe.along.z) < 0.9 ? kUp : Vec3{1, 0, 0}));
-  const Vec3 up = cross(side, pipe.along);
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    const auto normal = [=](double u, double) {
-      const auto [sine, cosine] = sin_cos(0.25 * (quarter + u));
-      return cosine * side + sine * up;
-    };
-    const auto place = [=](double u, double v) {
-      const double along = 0.5 * pipe.length + across(v, 0.5 * pipe.length);
-      return pipe.start + along * pipe.along + pipe.radius * normal(u, v);
-    };
-    patches.push_back({shape, false, 0.25 * kTwoPi * pipe.radius, pipe.length, place, normal});
-  }
+  const Arc arc{pipe.start, pipe.along, pipe.length, pipe.radius, side, cross(side, pipe.along)};
+  for (int quarter = 0; quarter < 4; ++quarter)
+    patches.push_back(patch_of(arc, 0.25 * quarter, 0.25, shape, false));
 }
 
 void add_patches(const Vault& vault, std::uint32_t shape, std::vector<Patch>& patches) {
-  const Vec3 side = cross(vault.along, kUp);
-  const auto normal = [=](double u, double) {
-    const auto [sine, cosine] = sin_cos(0.5 * u);
-    return cosine * side + sine * kUp;
-  };
-  const auto place = [=](double u, double v) {
-    const double along = 0.5 * vault.length + across(v, 0.5 * vault.length);
-    return vault.start + along * vault.along + vault.radius * normal(u, v);
-  };
-  patches.push_back({shape, true, 0.5 * kTwoPi * vault.radius, vault.length, place, normal});
+  const Arc arc{vault.start, vault.along, vault.length, vault.radius, cross(vault.along, kUp), kUp};
+  patches.push_back(patch_of(arc, 0, 0.5, shape, true));
 }
 
 void add_patches(const House& house, std::uint32_t shape, std::vector<Patch>& patches) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lacuna::synth {
@@ -54,9 +55,11 @@ struct SampledBorder {
 
 // The side of a two-sided patch is that of the first station that samples it.
 SurfacePlace with_side(SurfacePlace place, const Visibility& visibility) {
-  if (!place.two_sided || !visibility.any(place)) return place;
-  place.normal = visibility.facing(place);
-  place.two_sided = false;
+  if (!place.two_sided) return place;
+  if (const std::optional<Vec3> normal = visibility.facing(place)) {
+    place.normal = *normal;
+    place.two_sided = false;
+  }
   return place;
 }
 

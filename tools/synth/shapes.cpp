@@ -88,27 +88,17 @@ void intersect(const Wall& wall, const Beam& ray, Hit& best) {
   keep_nearer(best, range, cosine, reflectance);
 }
 
-void intersect(const Box& box, const Beam& ray, Hit& best) {
-  const Vec3 from = turned(box, ray.origin - box.centre);
-  const Vec3 along = turned(box, ray.direction);
-  double enter = 0, leave = best.range, cosine = 0;
-  const auto cut = [&](double start, double step, double half) {
-    if (step == 0) {
-      if (std::fabs(start) > half) leave = -1;
-      return;
-    }
-    const double near = ((step > 0 ? -half : half) - start) / step;
-    const double far = ((step > 0 ? half : -half) - start) / step;
-    if (near > enter) {
-      enter = near;
-      cosine = step;
-    }
-    leave = std::min(leave, far);
+void intersect(const Box& box, const Beam& beam, Hit& best) {
+  const Vec3 from = turned(box, beam.origin - box.centre);
+  const Vec3 d = turned(box, beam.direction);
+  Cut cut{.leave = best.range};
+  const auto slab = [&](double depth, double step, double half) {
+    for (const double side : {-1.0, 1.0}) cut.half_space(side * depth - half, side * step);
   };
-  cut(from.x, along.x, box.half.x);
-  cut(from.y, along.y, box.half.y);
-  cut(from.z, along.z, box.half.z);
-  if (enter < leave) keep_nearer(best, enter, cosine, box.reflectance);
+  slab(from.x, d.x, box.half.x);
+  slab(from.y, d.y, box.half.y);
+  slab(from.z, d.z, box.half.z);
+  if (cut.enter < cut.leave) keep_nearer(best, cut.enter, cut.cosine, box.reflectance);
 }
 
 void intersect(const Ball& ball, const Beam& ray, Hit& best) {
@@ -129,15 +119,11 @@ void intersect(const Column& column, const Beam& ray, Hit& best) {
     const double y = from.y + range * d.y;
     if (x * x + y * y <= column.radius * column.radius) keep_nearer(best, range, d.z, column.reflectance);
   }
-  const double a = d.x * d.x + d.y * d.y;
-  if (a == 0) return;
-  const double b = from.x * d.x + from.y * d.y;
-  const double square = b * b - a * (from.x * from.x + from.y * from.y - column.radius * column.radius);
-  if (square < 0) return;
-  const double range = (-b - std::sqrt(square)) / a;
+  const auto [range, away, root] = cross_cylinder(column.base, {0, 0, 1}, column.radius, ray);
+  if (range > away) return;
   const double z = from.z + range * d.z;
   if (z < 0 || z > column.height) return;
-  keep_nearer(best, range, std::sqrt(square) / column.radius, column.reflectance);
+  keep_nearer(best, range, root / column.radius, column.reflectance);
 }
 
 void intersect(const Pipe& pipe, const Beam& beam, Hit& best) {

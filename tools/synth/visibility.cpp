@@ -86,13 +86,13 @@ bool Visibility::any(const SurfacePlace& place) const {
                      [&](std::uint32_t sweep) { return cause(place, sweep).kind == Cause::kNone; });
 }
 
-Vec3 Visibility::facing(const SurfacePlace& place) const {
+std::optional<Vec3> Visibility::facing(const SurfacePlace& place) const {
   for (const std::uint32_t sweep : sweeps_) {
     if (cause(place, sweep).kind != Cause::kNone) continue;
     const Vec3 eye = scanner_.eye(scanner_.sweeps()[sweep], place.position);
     return dot(eye - place.position, place.normal) < 0 ? -1 * place.normal : place.normal;
   }
-  return place.normal;
+  return std::nullopt;
 }
 
 double Visibility::density(const SurfacePlace& place, std::uint32_t number) const {

@@ -4,6 +4,7 @@
 #include "tools/synth/scanner.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,8 @@ class Visibility {
   Cause cause(const SurfacePlace& place, std::uint32_t sweep) const;
   bool any(const SurfacePlace& place) const;
 
-  // The normal on the side of the first station that samples the place; that of the surface where none does.
-  Vec3 facing(const SurfacePlace& place) const;
+  // The normal on the side of the first station that samples the place; none: no station does.
+  std::optional<Vec3> facing(const SurfacePlace& place) const;
 
   // Points per square metre that one sweep leaves around the place; 0 if it does not sample it.
   double density(const SurfacePlace& place, std::uint32_t sweep) const;
