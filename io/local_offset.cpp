@@ -1,12 +1,20 @@
 #include "io/local_offset.hpp"
 
 #include "io/number.hpp"
+#include "io/vectors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 namespace lacuna::io {
+
+std::optional<double> component_of(const LocalOffset& offset, std::string_view column) {
+  const auto axis = std::find(kPositionNames.begin(), kPositionNames.end(), column);
+  if (!offset || axis == kPositionNames.end()) return std::nullopt;
+  return (*offset)[axis - kPositionNames.begin()];
+}
 
 std::string print_offset(const Eigen::Vector3d& offset) {
   std::string text = "lacuna offset";

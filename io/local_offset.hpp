@@ -16,6 +16,9 @@ namespace lacuna::io {
 
 using LocalOffset = std::optional<Eigen::Vector3d>;  // none: the file has the coordinates of the scan
 
+// Its component along the coordinate that a column has. None in other columns, and without an offset.
+std::optional<double> component_of(const LocalOffset& offset, std::string_view column);
+
 inline constexpr std::size_t kOffsetWords = 5;  // of that comment
 
 // The comment without what marks it as one. Reading it gives the same numbers.

@@ -3,8 +3,7 @@
 #include "io/scalar.hpp"
 #include "io/vectors.hpp"
 
-#include <algorithm>
-#include <string>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,15 +13,9 @@ namespace {
 class OffsetReader final : public ScanReader {
  public:
   OffsetReader(std::unique_ptr<ScanReader> reader, const Eigen::Vector3d& offset)
-      : reader_(std::move(reader)) {
-    std::vector<std::pair<std::string, Scalar>> columns;
-    for (const Property& property : reader_->layout().properties) {
-      const auto axis = std::find(kPositionNames.begin(), kPositionNames.end(), property.name);
-      const bool is_position = axis != kPositionNames.end();
-      columns.emplace_back(property.name, is_position ? Scalar::kFloat64 : property.type);
-      summands_.push_back(is_position ? std::optional(offset[axis - kPositionNames.begin()]) : std::nullopt);
-    }
-    layout_ = packed_layout(columns);
+      : reader_(std::move(reader)),
+        layout_(with_components_as(Scalar::kFloat64, kPositionNames, reader_->layout())) {
+    for (const Property& column : layout_.properties) summands_.push_back(component_of(offset, column.name));
   }
 
   std::string format() const override { return reader_->format(); }
@@ -40,20 +33,16 @@ class OffsetReader final : public ScanReader {
       const ConstColumn source{
           .data = rows_.bytes.data() + from.offset, .stride = reader_->layout().stride, .type = from.type};
       const Column target{.data = batch.bytes.data() + to.offset, .stride = layout_.stride, .type = to.type};
-      if (summands_[i]) {
-        copy_sums(source, *summands_[i], target, rows_.count);
-      } else {
-        copy_column(source, target, rows_.count);
-      }
+      copy_column(source, summands_[i], target, rows_.count);
     }
     return true;
   }
 
  private:
   std::unique_ptr<ScanReader> reader_;
-  std::vector<std::optional<double>> summands_;  // one for each column; none: it stays as it is
   RowLayout layout_;
-  RowBatch rows_;  // as the reader gives them
+  std::vector<std::optional<double>> summands_;  // one for each column; none: it stays as it is
+  RowBatch rows_;                                // as the reader gives them
 };
 
 }  // namespace

@@ -80,11 +80,12 @@ void put_floating(std::byte* to, Scalar type, double value) {
   }
 }
 
-void copy_sums(ConstColumn from, double summand, Column to, std::size_t count) {
+void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count) {
+  if (!summand) return copy_column(from, to, count);
   with_type(from.type, [&](auto value) {
     for (std::size_t i = 0; i < count; ++i) {
       std::memcpy(&value, from.data + i * from.stride, sizeof(value));
-      put_floating(to.data + i * to.stride, to.type, static_cast<double>(value) + summand);
+      put_floating(to.data + i * to.stride, to.type, static_cast<double>(value) + *summand);
     }
   });
 }

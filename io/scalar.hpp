@@ -61,8 +61,8 @@ float nearest_float(double value);
 // Puts a value to where a kFloat32 or kFloat64 lies.
 void put_floating(std::byte* to, Scalar type, double value);
 
-// Copies `count` values with `summand` added in double precision. `to` is kFloat32 or kFloat64.
-void copy_sums(ConstColumn from, double summand, Column to, std::size_t count);
+// The same with `summand` added in double precision, if there is one. `to` is kFloat32 or kFloat64 then.
+void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count);
 
 // NaN in a column of floats, 0 in one of integers.
 void fill_missing(Column to, std::size_t count);

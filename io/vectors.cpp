@@ -3,6 +3,8 @@
 #include "io/scalar.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace lacuna::io {
 
@@ -18,6 +20,13 @@ void load_column(const RowBatch& rows, std::size_t stride, const Property& prope
 
 bool is_component(std::string_view property, const VectorNames& names) {
   return std::find(names.begin(), names.end(), property) != names.end();
+}
+
+RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout) {
+  std::vector<std::pair<std::string, Scalar>> columns;
+  for (const Property& property : layout.properties)
+    columns.emplace_back(property.name, is_component(property.name, names) ? type : property.type);
+  return packed_layout(columns);
 }
 
 bool has_vectors(const RowLayout& layout, const VectorNames& names) {

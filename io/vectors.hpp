@@ -21,6 +21,8 @@ inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
 inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
 
 bool is_component(std::string_view property, const VectorNames& names);
+// The same columns packed, the components of this type.
+RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
 bool has_vectors(const RowLayout& layout, const VectorNames& names);
 
 // All three columns must be there; to store, as doubles.

@@ -3,7 +3,6 @@
 #include "engine/criteria/criteria.hpp"
 #include "engine/run/error.hpp"
 #include "io/scalar.hpp"
-#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -28,19 +27,14 @@ std::vector<const Property*> find_sources(const RowLayout& from, std::span<const
   return sources;
 }
 
-// What makes a coordinate of the scan one of the file.
-std::optional<double> summand_of(const Property& column, const LocalOffset& offset) {
-  const auto axis = std::find(kPositionNames.begin(), kPositionNames.end(), column.name);
-  if (!offset || axis == kPositionNames.end()) return std::nullopt;
-  return -(*offset)[axis - kPositionNames.begin()];
-}
-
 class JoinedRows final : public InputRows {
  public:
   JoinedRows(const FileScan& scan, RowLayout joined, std::size_t first, std::size_t end,
              const LocalOffset& offset)
       : scan_(scan), joined_(std::move(joined)), file_(first), end_(end) {
-    for (const Property& column : joined_.properties) summands_.push_back(summand_of(column, offset));
+    LocalOffset added;
+    if (offset) added = -*offset;
+    for (const Property& column : joined_.properties) summands_.push_back(component_of(added, column.name));
   }
 
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
@@ -69,11 +63,7 @@ class JoinedRows final : public InputRows {
       const ConstColumn source{.data = rows_.bytes.data() + sources_[i]->offset,
                                .stride = reader_->layout().stride,
                                .type = sources_[i]->type};
-      if (summands_[i]) {
-        copy_sums(source, *summands_[i], column, rows_.count);
-      } else {
-        copy_column(source, column, rows_.count);
-      }
+      copy_column(source, summands_[i], column, rows_.count);
     }
   }
 

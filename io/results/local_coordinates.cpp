@@ -4,8 +4,6 @@
 #include "io/vectors.hpp"
 
 #include <cmath>
-#include <string>
-#include <utility>
 
 namespace lacuna::io {
 
@@ -24,14 +22,7 @@ Scalar coordinate_type(const FileScan& scan, const OutputConfig& config) {
 std::vector<RowLayout> written_layouts(const FileScan& scan, const OutputConfig& config) {
   std::vector<RowLayout> layouts = scan.layouts();
   if (!config.local_coordinates) return layouts;
-  for (RowLayout& layout : layouts) {
-    std::vector<std::pair<std::string, Scalar>> columns;
-    for (const Property& property : layout.properties) {
-      const bool is_position = is_component(property.name, kPositionNames);
-      columns.emplace_back(property.name, is_position ? Scalar::kFloat32 : property.type);
-    }
-    layout = packed_layout(columns);
-  }
+  for (RowLayout& layout : layouts) layout = with_components_as(Scalar::kFloat32, kPositionNames, layout);
   return layouts;
 }
 
