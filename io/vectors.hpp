@@ -21,7 +21,7 @@ inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
 inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
 
 bool is_component(std::string_view property, const VectorNames& names);
-// The same columns packed, the components of this type.
+// Returns the same columns, packed. The components have this type.
 RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
 bool has_vectors(const RowLayout& layout, const VectorNames& names);
 
