@@ -17,10 +17,9 @@ namespace lacuna {
 
 // How small a hole may be that is wanted.
 struct ScaleConfig {
-  double resolution =
-      0.0;                // edge of the cells that one point each represents, in units of the scan; 0: chosen
-  double min_hole = 0.0;  // diameter of the smallest wanted hole, in units of the scan; 0: off
-  bool every_point = false;  // no resolution is chosen, as with the paper's method
+  double resolution = 0.0;   // one level, of a lattice with this edge, in units of the scan; 0: all levels
+  double min_hole = 0.0;     // diameter of the smallest wanted hole, in units of the scan; 0: off
+  bool every_point = false;  // one level, of all points, as with the paper's method
 };
 
 struct NeighbourhoodConfig {
@@ -77,23 +76,16 @@ struct TangentialConfig {
   // Curves are found within this bound and again within `coarse_bound` times it, where sparse places next to
   // dense ones are surface, too.
   double coarse_bound = 2;
-  // A loop within the first bound stands where those within the second one, on it, are together this share of
-  // its length. It also stands where none of them is surer.
-  double same_hole = 0.8;
-  // A point counts fully for a curve's confidence where the empty circle is this many times as large as the
+  // A point counts fully for a curve's clearness where the empty circle is this many times as large as the
   // sampling radius. Nine in ten of the circumradii around are no larger than that.
   double clear_radius = 2.5;
-  // Sampling radii of length that confidence adds to each curve: short curves say little.
+  // Sampling radii of length that clearness adds to each curve: short curves say little.
   double added_length = 4;
-  // Confidence of a curve with the evidence e: the logistic function of `confidence_slope` (e - middle).
-  // Fitted by bench/accuracy/calibrate.py.
-  double confidence_middle = 0.6;
-  double confidence_slope = 25;
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
 
 struct SelectionConfig {
-  double min_confidence = 0.75;  // from 0 to 1; the paper's loops have 1
+  double min_confidence = 0.5;   // from 0 to 1; the paper's loops have 1
   double min_perimeter = 0.0;    // lengths in units of the scan
   double max_perimeter = 0.0;    // 0: no limit
   double min_diameter = 0.0;

@@ -110,7 +110,7 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   const Config config = with_min_hole(given);
   Job job(config, workspace, progress);
   const Clock::time_point start = Clock::now();
-  const Bucketed bucketed = bucket_input(scan, job);
+  const Level bucketed = first_level(scan, job);
 
   const Tiling& tiling = bucketed.store.tiling();
   Estimate estimate{.summary = summarise(bucketed, job), .seconds = seconds_since(start)};
@@ -118,9 +118,7 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   estimate.cell_size = bucketed.survey.grid.edge();
   estimate.cells = tiling.cells.size();
   const Counts& counts = estimate.summary.counts;
-  const bool is_chosen = bucketed.thinned && config.scale.resolution == 0;
   RunSize size{.rows = counts.points,
-               .stored = is_chosen ? counts.points - counts.dropped : 0,
                .points = tiling.points(),
                .tile_points = bucketed.tile_points,
                .precision = bucketed.survey.precision(),

@@ -46,17 +46,16 @@ std::vector<Parameter> parameters(Config& config) {
          output, run] = config;
   const double below_90 = std::nextafter(90.0, 0.0);
   std::vector<Parameter> all = {
-      {"scale", "resolution", &scale.resolution, 0, 1e100, "a length of 0 (automatic) or more",
-       "Edge of the cells of an absolute lattice, in units of the scan: one point represents each cell. 0: "
-       "chosen where "
-       "noise or scan lines are coarser than the points.",
+      {"scale", "resolution", &scale.resolution, 0, 1e100, "a length of 0 (off) or more",
+       "The scan at this one level: one point represents each cell of an absolute lattice with edges of this "
+       "length, in units of the scan. 0: all levels.",
        kNothing},
       {"scale", "min_hole", &scale.min_hole, 0, 1e100, "a length of 0 (off) or more",
-       "Diameter of the smallest circle that fits in a wanted hole, in units of the scan; sets the "
-       "resolution.",
+       "Diameter of the smallest circle that fits in a wanted hole, in units of the scan; sets the first "
+       "level.",
        kNothing},
       {"scale", "every_point", &scale.every_point, 0, 1, "true or false",
-       "Every point counts, though points lie in lines: no resolution is chosen.", kTangential},
+       "The scan at one level, that of all points.", kTangential},
 
       {"neighbourhood", "k", &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
        "Nearest neighbours of a point, before the neighbourhoods are made symmetric.", kNothing},
@@ -111,22 +110,14 @@ std::vector<Parameter> parameters(Config& config) {
       {"tangential", "most_radius", &tangential.most_radius, 0.1, 1, "a number from 0.1 to 1",
        "Bound of the median circumradius and of the spread, in mean distances to neighbours.", kTangential},
       {"tangential", "coarse_bound", &tangential.coarse_bound, 1, 10, "a number from 1 to 10",
-       "Curves are found again within this many times the largest circumradius; of both, the better stand.",
-       kTangential},
-      {"tangential", "same_hole", &tangential.same_hole, 0, 1, "a number from 0 to 1",
-       "A loop stands where those within the coarse bound, on it, have this share of its length, or are less "
-       "sure.",
+       "Curves are found again within this many times the largest circumradius; tracking chooses.",
        kTangential},
       {"tangential", "clear_radius", &tangential.clear_radius, 1.001, 100, "a number from 1.001 to 100",
-       "Circumradii that many times as large as the sampling radius count fully for a loop's confidence.",
+       "Circumradii that many times as large as the sampling radius count fully for a loop's clearness.",
        kTangential},
       {"tangential", "added_length", &tangential.added_length, 0, 1000, "a number from 0 to 1000",
-       "Length without evidence that confidence adds to each boundary curve, in circumradii of the sampling.",
+       "Length without clearness that is added to each boundary curve, in circumradii of the sampling.",
        kTangential},
-      {"tangential", "confidence_middle", &tangential.confidence_middle, 0, 1, "a number from 0 to 1",
-       "Evidence of a loop with a confidence of one half.", kTangential},
-      {"tangential", "confidence_slope", &tangential.confidence_slope, 0.001, 1000,
-       "a number from 0.001 to 1000", "How fast confidence rises with evidence.", kTangential},
       {"tangential", "min_curve", &tangential.min_curve, 3, 1e9, "a whole number from 3 to 1000000000",
        "Boundary curves with fewer points are no loops.", kTangential},
 

@@ -5,14 +5,17 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
+#include "engine/levels/level.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/results/collect.hpp"
+#include "engine/results/loop_rows.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/summarise.hpp"
-#include "engine/thin/bucket_input.hpp"
+#include "engine/track/level_loops.hpp"
+#include "engine/track/track_loops.hpp"
 
 #include <memory>
 #include <optional>
@@ -29,6 +32,41 @@ std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Jo
   return std::make_unique<tangential::TangentialBoundary>(store, job);
 }
 
+struct FoundLevel {
+  Totals totals;
+  FoundLoops found;
+  LevelLoops loops;
+};
+
+// The loops of one level: halo and evaluate, each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6);
+// then boundary edges, stitched across tiles to components, and their loops. Each consumer keeps what it needs of an
+// evaluated tile.
+FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundary,
+                      std::vector<TileConsumer*> consumers, Job& job) {
+  const double eps = eps_length(job.config.neighbourhood, extent);
+  refuse_balls(level.store.tiling(), eps, job);
+  AppendLists<HaloEdge> halo = exchange_halo(level.store, job);
+  consumers.push_back(&boundary);
+  Totals totals = evaluate_tiles(level.store, std::move(halo), eps, extent, consumers, job);
+  FoundLoops found = boundary.find_loops(totals, job);
+  LevelLoops loops = level_loops(level, totals, found, boundary, job);
+  return {std::move(totals), std::move(found), std::move(loops)};
+}
+
+// The same for each level above, from fine to coarse.
+void find_loops_above(const Level& first, double extent, double spacing, std::vector<LevelLoops>& levels, Job& job) {
+  Phase phase(job, "levels", points_above(first));
+  std::optional<Level> below;
+  while (std::optional<Level> level = level_above(below ? *below : first, spacing, job)) {
+    const std::unique_ptr<BoundaryMethod> boundary = boundary_method(level->store, job);
+    FoundLevel found = find_loops(*level, extent, *boundary, {}, job);
+    levels.push_back(std::move(found.loops));
+    spacing = found.totals.median_distance();
+    phase.advance(level->store.tiling().points());
+    below.emplace(*std::move(level));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
@@ -38,51 +76,52 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   Job job(config, workspace, progress);
 
   // Survey and bucket: where the points are, and the points in tiles on disk.
-  Bucketed bucketed = bucket_input(scan, job);
-  const TileStore& store = bucketed.store;
-  const double extent = extent_of(bucketed.survey.bounds);
-  const double eps = eps_length(config.neighbourhood, extent);
-  Summary summary = summarise(bucketed, job);
+  Level first = first_level(scan, job);
+  const TileStore& store = first.store;
+  const double extent = extent_of(first.survey.bounds);
+  Summary summary = summarise(first, job);
 
-  // Halo and evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6). Each consumer
-  // keeps what it needs of an evaluated tile.
-  refuse_balls(store.tiling(), eps, job);
-  AppendLists<HaloEdge> halo = exchange_halo(store, job);
+  // The loops of the first level, and all else that is found of its points.
   Candidates candidates(store, job);
   const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
   std::optional<PointResults> points;
   std::optional<ProbabilityVoxels> voxels;
   std::optional<ScanSample> sampler;
   std::optional<OrientationGraph> orientation;
-  std::vector<TileConsumer*> consumers = {&candidates, boundary.get()};
+  std::vector<TileConsumer*> consumers = {&candidates};
   if (config.output.points) consumers.push_back(&points.emplace(summary.counts.points, store, job));
   if (config.output.vdb) consumers.push_back(&voxels.emplace(job));
   if (const std::int64_t most = config.output.sample_points; most > 0)
     consumers.push_back(&sampler.emplace(static_cast<std::uint64_t>(most), job));
   if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
-  const Totals totals = evaluate_tiles(store, std::move(halo), eps, extent, consumers, job);
+  FoundLevel found = find_loops(first, extent, *boundary, std::move(consumers), job);
 
-  // Boundary edges, stitched across tiles to components, and their loops.
-  const FoundLoops found = boundary->find_loops(totals, job);
-  RowSet coherent = candidates.coherent(job);
-  RowSet boundary_candidates = boundary->boundary_candidates(candidates, coherent, found.loops, job);
+  // The loops of the levels above, and each hole tracked through the levels.
+  std::vector<LevelLoops> levels;
+  levels.push_back(std::move(found.loops));
+  if (has_levels(given)) find_loops_above(first, extent, found.totals.median_distance(), levels, job);
+  add_findings(found.totals, found.found, levels, eps_length(config.neighbourhood, extent), summary);
   MeasuredLoops loops =
-      measure_loops(found.loops, boundary->loop_points(), store.tiling(), totals.mean_edge_length(), job);
+      measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);
 
   // Results, in the order of the input.
+  std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
+  LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
+  RowSet coherent = candidates.coherent(job);
+  RowSet boundary_candidates = boundary->boundary_candidates(candidates, coherent, on_loops.rows, job);
   std::optional<ProbabilityGrid> probabilities;
-  if (voxels) probabilities.emplace(voxels->finish(store, bucketed.survey.middle, job));
+  if (voxels) probabilities.emplace(voxels->finish(store, first.survey.middle, job));
   std::optional<Column<StoredSample>> sample;
   if (sampler) sample.emplace(sampler->finish(job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
-  add_findings(totals, found, eps, summary);
   std::unique_ptr<Detection> detection = collect_results(
-      {std::move(summary), std::move(loops), std::move(coherent), std::move(boundary_candidates),
-       std::move(points), std::move(probabilities), std::move(sample), std::move(opposed_normals)},
+      {std::move(summary), std::move(loops), std::move(selected), std::move(on_loops), std::move(coherent),
+       std::move(boundary_candidates), std::move(points), std::move(probabilities), std::move(sample),
+       std::move(opposed_normals)},
       candidates, store, job);
-  if (!bucketed.thinned || !config.output.points) return detection;
-  return spread_results(std::move(detection), std::move(*bucketed.thinned->represented), job);
+  if (!first.thinned || !config.output.points) return detection;
+  return spread_results(std::move(detection), std::move(*first.thinned->represented), job);
 }
 
 }  // namespace lacuna

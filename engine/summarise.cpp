@@ -4,14 +4,14 @@
 
 namespace lacuna {
 
-Summary summarise(const Bucketed& bucketed, const Job& job) {
-  const auto& [thinned, survey, tile_points, store] = bucketed;
+Summary summarise(const Level& level, const Job& job) {
+  const auto& [thinned, survey, tile_points, store] = level;
   Summary summary;
   summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
   if (thinned) {
-    summary.resolution = thinned->resolution;
+    summary.resolution = thinned->edge;
     summary.counts.points = thinned->points;
     summary.counts.dropped = thinned->dropped;
     summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
@@ -26,14 +26,18 @@ Summary summarise(const Bucketed& bucketed, const Job& job) {
   return summary;
 }
 
-void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary) {
+void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels, double eps,
+                  Summary& summary) {
   Counts& counts = summary.counts;
   counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
   counts.candidates = totals.candidates;
   counts.undefined_normals = totals.undefined_normals;
   counts.boundary_edges = found.edges;
   counts.components = found.components;
-  counts.raw_loops = found.raw;
+  for (const LevelLoops& level : levels) {
+    counts.raw_loops += level.loops.size();
+    summary.levels.push_back({level.edge, level.points, level.loops.size()});
+  }
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
   summary.median_distance = totals.median_distance();

@@ -5,14 +5,18 @@
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
-#include "engine/thin/bucket_input.hpp"
+#include "engine/track/level_loops.hpp"
+
+#include <span>
+#include "engine/levels/level.hpp"
 
 namespace lacuna {
 
 // Counts and bounds of the input, not of its representatives; tiles, threads and memory limit in effect.
-Summary summarise(const Bucketed& bucketed, const Job& job);
+Summary summarise(const Level& level, const Job& job);
 
-// What the evaluation and the search for loops have found. `eps`: in effect.
-void add_findings(const Totals& totals, const FoundLoops& found, double eps, Summary& summary);
+// What the evaluation of the first level and the search for loops at all levels have found. `eps`: in effect.
+void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels, double eps,
+                  Summary& summary);
 
 }  // namespace lacuna

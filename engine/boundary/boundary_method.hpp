@@ -15,7 +15,6 @@ namespace lacuna {
 
 struct FoundLoops {
   RawLoops loops;                 // sorted
-  std::uint64_t raw = 0;          // loops before those of little confidence were left out
   std::uint64_t edges = 0;        // of the boundary graph
   std::uint64_t components = 0;   // of the boundary graph, with an edge
   std::int64_t minimum_loop = 0;  // e, in effect; 0: the method has none
@@ -27,9 +26,9 @@ class BoundaryMethod : public TileConsumer {
 
   // All tiles are taken. Consumes the edges: to be called once.
   virtual FoundLoops find_loops(const Totals& totals, Job& job) = 0;
-  // The candidates that belong to the boundary, in addition to the points on loops.
+  // The candidates that belong to the boundary, in addition to the points on loops. `on_loop`: these.
   virtual RowSet boundary_candidates(const Candidates& candidates, const RowSet& coherent,
-                                     const RawLoops& loops, Job& job) const = 0;
+                                     const RowSet& on_loop, Job& job) const = 0;
 
   // All points that the loops may pass through.
   const LoopPointLists& loop_points() const { return loop_points_; }

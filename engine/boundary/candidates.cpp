@@ -61,11 +61,8 @@ RowSet Candidates::coherent(Job& job) const {
   return boundary;
 }
 
-RowSet Candidates::between_loop_points(const RawLoops& loops, Job& job) const {
-  RowSet on_loop(tiling_.row_count()), between(tiling_.row_count());
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    loops.for_each_vertex(i, [&](const Vertex& v) { on_loop.insert(v.row); });
-  }
+RowSet Candidates::between(const RowSet& on_loop, Job& job) const {
+  RowSet between(tiling_.row_count());
   job.arena.for_each(tiling_.tiles.size(), [&](std::size_t t) {
     for (const StoredCandidate& c : lists_.read(t)) {
       if (on_loop.contains(c.candidate.gap_near) && on_loop.contains(c.candidate.gap_far))

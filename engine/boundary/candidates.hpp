@@ -3,7 +3,6 @@
 
 #include "engine/boundary/coherence.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/loops/raw_loops.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/point_column.hpp"
@@ -36,8 +35,8 @@ class Candidates final : public TileConsumer {
   // it. Tiles are evaluated on their own, and again while a tile that their candidates depend on changes; the
   // order does not matter. Memory: one bit per row.
   RowSet coherent(Job& job) const;
-  // Those whose gap neighbours both lie on one of the loops.
-  RowSet between_loop_points(const RawLoops& loops, Job& job) const;
+  // Those whose gap neighbours both lie on loops.
+  RowSet between(const RowSet& on_loop, Job& job) const;
 
  private:
   const Tiling& tiling_;

@@ -221,6 +221,7 @@ void combine(const Slice& slice, const CriteriaParameters& parameters, const Sur
   slice.set(values.mean_distance, surface.mean_distance);
   slice.set(values.mean_offset, surface.mean_offset);
   slice.set(values.normal, select(surface.has_normal, surface.normal, vectors(kUndefined)));
+  slice.set(values.surface_share, surface.shape.surface);
   slice.set(values.gap_near, surface.gap.near);
   slice.set(values.gap_far, surface.gap.far);
 }
@@ -246,6 +247,7 @@ void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& pa
   for (std::size_t i = 0; i < kSlices; ++i) surfaces[i].gap = gap_of(slice_of(batch, i), gaps);
   turn_at_creases(batch, parameters, estimated, planes, surfaces);
   for (std::size_t i = 0; i < kSlices; ++i) {
+    surfaces[i].shape = shape_shares(surfaces[i]);
     combine(slice_of(batch, i), parameters, surfaces[i], values, std::make_index_sequence<kCriteria>());
   }
 }

@@ -19,6 +19,7 @@ struct CriteriaValues {
   Batch<double> mean_distance;            // r_p
   Batch<double> mean_offset[3];           // mu_p - p
   Batch<double> normal[3];                // NaN: none
+  Batch<double> surface_share;            // of the boundary and the interior shape (4.4)
   Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: none
   Batch<double> gap_far;
 };

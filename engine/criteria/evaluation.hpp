@@ -16,6 +16,7 @@ struct Evaluation {
   Eigen::Vector3d mean_offset{0, 0, 0};  // mu_p - p
   LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; none: kNoIndex
   LocalIndex gap_far = kNoIndex;
+  float surface_share = 0;  // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
 };
 
 }  // namespace lacuna

@@ -40,16 +40,22 @@ HWY_INLINE V likeness(Vector<V> lambda, const CharacteristicShape& shape) {
 }
 
 template <class V>
-HWY_INLINE V shape_probability(const Surface<V>& surface) {
+HWY_INLINE ShapeShares<V> shape_shares(const Surface<V>& surface) {
   const V zero = all<V>(0);
   const Vector<V>& values = surface.eigenvalues;
   const Vector<V> positive{hn::Max(values.x, zero), hn::Max(values.y, zero), hn::Max(values.z, zero)};
   const V sum = (positive.x + positive.y) + positive.z;
   const Vector<V> lambda = select(sum > zero, positive / sum, eigenvalues_of<V>(kCornerShape));
   const V boundary = likeness(lambda, kBoundaryShape);
-  const V total = ((boundary + likeness(lambda, kInteriorShape)) + likeness(lambda, kCornerShape)) +
-                  likeness(lambda, kLineShape);
-  return hn::IfThenElseZero(total > zero, boundary / total);
+  const V on_surface = boundary + likeness(lambda, kInteriorShape);
+  const V total = (on_surface + likeness(lambda, kCornerShape)) + likeness(lambda, kLineShape);
+  const MaskOf<V> is_any = total > zero;
+  return {hn::IfThenElseZero(is_any, boundary / total), hn::IfThenElseZero(is_any, on_surface / total)};
+}
+
+template <class V>
+HWY_INLINE V shape_probability(const Surface<V>& surface) {
+  return surface.shape.boundary;
 }
 
 }  // namespace lacuna::HWY_NAMESPACE

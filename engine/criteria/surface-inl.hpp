@@ -34,6 +34,13 @@ HWY_INLINE Gap<V> select(MaskOf<V> mask, const Gap<V>& a, const Gap<V>& b) {
           hn::IfThenElse(mask, a.near, b.near), hn::IfThenElse(mask, a.far, b.far)};
 }
 
+// What shape the neighbourhood has: shares in [0, 1] of the kernels of the characteristic shapes (paper, 4.4).
+template <class V>
+struct ShapeShares {
+  V boundary;
+  V surface;  // boundary and interior: the rest are lines, corners and noise
+};
+
 // p itself takes part in no sum, and every sum is taken in neighbour order.
 template <class V>
 struct Surface {
@@ -43,6 +50,7 @@ struct Surface {
   MaskOf<V> has_normal;
   Vector<V> normal;  // unit
   Gap<V> gap;
+  ShapeShares<V> shape;
 };
 
 }  // namespace lacuna::HWY_NAMESPACE

@@ -26,6 +26,9 @@ struct LengthBins {
   double median() const;
 };
 
+// Mean distance of a point to its neighbours over the spacing, on a square grid with k = 15.
+inline constexpr double kDistanceOverSpacing = 1.7;
+
 // Sums over all distinct points, exact in any order.
 struct Totals {
   std::uint64_t points = 0;

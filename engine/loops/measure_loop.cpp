@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -179,7 +180,6 @@ std::vector<StoredLoopPoint> stored(const Loop& loop) {
   std::vector<StoredLoopPoint> stored;
   for (const LoopPoint& p : loop) {
     stored.push_back({{p.position.x(), p.position.y(), p.position.z(), p.id},
-                      p.row,
                       {p.surface.x(), p.surface.y(), p.surface.z()},
                       p.probability});
   }
@@ -191,6 +191,12 @@ Scratch in_memory() {
 }
 
 }  // namespace
+
+double compactness(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+  const double length = perimeter(loop, scratch);
+  const double area = area_vector(loop, centroid(loop, scratch), scratch).norm();
+  return 4 * std::numbers::pi * area / (length * length);
+}
 
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
   return Runs(loop, scratch).diameter();

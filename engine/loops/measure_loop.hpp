@@ -15,13 +15,12 @@ namespace lacuna {
 // A point of a loop as plain data: a loop may be larger than memory.
 struct StoredLoopPoint {
   StoredPoint point;
-  Row row;
   std::array<float, 3> surface;
   float probability;
 };
 
 inline LoopPoint loaded(const StoredLoopPoint& p) {
-  return {p.point.id, p.row, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
+  return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
 }
 
 // Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours).
@@ -35,6 +34,9 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
 // loop and what measuring it needs. Precondition: three points or more. Cost: linear, but for the diameter
 // (see `diameter`).
 LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
+
+// Area over that of the circle with the same perimeter, [0, 1]. Scribbles and slits have little. Cost: linear.
+double compactness(std::span<const StoredLoopPoint> loop, Scratch& scratch);
 
 // Largest distance between two points, exactly, by branch and bound over runs of the loop.
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch);

@@ -10,12 +10,10 @@ constexpr std::uint64_t kBlock = 4096;  // points: a loop may be larger than mem
 
 }  // namespace
 
-void RawLoops::add(std::uint64_t points, const LoopRating& rating,
+void RawLoops::add(std::uint64_t points, const LoopEvidence& evidence,
                    const std::function<Vertex(std::uint64_t)>& vertex) {
   const std::lock_guard lock(*mutex_);
-  ++found_;
-  if (rating.confidence < min_confidence_) return;
-  index_.push_back({vertices_.size(), points, vertex(0).id, rating});
+  index_.push_back({vertices_.size(), points, vertex(0).id, evidence});
   std::vector<Vertex> block;
   for (std::uint64_t i = 0; i < points; ++i) {
     block.push_back(vertex(i));
@@ -25,22 +23,12 @@ void RawLoops::add(std::uint64_t points, const LoopRating& rating,
   }
 }
 
-void RawLoops::add(const RawLoops& others, std::size_t loop) {
-  const Entry& entry = others.index_[loop];
-  std::vector<Vertex> block;
-  add(entry.points, entry.rating, [&](std::uint64_t i) {
-    const std::uint64_t within = i % kBlock;
-    if (within == 0) block = others.vertices_.read(entry.offset + i, std::min(kBlock, entry.points - i));
-    return block[within];
-  });
-}
-
 std::vector<Vertex> RawLoops::read(std::size_t loop) const {
   return vertices_.read(index_[loop].offset, index_[loop].points);
 }
 
 void RawLoops::for_each_vertex(std::size_t loop, const std::function<void(const Vertex&)>& visit) const {
-  const auto& [offset, points, first, rating] = index_[loop];
+  const std::uint64_t offset = index_[loop].offset, points = index_[loop].points;
   for (std::uint64_t i = 0; i < points; i += kBlock) {
     for (const Vertex& v : vertices_.read(offset + i, std::min(kBlock, points - i))) visit(v);
   }
@@ -55,7 +43,7 @@ bool RawLoops::comes_first(const Entry& a, const Entry& b) const {
     const PointId id_a = of_a[a.offset + i].id, id_b = of_b[b.offset + i].id;
     if (id_a != id_b) return id_a < id_b;
   }
-  return false;
+  return a.evidence.is_coarse < b.evidence.is_coarse;
 }
 
 void RawLoops::sort() {

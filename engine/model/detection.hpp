@@ -35,6 +35,13 @@ struct PhaseTime {
   double seconds = 0;
 };
 
+// A level of the scan.
+struct LevelSummary {
+  double edge = 0;           // of its lattice; 0: every point
+  std::uint64_t points = 0;  // distinct ones
+  std::uint64_t loops = 0;   // before selection
+};
+
 // Bins of equal width from 0 to 1.
 inline constexpr std::size_t kProbabilityBins = 20;
 using ProbabilityBins = std::array<std::uint64_t, kProbabilityBins>;
@@ -53,7 +60,7 @@ struct Summary {
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
   Strays strays;                    // without any, `rest` is `bounds`
-  double resolution = 0;            // in effect; 0: none
+  double resolution = 0;            // of the first level; 0: every point
   double mean_neighbours = 0;       // K
   double mean_edge_length = 0;      // over the edges of G
   double median_distance = 0;       // over points, of the mean distance to their neighbours; within 1 %
@@ -63,6 +70,7 @@ struct Summary {
   std::uint64_t tile_points = 0;   // in effect
   std::uint64_t threads = 0;       // in effect
   std::uint64_t memory_limit = 0;  // bytes, in effect
+  std::vector<LevelSummary> levels;  // from fine to coarse
   std::vector<PhaseTime> phases;
 };
 

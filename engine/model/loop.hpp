@@ -13,7 +13,6 @@ namespace lacuna {
 // A point on a loop, with all that is needed to measure and to draw it.
 struct LoopPoint {
   PointId id{};
-  Row row{};
   Eigen::Vector3d position{0, 0, 0};
   Eigen::Vector3f surface{0, 0, 0};  // mu_p - p: from the point towards where its neighbours are
   float probability = 0;
@@ -30,6 +29,14 @@ constexpr const char* name_of(LoopKind kind) {
   return kind == LoopKind::kHole ? "hole" : "outer";
 }
 
+// What is known of a hole from all levels at which it is found. Lengths in units of the scan.
+struct LoopTrack {
+  double confidence = 1;   // that it is one, [0, 1]; of the method "paper": 1
+  double persistence = 0;  // octaves from the spacing along the loop to the last scale, 0 or more
+  double first_scale = 0;  // edges of the first and of the last lattice at which it is found; 0: among all points
+  double last_scale = 0;
+};
+
 // What a user sorts and filters loops by. Lengths in units of the scan.
 struct LoopMeasures {
   LoopKind kind = LoopKind::kHole;
@@ -42,7 +49,10 @@ struct LoopMeasures {
                          0};  // unit; right hand rule about the loop's direction; 0 where it encloses nothing
   double planarity = 0;       // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
-  double confidence = 1;    // that it is one, [0, 1]; of the method "paper": 1
+  double confidence = 1;    // as in `LoopTrack`, and so are the next three
+  double persistence = 0;
+  double first_scale = 0;
+  double last_scale = 0;
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 

@@ -1,7 +1,6 @@
 #include "engine/results/collect.hpp"
 
 #include "engine/store/column_writer.hpp"
-#include "engine/store/outbox.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -11,15 +10,13 @@
 namespace lacuna {
 namespace {
 
-constexpr std::int32_t kNoLoop = std::numeric_limits<std::int32_t>::max();
-
 // What a point is.
 constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
 
 // A point of one tile that is coherent or belongs to the boundary.
 struct Mark {
   LocalIndex owned;
-  std::int32_t loop;  // the first reported loop through it; kNoLoop: none
+  std::int32_t loop;  // the first reported loop through it; kNotReported: none
   float probability;
   std::uint32_t flags;
   StoredPoint point;
@@ -46,7 +43,7 @@ class WorkspaceDetection final : public Detection {
                      std::optional<PointResults> results, std::optional<ProbabilityGrid> probabilities,
                      std::optional<Column<StoredSample>> sample, std::optional<RowSet> turned)
       : summary_(std::move(summary)),
-        raw_loops_(std::move(loops)),
+        all_loops_(std::move(loops)),
         selected_(std::move(selected)),
         boundary_(std::move(boundary)),
         marked_(marked),
@@ -54,14 +51,14 @@ class WorkspaceDetection final : public Detection {
         probabilities_(std::move(probabilities)),
         sample_(std::move(sample)),
         turned_(std::move(turned)) {
-    for (const std::size_t loop : selected_) loops_.push_back(raw_loops_.measures[loop]);
+    for (const std::size_t loop : selected_) loops_.push_back(all_loops_.measures[loop]);
   }
 
   const Summary& summary() const override { return summary_; }
   const std::vector<LoopMeasures>& loops() const override { return loops_; }
   void for_each_loop_point(std::size_t loop,
                            const std::function<void(const LoopPoint&)>& visit) const override {
-    raw_loops_.for_each_point(selected_[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
+    all_loops_.loops.for_each_point(selected_[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
   }
 
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
@@ -138,7 +135,7 @@ class WorkspaceDetection final : public Detection {
   }
 
   Summary summary_;
-  MeasuredLoops raw_loops_;
+  MeasuredLoops all_loops_;
   std::vector<std::size_t> selected_;
   std::vector<LoopMeasures> loops_;
   Column<StoredBoundary> boundary_;  // in ascending id
@@ -149,32 +146,17 @@ class WorkspaceDetection final : public Detection {
   std::optional<RowSet> turned_;
 };
 
-// Every point on a loop, to its tile.
-void mark_loops(const MeasuredLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
-                AppendLists<Mark>& marks) {
-  Outbox<Mark> outbox(marks);
-  std::size_t next_selected = 0;
-  for (std::size_t i = 0; i + 1 < loops.offsets.size(); ++i) {
-    const bool reported = next_selected < selected.size() && selected[next_selected] == i;
-    const std::int32_t name = reported ? static_cast<std::int32_t>(next_selected++) : kNoLoop;
-    loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      const TileIndex t = tiling.tile_of_row(p.row);
-      const auto owned = tiling.tiles[t].local(p.row);
-      outbox.add(t, {owned, name, p.probability, kBoundary, p.point});
-    });
-  }
-  outbox.send();
-}
-
 // A tile's points that are coherent or belong to the boundary, each once.
 std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& findings, const Tile& tile,
-                                TileIndex t, const AppendLists<Mark>& loop_marks) {
-  std::vector<Mark> marks = loop_marks.read(t);
+                                TileIndex t) {
+  std::vector<Mark> marks;
+  for (const PointOnLoop& p : findings.on_loops.points.read(t))
+    marks.push_back({p.owned, p.loop, p.probability, kBoundary, p.point});
   for (const StoredCandidate& c : candidates.read(t)) {
     const Row row = c.candidate.row;
     const std::uint32_t flags = (findings.coherent.contains(row) ? kCoherent : 0) |
                                 (findings.boundary_candidates.contains(row) ? kBoundary : 0);
-    if (flags != 0) marks.push_back({tile.local(row), kNoLoop, c.probability, flags, c.point});
+    if (flags != 0) marks.push_back({tile.local(row), kNotReported, c.probability, flags, c.point});
   }
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
     return a.owned != b.owned ? a.owned < b.owned : a.loop < b.loop;
@@ -192,7 +174,7 @@ std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& fi
 }
 
 StoredBoundary stored(const Mark& mark) {
-  return {mark.point, mark.probability, mark.loop == kNoLoop ? -1 : mark.loop, mark.flags};
+  return {mark.point, mark.probability, mark.loop == kNotReported ? -1 : mark.loop, mark.flags};
 }
 
 }  // namespace
@@ -201,20 +183,16 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
                                            const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
-  const MeasuredLoops& loops = findings.loops;
   Column<StoredBoundary> boundary_points(job.file("boundary"));
   std::uint64_t marked = 0;
-  std::vector<std::size_t> selected = select_loops(loops.measures, job.config.selection);
   {
     Phase phase(job, "collect", tiling.points());
-    AppendLists<Mark> marks(job.file("marks"), tiling.tiles.size(), job.memory.spills / 4);
-    mark_loops(loops, selected, tiling, marks);
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
       const Tile& tile = tiling.tiles[t];
       const std::vector<Mark> tile_marks =
-          marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t), marks);
+          marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t));
       const std::lock_guard lock(mutex);
       for (const Mark& mark : tile_marks) {
         summary.counts.coherent += (mark.flags & kCoherent) != 0;
@@ -239,7 +217,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(
-      std::move(summary), std::move(findings.loops), std::move(selected), std::move(boundary_points), marked,
+      std::move(summary), std::move(findings.loops), std::move(findings.selected), std::move(boundary_points), marked,
       std::move(findings.points), std::move(findings.probabilities), std::move(findings.sample),
       std::move(findings.opposed_normals));
 }

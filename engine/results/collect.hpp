@@ -4,6 +4,7 @@
 #include "engine/boundary/candidates.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/model/detection.hpp"
+#include "engine/results/loop_rows.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/scan_sample.hpp"
@@ -13,6 +14,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace lacuna {
 
@@ -20,6 +22,8 @@ namespace lacuna {
 struct Findings {
   Summary summary;
   MeasuredLoops loops;
+  std::vector<std::size_t> selected;  // those that are reported
+  LoopRows on_loops;
   RowSet coherent;                               // candidates that are (paper, 5.1)
   RowSet boundary_candidates;                    // candidates that belong to the boundary
   std::optional<PointResults> points;            // only with output.points

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include <malloc.h>
 
@@ -108,7 +109,9 @@ std::uint64_t Job::cell_points(std::uint64_t points) const {
   return std::max(kFew, 2 * points * kBytesPerCell / memory.cells);
 }
 
-Phase::Phase(Job& job, std::string_view name, std::uint64_t total) : job_(job), start_(now()) {
+Phase::Phase(Job& job, std::string_view name, std::uint64_t total)
+    : job_(job), is_shown_(!std::exchange(job.is_in_phase, true)), start_(now()) {
+  if (!is_shown_) return;
   job_.phases.push_back({std::string(name), 0});
   job_.progress.begin(name, total);
 }
@@ -120,6 +123,8 @@ void Job::trim(double share) const {
 
 Phase::~Phase() {
   job_.trim();
+  if (!is_shown_) return;
+  job_.is_in_phase = false;
   job_.phases.back().seconds = now() - start_;
   job_.progress.end();
 }

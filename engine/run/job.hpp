@@ -37,6 +37,7 @@ struct Job {
   TaskArena arena;
   Memory memory;
   std::vector<PhaseTime> phases;
+  bool is_in_phase = false;
 
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.
@@ -52,18 +53,19 @@ struct Job {
   std::uint64_t tile_bytes(std::uint64_t points) const;
 };
 
-// Times a phase and shows it, for as long as it lives.
+// Times a phase and shows it, for as long as it lives. A phase within another is a part of it.
 class Phase {
  public:
   Phase(Job& job, std::string_view name, std::uint64_t total);
   ~Phase();
   void advance(std::uint64_t count) {
     job_.trim(0.85);
-    job_.progress.advance(count);
+    if (is_shown_) job_.progress.advance(count);
   }
 
  private:
   Job& job_;
+  bool is_shown_;
   double start_;
 };
 

@@ -1,6 +1,5 @@
 #include "engine/thin/lattice.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -21,15 +20,12 @@ std::uint64_t hash_of(const Eigen::Vector3d& cell) {
 }
 
 LatticePlace Lattice::place_of(const Eigen::Vector3d& position) const {
-  LatticePlace place;
+  LatticePlace place{.cell = {}, .squared_offset = 0, .hash = 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double edges = position[axis] * per_length_;
-    const double cell = std::floor(edges) + 0.0;  // -0 is 0
-    place.cell[axis] = cell;
-    // A point just below a corner may round up to it. Not a number where the cell is not finite.
-    const double offset = std::min((edges - cell) * 0x1p32, 0x1p32 - 1);
-    place.offset[static_cast<std::size_t>(axis)] =
-        std::isfinite(cell) ? static_cast<std::uint32_t>(offset) : 0;
+    place.cell[axis] = std::floor(edges) + 0.0;  // -0 is 0
+    const double offset = edges - place.cell[axis] - 0.5;
+    place.squared_offset += offset * offset;
   }
   place.hash = hash_of(place.cell);
   return place;

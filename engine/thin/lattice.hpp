@@ -1,8 +1,7 @@
-// The lattice of a resolution: cubes of one edge, counted from the origin of the coordinates. So the cell of
-// a point depends on that point alone.
+// The lattice of a level: cubes of one edge, counted from the origin of the coordinates. So the cell of a
+// point depends on that point alone.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -11,9 +10,9 @@ namespace lacuna {
 
 // Where a point lies.
 struct LatticePlace {
-  Eigen::Vector3d cell;                 // whole numbers
-  std::array<std::uint32_t, 3> offset;  // from the cell's lowest corner, in edges of 2^32
-  std::uint64_t hash;                   // of the cell
+  Eigen::Vector3d cell;    // whole numbers
+  double squared_offset;   // squared distance to the cell's middle, in edges
+  std::uint64_t hash;      // of the cell
 };
 
 std::uint64_t hash_of(const Eigen::Vector3d& cell);

@@ -2,13 +2,12 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/outbox.hpp"
-#include "engine/store/sorted_runs.hpp"
 #include "engine/thin/lattice.hpp"
-#include "engine/thin/occupied_cells.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <mutex>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -16,167 +15,146 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
+// Parts of the scan by the hash of the cell. Their number depends on the scan alone, and so does the order of
+// the representatives.
+std::size_t parts_for(std::uint64_t points) {
+  constexpr std::uint64_t kPointsOfPart = 100'000, kMostParts = 1 << 14, kWhereUnknown = 256;
+  return points == 0 ? kWhereUnknown : std::clamp<std::uint64_t>(points / kPointsOfPart, 1, kMostParts);
+}
+
 struct ById {
   bool operator()(const Representative& a, const Representative& b) const { return a.point.id < b.point.id; }
 };
 
-// A batch with the places of its points, by their numbers in the batch.
-struct PlacedBatch {
-  PointBatch batch;
-  std::vector<std::uint32_t> finite;
-  std::vector<LatticePlace> places;  // of the finite points
-  Eigen::AlignedBox3d bounds;
-
-  void place(const Lattice& lattice, double resolution);
-};
-
-void PlacedBatch::place(const Lattice& lattice, double resolution) {
-  finite.clear();
-  places.clear();
-  bounds.setEmpty();
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    const Eigen::Vector3d& p = batch.positions[i];
-    if (!p.allFinite()) continue;
-    bounds.extend(p);
-    finite.push_back(static_cast<std::uint32_t>(i));
-    places.push_back(lattice.place_of(p));
-    if (places.back().cell.allFinite()) continue;
-    std::ostringstream message;
-    message << "point " << value(batch.id(i)) << " at " << p.transpose()
-            << " is too far away for a resolution of " << resolution << ": a larger one is needed";
-    throw Error(message.str());
-  }
-}
-
-// Streams the scan with the places of its points. visit(batch): in the order of the scan.
-using Visit = std::function<void(const PlacedBatch&)>;
-void for_each_batch(PointSource& scan, double resolution, Job& job, Phase& phase, const Visit& visit) {
-  const Lattice lattice(resolution);
-  std::vector<PlacedBatch> batches(kBatches);
-  scan.rewind();
-  job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                     [&](std::size_t slot) { batches[slot].place(lattice, resolution); },
-                     [&](std::size_t slot) {
-                       visit(batches[slot]);
-                       phase.advance(batches[slot].batch.size());
-                     },
-                     kBatches);
-}
-
-// visit(place, number in the batch) for each finite point whose cell belongs to the share.
-template <class VisitPoint>
-void for_each_in_share(const PlacedBatch& batch, const OccupiedCells& cells, VisitPoint&& visit) {
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t i = 0; i < batch.places.size(); ++i) {
-    if (i + kAhead < batch.places.size()) cells.prefetch(batch.places[i + kAhead]);
-    if (cells.share().contains(batch.places[i].hash)) visit(batch.places[i], batch.finite[i]);
-  }
-}
-
-// First pass, for one batch. Where memory ends, half of the cells are left to `later`.
-void add_points(const PlacedBatch& batch, OccupiedCells& cells, std::vector<CellShare>& later) {
-  for_each_in_share(batch, cells, [&](const LatticePlace& place, std::uint32_t) {
-    while (cells.share().contains(place.hash) && !cells.add(place)) {
-      later.push_back(cells.share().half(true));
-      cells.halve();
-    }
-  });
-}
-
-OccupiedCell& added_cell(OccupiedCells& cells, const LatticePlace& place) {
-  OccupiedCell* const cell = cells.find(place);
-  if (cell == nullptr) fail_changed("a point lies where none was counted");
-  return *cell;
-}
-
 class Thinner {
  public:
-  Thinner(PointSource& scan, double resolution, Job& job)
+  Thinner(PointSource& scan, double edge, bool wants_represented, Job& job)
       : scan_(scan),
-        resolution_(resolution),
+        lattice_(edge),
         job_(job),
-        phase_(job, "thin", (job.config.output.points ? 3 : 2) * scan.expected_points().value_or(0)),
         thinned_{.representatives = Column<Representative>(job.file("representatives")),
-                 .resolution = resolution,
+                 .edge = edge,
                  .has_normals = scan.has_normals(),
                  .represented = {}},
-        chosen_(job.file("chosen"), job.memory.spills) {}
+        wants_represented_(wants_represented),
+        parts_(job.file("cells"), parts_for(scan.expected_points().value_or(0)), job.memory.spills / 2) {}
 
   ThinnedScan run() {
-    std::vector<CellShare> shares = {{}};
-    for (bool is_first = true; !shares.empty(); is_first = false) {
-      OccupiedCells cells(shares.back(), job_.memory.global);
-      shares.pop_back();
-      stream([&](const PlacedBatch& batch) {
-        if (is_first) count(batch);
-        add_points(batch, cells, shares);
-      });
-      choose(cells);
-      if (job_.config.output.points) assign(cells);
-    }
-    store();
+    part();
+    if (wants_represented_)
+      thinned_.represented.emplace(job_.file("represented"), thinned_.points / kRepresentedBlock + 1,
+                                   job_.memory.spills / 8);
+    std::vector<std::uint64_t> needs;
+    for (std::size_t p = 0; p < parts_.lists(); ++p) needs.push_back(parts_.count(p) * 4 * sizeof(Representative));
+    // The representatives of part p are written once those of all parts before it are.
+    std::vector<std::vector<Representative>> waiting(parts_.lists());
+    std::vector<std::uint8_t> is_done(parts_.lists());
+    std::mutex mutex;
+    std::size_t next = 0;
+    job_.arena.for_each_within_budget(needs, job_.memory.global, [&](std::size_t p) {
+      std::vector<Representative> of_part = representatives_of(p);
+      const std::lock_guard lock(mutex);
+      waiting[p] = std::move(of_part);
+      is_done[p] = 1;
+      for (; next < waiting.size() && is_done[next]; ++next) {
+        thinned_.representatives.append(waiting[next]);
+        std::vector<Representative>().swap(waiting[next]);
+      }
+    });
     return std::move(thinned_);
   }
 
  private:
-  void stream(const Visit& visit) { for_each_batch(scan_, resolution_, job_, phase_, visit); }
+  struct Slot {
+    PointBatch batch;
+    Eigen::AlignedBox3d bounds;
+    std::uint64_t finite = 0;
+    OccupiedCells cells{1};
+    std::vector<std::vector<Representative>> parts;
+  };
 
-  void count(const PlacedBatch& batch) {
-    thinned_.points += batch.batch.size();
-    thinned_.dropped += batch.batch.size() - batch.finite.size();
-    thinned_.bounds.extend(batch.bounds);
+  // Sends the points of the scan to their parts. Unless each of them is wanted, a batch sends one for each of its
+  // cells.
+  void part() {
+    Phase phase(job_, "thin", scan_.expected_points().value_or(0));
+    std::vector<Slot> slots(kBatches);
+    scan_.rewind();
+    job_.arena.pipeline([&](std::size_t s) { return scan_.next(slots[s].batch); },
+                        [&](std::size_t s) { send(slots[s]); },
+                        [&](std::size_t s) {
+                          const Slot& slot = slots[s];
+                          thinned_.points += slot.batch.size();
+                          thinned_.dropped += slot.batch.size() - slot.finite;
+                          thinned_.bounds.extend(slot.bounds);
+                          phase.advance(slot.batch.size());
+                        },
+                        kBatches);
   }
 
-  // Second pass: the representatives of these cells.
-  void choose(OccupiedCells& cells) {
-    stream([&](const PlacedBatch& batch) {
-      for_each_in_share(batch, cells, [&](const LatticePlace& place, std::uint32_t i) {
-        const Eigen::Vector3d normal =
-            thinned_.has_normals ? batch.batch.normals[i] : Eigen::Vector3d::Zero();
-        offer(added_cell(cells, place), place, batch.batch.positions[i], normal, batch.batch.id(i));
-      });
-    });
-    for (const OccupiedCell& cell : cells.all()) {
-      const Eigen::Vector3d &p = cell.nearest, &n = cell.normal;
-      chosen_.add({{p.x(), p.y(), p.z(), cell.id}, {n.x(), n.y(), n.z()}});
+  void send(Slot& slot) {
+    slot.bounds.setEmpty();
+    slot.finite = 0;
+    slot.cells.clear();
+    slot.parts.resize(parts_.lists());
+    const PointBatch& batch = slot.batch;
+    const auto add = [&](const LatticePlace& place, const Representative& point) {
+      slot.parts[place.hash % slot.parts.size()].push_back(point);
+    };
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
+      if (!p.allFinite()) continue;
+      ++slot.finite;
+      slot.bounds.extend(p);
+      Representative point{{p.x(), p.y(), p.z(), batch.id(i)}, {}};
+      if (thinned_.has_normals) {
+        const Eigen::Vector3d& n = batch.normals[i];
+        point.normal = {n.x(), n.y(), n.z()};
+      }
+      const LatticePlace place = place_of(point.point);
+      wants_represented_ ? add(place, point) : slot.cells.add(place, point);
+    }
+    for (const Representative& point : slot.cells.representatives()) add(place_of(point.point), point);
+    for (std::size_t p = 0; p < slot.parts.size(); ++p) {
+      parts_.append(p, slot.parts[p]);
+      slot.parts[p].clear();
     }
   }
 
-  // Third pass: which of them represents each point.
-  void assign(OccupiedCells& cells) {
-    if (!thinned_.represented)
-      thinned_.represented.emplace(job_.file("represented"), thinned_.points / kRepresentedBlock + 1,
-                                   job_.memory.spills / 8);
-    Outbox<Represented> outbox(*thinned_.represented);
-    stream([&](const PlacedBatch& batch) {
-      for_each_in_share(batch, cells, [&](const LatticePlace& place, std::uint32_t i) {
-        const PointId representative = added_cell(cells, place).id;
-        outbox.add(static_cast<TileIndex>(value(representative) / kRepresentedBlock),
-                   {representative, batch.batch.id(i)});
-      });
-    });
-    outbox.send();
+  LatticePlace place_of(const StoredPoint& point) const {
+    const LatticePlace place = lattice_.place_of(point.position());
+    if (place.cell.allFinite()) return place;
+    std::ostringstream message;
+    message << "point " << value(point.id) << " at " << point.position().transpose()
+            << " is too far away for a resolution of " << thinned_.edge << ": a larger one is needed";
+    throw Error(message.str());
   }
 
-  // The representatives of all cells, in ascending id.
-  void store() {
-    constexpr std::size_t kTogether = 4096;
-    std::vector<Representative> together;
-    chosen_.for_each([&](const Representative& representative) {
-      together.push_back(representative);
-      if (together.size() < kTogether) return;
-      thinned_.representatives.append(together);
-      together.clear();
-    });
-    thinned_.representatives.append(together);
+  // In ascending id.
+  std::vector<Representative> representatives_of(std::size_t part) {
+    const std::vector<Representative> points = parts_.read(part);
+    parts_.drop(part);
+    OccupiedCells cells(points.size());
+    for (const Representative& point : points) cells.add(place_of(point.point), point);
+    if (wants_represented_) {
+      Outbox<Represented> outbox(*thinned_.represented);
+      for (const Representative& point : points) {
+        const PointId representative = cells.at(place_of(point.point)).point.id;
+        outbox.add(static_cast<TileIndex>(value(representative) / kRepresentedBlock),
+                   {representative, point.point.id});
+      }
+      outbox.send();
+    }
+    std::vector<Representative> all(cells.representatives().begin(), cells.representatives().end());
+    std::sort(all.begin(), all.end(), ById());
+    return all;
   }
 
   PointSource& scan_;
-  double resolution_;
+  Lattice lattice_;
   Job& job_;
-  Phase phase_;
   ThinnedScan thinned_;
-  SortedRuns<Representative, ById> chosen_;
+  bool wants_represented_;
+  AppendLists<Representative> parts_;
 };
 
 class Representatives final : public PointSource {
@@ -206,8 +184,8 @@ class Representatives final : public PointSource {
 
 }  // namespace
 
-ThinnedScan thin_scan(PointSource& scan, double resolution, Job& job) {
-  return Thinner(scan, resolution, job).run();
+ThinnedScan thin_scan(PointSource& scan, double edge, bool wants_represented, Job& job) {
+  return Thinner(scan, edge, wants_represented, job).run();
 }
 
 std::unique_ptr<PointSource> read_representatives(const ThinnedScan& thinned) {

@@ -22,7 +22,7 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
   find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
     loop.clear();
     for (const LocalIndex v : found) loop.push_back({graph.ids[v], row_of(v)});
-    loops.add(loop, LoopRating{});
+    loops.add(loop);
   });
 }
 

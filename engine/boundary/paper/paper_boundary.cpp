@@ -168,7 +168,6 @@ FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
       });
   found.components = stitch.components();
   found.loops.sort();
-  found.raw = found.loops.found();
   return found;
 }
 

@@ -76,14 +76,15 @@ void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config
     rows.push_back(belt.rows()[queries.back().point]);
   }
   const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
-  std::vector<StarSample> samples;
-  samples.reserve(rows.size());
+  std::vector<StarSample> samples = read_rows(lists.samples, std::span<const Row>(rows));
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
-      [&](std::size_t, std::span<const FoundStar> stars) {
+      [&](std::size_t first, std::span<const FoundStar> stars) {
         const std::array<Sampling, kBatchSize> samplings = samplings_of(stars, config);
-        for (std::size_t i = 0; i < stars.size(); ++i)
-          samples.push_back({samplings[i], smallest_radii(stars[i], config)});
+        for (std::size_t i = 0; i < stars.size(); ++i) {
+          samples[first + i].sampling = samplings[i];
+          samples[first + i].radii = smallest_radii(stars[i], config);
+        }
       });
   replace_rows(lists.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
 }
@@ -120,7 +121,10 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const Tan
           };
           add_radii(query.point);
           for (const LocalIndex q : query.neighbours) add_radii(q);
-          open.add(point.id, point.owned, bound, samplings[query.point].distance, sampling_radius);
+          float surface = 0;
+          for (const LocalIndex q : query.neighbours) surface += samples[q].surface;
+          open.add(point.id, point.owned, bound, samplings[query.point].distance, sampling_radius,
+                   surface / static_cast<float>(query.neighbours.size()));
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);
             open.add_vertex({belt.rows()[link[v].point],

@@ -1,6 +1,7 @@
 #include "engine/boundary/tangential/curves.hpp"
 
-#include "engine/simd/maths.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
+
 #include "engine/store/row_numbers.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -161,17 +162,22 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   split_off(0);
 }
 
-LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch) {
-  double clear = 0, length = 0, sampling_radii = 0;
+LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                         Scratch& scratch) {
+  double clear = 0, length = 0, sampling_radii = 0, distances = 0, surface = 0;
   scratch.for_each(curve, [&](const CurvePoint& p) {
     clear += p.evidence.clearness * p.evidence.length;
     length += p.evidence.length;
     sampling_radii += p.evidence.sampling_radius;
+    distances += p.evidence.distance;
+    surface += p.evidence.surface;
   });
-  const double added = config.added_length * sampling_radii / static_cast<double>(curve.size());
-  const double x = config.confidence_slope * (clear / (length + added) - config.confidence_middle);
-  const double tail = exponential(-std::abs(x));
-  return {.confidence = (x < 0 ? tail : 1) / (1 + tail), .length = length};
+  const auto points = static_cast<double>(curve.size());
+  return {.clearness = clear / (length + config.added_length * sampling_radii / points),
+          .surface = surface / points,
+          .spacing = distances / points / kDistanceOverSpacing,
+          .sampling_gap = sampling_radii / distances,
+          .is_coarse = scale == Scale::kCoarse};
 }
 
 }  // namespace lacuna::tangential

@@ -50,11 +50,11 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
 void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit);
 
-// The length of a curve, and how likely it is that it bounds a hole, in [0, 1] (method.md, C.6). Where a scan
-// happens to be thin, the circumradius is large at few points of the curve. The curve's evidence is the mean
-// clearness of its wedges along its length. Some sampling radii of length without clearness are added: a
-// short curve may be clear by chance. A logistic function turns it into a probability. Sums are in the order
-// of the curve.
-LoopRating rate(std::span<const CurvePoint> curve, const TangentialConfig& config, Scratch& scratch);
+// What says whether a curve bounds a hole (method.md, C.6). Where a scan happens to be thin, the circumradius is
+// large at few points of the curve. So its clearness is the mean one of its wedges along its length. Some sampling
+// radii of length without clearness are added: a short curve may be clear by chance. The other values are means over
+// its points. Sums are in the order of the curve.
+LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                         Scratch& scratch);
 
 }  // namespace lacuna::tangential

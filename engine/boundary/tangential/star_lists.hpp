@@ -34,6 +34,7 @@ struct OpenStar {
   StarPlace place;                                     // among the tile's open link vertices
   double distance;                                     // `Sampling::distance`
   std::array<double, kScales.size()> sampling_radius;  // by scale
+  float surface;                                       // mean surface share of the point's neighbours
 };
 
 // A link vertex of an open star, with the consistency of the triangle that begins here.
@@ -50,13 +51,14 @@ struct OpenStars {
   std::vector<OpenLinkVertex> vertices;
 
   void add(PointId id, LocalIndex owned, const RadiusBound& bound, double distance,
-           SamplingRadius& sampling_radius) {
+           SamplingRadius& sampling_radius, float surface) {
     stars.push_back(
         {id,
          owned,
          {static_cast<std::uint32_t>(vertices.size()), 0, bound},
          distance,
-         {sampling_radius.within(bound.fine * distance), sampling_radius.within(bound.coarse * distance)}});
+         {sampling_radius.within(bound.fine * distance), sampling_radius.within(bound.coarse * distance)},
+         surface});
   }
   void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
     vertices.push_back(vertex);
@@ -78,6 +80,7 @@ struct RemoteTriangle {
 struct StarSample {
   Sampling sampling;
   StarRadii radii;
+  float surface;  // `Evaluation::surface_share`
 };
 
 // Lists are by tile.

@@ -24,6 +24,14 @@ class TileRadii {
   TileRadii(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config)
       : tile_(tile), found_(found), config_(config) {}
 
+  // Mean surface share of a point's neighbours.
+  float surface_around(LocalIndex p) const {
+    const std::span<const LocalIndex> neighbours = tile_.neighbourhoods[p];
+    float sum = 0;
+    for (const LocalIndex q : neighbours) sum += tile_.evaluations[q].surface_share;
+    return sum / static_cast<float>(neighbours.size());
+  }
+
   SamplingRadius& around(LocalIndex p) {
     radii_.clear();
     add(p);
@@ -74,7 +82,8 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
     };
     if (state == PointState::kMaybeActive || is_any_undecided(consistencies)) {
       is_vertex[p] = 1;
-      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, radii.around(p));
+      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, radii.around(p),
+               radii.surface_around(p));
       for (std::size_t i = 0; i < star.size(); ++i)
         open.add_vertex({row(i), length(i), star.link[i].radius, consistencies[i]});
     } else if (is_any_inconsistent(consistencies)) {
@@ -85,7 +94,8 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
         if (around == nullptr) around = &radii.around(p);
         return around->within(star.bound.at(scale) * distance);
       };
-      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, row, length, config, wedges);
+      const auto surface = [&] { return radii.surface_around(p); };
+      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, surface, row, length, config, wedges);
     }
   }
   lists.append_open(tile.index, std::move(open));
@@ -135,7 +145,8 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
     return site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]);
   });
   write_wanted(lists.samples, tile, owned, [&](LocalIndex p) {
-    return StarSample{found.samplings[p], smallest_radii(found.stars[p].link, config)};
+    return StarSample{found.samplings[p], smallest_radii(found.stars[p].link, config),
+                      tile.evaluations[p].surface_share};
   });
 }
 

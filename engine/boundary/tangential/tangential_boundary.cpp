@@ -2,7 +2,6 @@
 
 #include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/chains.hpp"
-#include "engine/boundary/tangential/choose_scale.hpp"
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/take_stars.hpp"
 #include "engine/store/merge_runs.hpp"
@@ -20,11 +19,6 @@ constexpr std::uint64_t kBytesPerWedge = 160;
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
-// The choice between scales takes loops of this confidence or more into account.
-double least_confidence(const Config& config) {
-  return std::min(config.selection.min_confidence, kSure);
-}
-
 // Wedges of one point, which are next to each other, connect the chains that they are on.
 void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
                     UnionFind connected) {
@@ -41,8 +35,7 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
       tiling_(store.tiling()),
       stars_(store, job),
       chain_points_(job.file("chain-points")),
-      loops_{RawLoops(job.file("fine-loops"), least_confidence(job.config)),
-             RawLoops(job.file("coarse-loops"), least_confidence(job.config))},
+      loops_(job.file("raw-loops")),
       workspace_(job.workspace),
       curve_budget_(job.memory.global / 8 / job.arena.threads()),
       config_(job.config.tangential) {}
@@ -65,19 +58,20 @@ void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scal
   if (curve.size() < least) return;
   split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
     if (simple.size() < least) return;
-    loops_[static_cast<std::size_t>(scale)].add(simple.size(), rate(simple, config_, scratch),
-                                                [&](std::uint64_t i) {
-                                                  scratch.trim(sizeof(CurvePoint));
-                                                  return simple[i].vertex;
-                                                });
+    const LoopEvidence evidence = evidence_of(simple, scale, config_, scratch);
+    if (!evidence.may_be_hole()) return;
+    loops_.add(simple.size(), evidence, [&](std::uint64_t i) {
+      scratch.trim(sizeof(CurvePoint));
+      return simple[i].vertex;
+    });
   });
 }
 
 // Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
-void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, FoundLoops& found) {
+void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, std::uint64_t& edges) {
   const std::vector<Wedge> wedges = wedges_of(t);
   // Each wedge ends at two edges, each edge at two wedges.
-  std::atomic_ref(found.edges) += static_cast<std::uint64_t>(std::count_if(
+  std::atomic_ref(edges) += static_cast<std::uint64_t>(std::count_if(
       wedges.begin(), wedges.end(), [](const Wedge& wedge) { return wedge.scale == Scale::kFine; }));
   std::vector<LocalIndex> chain_of(wedges.size());
   std::vector<CurvePoint> points;
@@ -112,7 +106,6 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, Foun
 }
 
 FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
-  FoundLoops found{.loops = RawLoops(job.file("raw-loops"))};
   Phase phase(job, "loops", 0);
   exchange_borders(stars_, tiling_, job);
   job.trim();
@@ -121,8 +114,9 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
   std::vector<std::uint64_t> needs(tiles);
   for (std::size_t t = 0; t < tiles; ++t) needs[t] = stars_.wedges.count(t) * kBytesPerWedge;
   Stitch<OpenChain> stitch(tiles, kBytesPerChain, job);
+  std::uint64_t edges = 0;
   job.arena.for_each_within_budget(
-      needs, job.memory.global, [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t), stitch, found); });
+      needs, job.memory.global, [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t), stitch, edges); });
   const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
   stitch.for_each_component(
       [&](std::span<const OpenChain> chains) {
@@ -131,13 +125,8 @@ FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
       [&](const auto& for_each_chain, std::uint64_t count) {
         close_many_chains(for_each_chain, count, chain_points_, workspace_, job.memory.global / 4, add);
       });
-  found.components = stitch.components();
-  for (RawLoops& loops : loops_) loops.sort();
-  const auto& [fine, coarse] = loops_;
-  choose_scale(fine, coarse, job, found.loops);
-  found.raw = fine.found();
-  found.loops.sort();
-  return found;
+  loops_.sort();
+  return {.loops = std::move(loops_), .edges = edges, .components = stitch.components()};
 }
 
 }  // namespace lacuna::tangential

@@ -21,20 +21,20 @@ class TangentialBoundary final : public BoundaryMethod {
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes
   // through.
-  RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RawLoops& loops,
+  RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RowSet& on_loop,
                              Job& job) const override {
-    return candidates.between_loop_points(loops, job);
+    return candidates.between(on_loop, job);
   }
 
  private:
   std::vector<Wedge> wedges_of(TileIndex tile);
   void add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch);
-  void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, FoundLoops& found);
+  void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, std::uint64_t& edges);
 
   const Tiling& tiling_;
   StarLists stars_;
   Column<CurvePoint> chain_points_;             // of open chains
-  std::array<RawLoops, kScales.size()> loops_;  // by scale
+  RawLoops loops_;
   std::filesystem::path workspace_;
   std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
   const TangentialConfig& config_;

@@ -16,7 +16,9 @@ namespace lacuna::tangential {
 struct WedgeEvidence {
   double length = 0;           // of the curve at the point: half of its two boundary edges
   double sampling_radius = 0;  // of the point, at the scale of the wedge
+  double distance = 0;         // `Sampling::distance`
   float clearness = 0;         // of the gap, [0, 1]: how much the circumradius exceeds the sampling radius
+  float surface = 0;           // mean surface share of the point's neighbours, [0, 1]
 };
 
 // A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
@@ -33,11 +35,11 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// Adds the wedges of a star's point at both scales. `distance`: `Sampling::distance`; sampling_radius(scale):
-// of the point; row(i), length(i): of link vertex i, and its distance from the point.
-template <class Name, class Radius, class LinkRow, class LinkLength>
+// Adds the wedges of a star's point at both scales. `distance`: `Sampling::distance`; sampling_radius(scale) and
+// surface(): of the point; row(i), length(i): of link vertex i, and its distance from the point.
+template <class Name, class Radius, class Surface, class LinkRow, class LinkLength>
 void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Consistency> consistencies,
-                double distance, Radius&& sampling_radius, LinkRow&& row, LinkLength&& length,
+                double distance, Radius&& sampling_radius, Surface&& surface, LinkRow&& row, LinkLength&& length,
                 const TangentialConfig& config, std::vector<Wedge>& wedges) {
   for (const Scale scale : kScales) {
     std::optional<double> sampling;
@@ -47,7 +49,8 @@ void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Con
           {point,
            row(first),
            row(last),
-           {(length(first) + length(last)) / 2, *sampling, clearness(radius * distance, *sampling, config)},
+           {(length(first) + length(last)) / 2, *sampling, distance,
+            clearness(radius * distance, *sampling, config), surface()},
            scale});
     });
   }

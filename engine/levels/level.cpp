@@ -1,17 +1,18 @@
-#include "engine/thin/bucket_input.hpp"
+#include "engine/levels/level.hpp"
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/levels/stored_scan.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
 #include "engine/survey/survey_scan.hpp"
-#include "engine/thin/choose_resolution.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <sstream>
 #include <utility>
-
-#include <spdlog/spdlog.h>
 
 namespace lacuna {
 namespace {
@@ -23,13 +24,19 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
   return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
 }
 
-Bucketed bucket_points(PointSource& scan, Job& job) {
+Level bucket_points(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
   const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
   TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
   require_space(job.workspace, least_store_bytes(plan, survey.precision()));
   TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
   return {{}, std::move(survey), tile_points, std::move(store)};
+}
+
+Level bucket_representatives(ThinnedScan thinned, Job& job) {
+  Level level = bucket_points(*read_representatives(thinned), job);
+  level.thinned.emplace(std::move(thinned));
+  return level;
 }
 
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
@@ -50,33 +57,48 @@ void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
   throw Error(message.str());
 }
 
-Bucketed bucket_representatives(PointSource& scan, double resolution, Job& job) {
-  ThinnedScan thinned = thin_scan(scan, resolution, job);
-  if (job.config.scale.resolution > 0) refuse_too_coarse(thinned, job.config);
-  Bucketed bucketed = bucket_points(*read_representatives(thinned), job);
-  bucketed.thinned.emplace(std::move(thinned));
-  return bucketed;
+// The first power of sqrt 2 above a length.
+double power_above(double length) {
+  const double octave = std::ldexp(1.0, std::ilogb(length));
+  return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
 }
 
 }  // namespace
 
-Bucketed bucket_input(PointSource& input, Job& job) {
+Level first_level(PointSource& input, Job& job) {
   if (input.reads_slowly()) {
     KeptScan kept(input, job.file("input"));
-    return bucket_input(kept, job);
+    return first_level(kept, job);
   }
-  const ScaleConfig& scale = job.config.scale;
-  if (scale.resolution > 0) return bucket_representatives(input, scale.resolution, job);
-  std::optional<Bucketed> all = bucket_points(input, job);
-  const bool is_chosen = job.config.loops.method == LoopMethod::kTangential && !scale.every_point;
-  const double resolution = is_chosen ? choose_resolution(all->store, job) : 0;
-  if (resolution == 0) return *std::move(all);
-  all.reset();  // before as much is stored again
-  spdlog::info(
-      "the points lie in lines, so one of them represents each cell of {}; --min-hole or --resolution "
-      "set another size, --every-point uses all points",
-      resolution);
-  return bucket_representatives(input, resolution, job);
+  const double resolution = job.config.scale.resolution;
+  if (resolution == 0) return bucket_points(input, job);
+  ThinnedScan thinned = thin_scan(input, resolution, job.config.output.points, job);
+  refuse_too_coarse(thinned, job.config);
+  return bucket_representatives(std::move(thinned), job);
+}
+
+std::optional<Level> level_above(const Level& below, double distance, Job& job) {
+  constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
+  const std::uint64_t points = below.store.tiling().points();
+  const std::unique_ptr<PointSource> scan = read_store(below.store);
+  // Cells of a third of the distance hold one point each, nearly everywhere.
+  for (double edge = std::max(below.edge(), distance / 3); edge > 0;) {
+    edge = power_above(edge * 1.0001);  // an edge is a rounded power
+    ThinnedScan thinned = thin_scan(*scan, edge, false, job);
+    const std::uint64_t left = thinned.representatives.size();
+    if (left < kFewest) return std::nullopt;
+    if (4 * left <= 3 * points) return bucket_representatives(std::move(thinned), job);
+  }
+  return std::nullopt;
+}
+
+bool has_levels(const Config& config) {
+  const ScaleConfig& scale = config.scale;
+  return config.loops.method == LoopMethod::kTangential && !scale.every_point && scale.resolution == 0;
+}
+
+std::uint64_t points_above(const Level& first) {
+  return 2 * first.store.tiling().points();  // each has half of the points of the one below
 }
 
 }  // namespace lacuna

@@ -1,0 +1,45 @@
+// Levels: the scan, and the scan thinned on ever coarser lattices (method.md, D).
+//
+// Where points are dense, a level makes them even; where they are sparse, it leaves them as they are. So each
+// place is evaluated evenly at some level, from its own spacing upward.
+#pragma once
+
+#include "engine/model/points.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/tile_store.hpp"
+#include "engine/survey/survey.hpp"
+#include "engine/thin/thin_scan.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace lacuna {
+
+struct Level {
+  std::optional<ThinnedScan> thinned;  // none: the level has every point
+  SurveyedScan survey;                 // of the points in the store
+  std::uint64_t tile_points;           // in effect
+  TileStore store;                     // distinct points
+
+  double edge() const { return thinned ? thinned->edge : 0; }  // of its lattice
+};
+
+// Survey and bucket: all points or, where the config has a resolution, one for each cell of its lattice. Reads
+// the input twice, or once with a resolution. An input that reads slowly is read once, and kept in the workspace
+// meanwhile (engine/store/kept_scan.hpp). Throws `Error`.
+Level first_level(PointSource& input, Job& job);
+
+// The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so that
+// lattices do not depend on the scan. The next edge is the first one at which at most three in four points are left. None
+// where there are too few of them for a hole. `distance`: the median distance to
+// the neighbours at the level below; the search for the edge begins near it.
+std::optional<Level> level_above(const Level& below, double distance, Job& job);
+
+// Whether a run with this config has levels above the first one: unless the config names one level, or the method is
+// the paper's.
+bool has_levels(const Config& config);
+
+// So many points all levels above a first one have together, on a surface that is sampled evenly.
+std::uint64_t points_above(const Level& first);
+
+}  // namespace lacuna

@@ -1,0 +1,64 @@
+#include "engine/results/loop_rows.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/store/outbox.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+// Sends every point on a loop to the tiles that may have it.
+void send_points(const PlacedLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
+                 AppendLists<PointOnLoop>& sent) {
+  Outbox<PointOnLoop> outbox(sent);
+  std::size_t next_selected = 0;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const bool is_reported = next_selected < selected.size() && selected[next_selected] == i;
+    const std::int32_t name = is_reported ? static_cast<std::int32_t>(next_selected++) : kNotReported;
+    loops.for_each_point(i, [&](const StoredLoopPoint& p) {
+      tiling.for_each_tile_at(p.point.position(),
+                              [&](TileIndex t) { outbox.add(t, {kNoIndex, name, p.probability, p.point}); });
+    });
+  }
+  outbox.send();
+}
+
+// Those of the points that the tile has, with their places in it.
+std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const TileStore& store, TileIndex t) {
+  const auto by_id = [](const PointOnLoop& a, const PointOnLoop& b) { return a.point.id < b.point.id; };
+  std::sort(points.begin(), points.end(), by_id);
+  LocalIndex owned = 0;
+  store.for_each_point(t, [&](const StoredPoint& p) {
+    const auto [begin, end] = std::equal_range(points.begin(), points.end(), PointOnLoop{.point = p}, by_id);
+    std::for_each(begin, end, [&](PointOnLoop& on_loop) { on_loop.owned = owned; });
+    ++owned;
+  });
+  std::erase_if(points, [](const PointOnLoop& p) { return p.owned == kNoIndex; });
+  return points;
+}
+
+}  // namespace
+
+LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> selected, const TileStore& store,
+                        Job& job) {
+  const Tiling& tiling = store.tiling();
+  AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.memory.spills / 4);
+  send_points(loops, selected, tiling, sent);
+  LoopRows found{AppendLists<PointOnLoop>(job.file("loop-rows"), tiling.tiles.size(), job.memory.spills / 4),
+                 RowSet(tiling.row_count())};
+  std::atomic<std::uint64_t> count = 0;
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    if (sent.count(t) == 0) return;
+    const std::vector<PointOnLoop> points = owned_points(sent.read(t), store, static_cast<TileIndex>(t));
+    for (const PointOnLoop& p : points) found.rows.insert(tiling.tiles[t].row(p.owned));
+    found.points.append(t, points);
+    count += points.size();
+  });
+  if (count != loops.offsets.back()) fail_inconsistent("a loop passes through a point that is not stored");
+  return found;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,30 @@
+// near_loops: which loops of neighbouring levels run along each other.
+//
+// Both loops are drawn in the cells of a lattice, that of the coarser level. A cell is near a loop if it or one of the 26
+// around it is a cell of that loop. The shares of near cells say how much the loops have in common. They are ratios of
+// whole numbers, so neither order nor rounding matters.
+#pragma once
+
+#include "engine/run/job.hpp"
+#include "engine/track/level_loops.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Loops are numbered level by level, from the finest on.
+struct NearLoops {
+  std::uint32_t a, b;    // a < b
+  float of_a, of_b;      // share of the cells of one that are near the other, [0, 1]
+};
+
+// Pairs of loops of one level, or of two that are at most `kBridged` + 1 apart, of which one has at least half of its
+// cells near the other. In ascending order. Cost: a sort of the loops' cells on disk.
+std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job);
+
+// A hole may be missing at so many levels between two at which it is found.
+inline constexpr std::size_t kBridged = 1;
+
+}  // namespace lacuna
