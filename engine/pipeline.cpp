@@ -54,14 +54,14 @@ FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundar
 }
 
 // The same for each level above, from fine to coarse.
-void find_loops_above(const Level& first, double extent, double spacing, std::vector<LevelLoops>& levels, Job& job) {
+void find_loops_above(const Level& first, double extent, Totals totals, std::vector<LevelLoops>& levels, Job& job) {
   Phase phase(job, "levels", points_above(first));
   std::optional<Level> below;
-  while (std::optional<Level> level = level_above(below ? *below : first, spacing, job)) {
+  while (std::optional<Level> level = level_above(below ? *below : first, totals, job)) {
     const std::unique_ptr<BoundaryMethod> boundary = boundary_method(level->store, job);
     FoundLevel found = find_loops(*level, extent, *boundary, {}, job);
     levels.push_back(std::move(found.loops));
-    spacing = found.totals.median_distance();
+    totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
     below.emplace(*std::move(level));
   }
@@ -99,7 +99,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // The loops of the levels above, and each hole tracked through the levels.
   std::vector<LevelLoops> levels;
   levels.push_back(std::move(found.loops));
-  if (has_levels(given)) find_loops_above(first, extent, found.totals.median_distance(), levels, job);
+  if (has_levels(given)) find_loops_above(first, extent, found.totals, levels, job);
   add_findings(found.totals, found.found, levels, eps_length(config.neighbourhood, extent), summary);
   MeasuredLoops loops =
       measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);

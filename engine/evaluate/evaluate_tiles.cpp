@@ -170,15 +170,18 @@ std::uint32_t LengthBins::bin_of(double length) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(length) >> kShift);
 }
 
+double LengthBins::start_of(std::uint32_t bin) {
+  return std::bit_cast<double>(std::uint64_t{bin} << kShift);
+}
+
 double LengthBins::median() const {
   std::uint64_t all = 0, before = 0;
   for (const auto& [bin, count] : counts) all += count;
   for (const auto& [bin, count] : counts) {
     if (2 * (before + count) >= all) {
-      const auto bound = [](std::uint32_t of) { return std::bit_cast<double>(std::uint64_t{of} << kShift); };
       const double part =
           (static_cast<double>(all) / 2 - static_cast<double>(before)) / static_cast<double>(count);
-      return bound(bin) + part * (bound(bin + 1) - bound(bin));
+      return start_of(bin) + part * (start_of(bin + 1) - start_of(bin));
     }
     before += count;
   }

@@ -2,7 +2,6 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
-#include "engine/levels/stored_scan.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
@@ -63,6 +62,30 @@ double power_above(double length) {
   return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
 }
 
+// The share of the points that cells of this edge leave, from how far apart the points are: about 1 / (1 + n / 2) where
+// a cell of a surface has n points on average.
+double share_left(const LengthBins& distances, double edge) {
+  constexpr double kCellsOfSurface = 1.3;  // to cover one cell's area, as surfaces are tilted
+  double left = 0, all = 0;
+  for (const auto& [bin, count] : distances.counts) {
+    const double cells_per_spacing = edge * kDistanceOverSpacing / LengthBins::start_of(bin);
+    left += static_cast<double>(count) / (1 + cells_per_spacing * cells_per_spacing / kCellsOfSurface / 2);
+    all += static_cast<double>(count);
+  }
+  return left / all;
+}
+
+constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
+
+// The first edge above a length that leaves as few points as a level is to have; 0: no edge does, since no points have
+// distances.
+double first_edge(const LengthBins& distances, double length) {
+  if (distances.counts.empty()) return 0;
+  double edge = power_above(std::max(length, LengthBins::start_of(distances.counts.begin()->first) / 4));
+  while (share_left(distances, edge) > kWantedLeft) edge = power_above(edge * 1.0001);
+  return edge;
+}
+
 }  // namespace
 
 Level first_level(PointSource& input, Job& job) {
@@ -72,22 +95,21 @@ Level first_level(PointSource& input, Job& job) {
   }
   const double resolution = job.config.scale.resolution;
   if (resolution == 0) return bucket_points(input, job);
-  ThinnedScan thinned = thin_scan(input, resolution, job.config.output.points, job);
+  ThinnedScan thinned = thin_scan(input, resolution, job);
   refuse_too_coarse(thinned, job.config);
   return bucket_representatives(std::move(thinned), job);
 }
 
-std::optional<Level> level_above(const Level& below, double distance, Job& job) {
+std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job) {
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
-  const std::unique_ptr<PointSource> scan = read_store(below.store);
-  // Cells of a third of the distance hold one point each, nearly everywhere.
-  for (double edge = std::max(below.edge(), distance / 3); edge > 0;) {
-    edge = power_above(edge * 1.0001);  // an edge is a rounded power
-    ThinnedScan thinned = thin_scan(*scan, edge, false, job);
+  // Edges are rounded powers.
+  for (double edge = first_edge(totals.distances, below.edge() * 1.0001); edge > 0;
+       edge = power_above(edge * 1.0001)) {
+    ThinnedScan thinned = thin_store(below.store, edge, job);
     const std::uint64_t left = thinned.representatives.size();
-    if (left < kFewest) return std::nullopt;
-    if (4 * left <= 3 * points) return bucket_representatives(std::move(thinned), job);
+    if (left < kFewest) break;
+    if (left <= kMostLeft * static_cast<double>(points)) return bucket_representatives(std::move(thinned), job);
   }
   return std::nullopt;
 }

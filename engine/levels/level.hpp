@@ -4,6 +4,7 @@
 // place is evaluated evenly at some level, from its own spacing upward.
 #pragma once
 
+#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
@@ -30,10 +31,9 @@ struct Level {
 Level first_level(PointSource& input, Job& job);
 
 // The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so that
-// lattices do not depend on the scan. The next edge is the first one at which at most three in four points are left. None
-// where there are too few of them for a hole. `distance`: the median distance to
-// the neighbours at the level below; the search for the edge begins near it.
-std::optional<Level> level_above(const Level& below, double distance, Job& job);
+// lattices do not depend on the scan. The edge is the first one that leaves about six in ten points. None where too few
+// are left for a hole. `totals`: of the level below.
+std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job);
 
 // Whether a run with this config has levels above the first one: unless the config names one level, or the method is
 // the paper's.

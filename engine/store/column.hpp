@@ -45,7 +45,7 @@ class Column {
   ScratchFile file_;
 };
 
-// Records of rows in ascending order, read in runs: for a few here and there.
+// Records of rows in mostly ascending order, read in runs: for a few here and there.
 template <class Record>
 class ColumnReader {
  public:
@@ -53,7 +53,7 @@ class ColumnReader {
 
   const Record& operator[](std::uint64_t row) {
     constexpr std::uint64_t kRun = 256;
-    if (run_.empty() || row >= first_ + run_.size()) {
+    if (row < first_ || row >= first_ + run_.size()) {
       assert(row < column_.size());
       first_ = row;
       run_.resize(std::min(kRun, column_.size() - row));

@@ -28,29 +28,71 @@ struct ById {
 
 class Thinner {
  public:
-  Thinner(PointSource& scan, double edge, bool wants_represented, Job& job)
-      : scan_(scan),
-        lattice_(edge),
+  Thinner(double edge, std::uint64_t expected_points, bool has_normals, bool wants_represented, Job& job)
+      : lattice_(edge),
         job_(job),
         thinned_{.representatives = Column<Representative>(job.file("representatives")),
                  .edge = edge,
-                 .has_normals = scan.has_normals(),
+                 .has_normals = has_normals,
                  .represented = {}},
         wants_represented_(wants_represented),
-        parts_(job.file("cells"), parts_for(scan.expected_points().value_or(0)), job.memory.spills / 2) {}
+        parts_(job.file("cells"), parts_for(expected_points), job.memory.spills / 2) {}
 
-  ThinnedScan run() {
-    part();
+  // Points on their way to their parts. One thread at a time has a batch.
+  struct Batch {
+    Eigen::AlignedBox3d bounds;
+    std::uint64_t points = 0, finite = 0;
+    OccupiedCells cells{1};
+    std::vector<std::vector<Representative>> parts;
+  };
+
+  void start(Batch& batch) const {
+    batch.bounds.setEmpty();
+    batch.points = batch.finite = 0;
+    batch.cells.clear();
+    batch.parts.resize(parts_.lists());
+  }
+
+  void add(const Eigen::Vector3d& position, PointId id, const Eigen::Vector3d& normal, Batch& batch) const {
+    ++batch.points;
+    if (!position.allFinite()) return;
+    ++batch.finite;
+    const Eigen::Vector3d p = position.array() + 0.0;  // -0 is 0
+    batch.bounds.extend(p);
+    const Representative point{{p.x(), p.y(), p.z(), id}, {normal.x(), normal.y(), normal.z()}};
+    const LatticePlace place = place_of(point.point);
+    wants_represented_ ? send(place, point, batch) : batch.cells.add(place, point);
+  }
+
+  // Unless each point is wanted, a batch sends one for each of its cells. From any thread.
+  void send(Batch& batch) {
+    for (const Representative& point : batch.cells.representatives()) send(place_of(point.point), point, batch);
+    for (std::size_t p = 0; p < batch.parts.size(); ++p) {
+      parts_.append(p, batch.parts[p]);
+      batch.parts[p].clear();
+    }
+  }
+
+  // By one thread at a time.
+  void count(const Batch& batch) {
+    thinned_.points += batch.points;
+    thinned_.dropped += batch.points - batch.finite;
+    thinned_.bounds.extend(batch.bounds);
+  }
+
+  // All points are sent.
+  ThinnedScan finish() {
     if (wants_represented_)
       thinned_.represented.emplace(job_.file("represented"), thinned_.points / kRepresentedBlock + 1,
                                    job_.memory.spills / 8);
     std::vector<std::uint64_t> needs;
-    for (std::size_t p = 0; p < parts_.lists(); ++p) needs.push_back(parts_.count(p) * 4 * sizeof(Representative));
-    // The representatives of part p are written once those of all parts before it are.
+    for (std::size_t p = 0; p < parts_.lists(); ++p)
+      needs.push_back(parts_.count(p) * kBytesPerPoint);
+    // The representatives of a part are written once those of all parts before it are.
     std::vector<std::vector<Representative>> waiting(parts_.lists());
     std::vector<std::uint8_t> is_done(parts_.lists());
-    std::mutex mutex;
     std::size_t next = 0;
+    std::mutex mutex;
     job_.arena.for_each_within_budget(needs, job_.memory.global, [&](std::size_t p) {
       std::vector<Representative> of_part = representatives_of(p);
       const std::lock_guard lock(mutex);
@@ -64,60 +106,11 @@ class Thinner {
     return std::move(thinned_);
   }
 
+  static constexpr std::uint64_t kBytesPerPoint = 256;  // of a part or batch, with its cells
+
  private:
-  struct Slot {
-    PointBatch batch;
-    Eigen::AlignedBox3d bounds;
-    std::uint64_t finite = 0;
-    OccupiedCells cells{1};
-    std::vector<std::vector<Representative>> parts;
-  };
-
-  // Sends the points of the scan to their parts. Unless each of them is wanted, a batch sends one for each of its
-  // cells.
-  void part() {
-    Phase phase(job_, "thin", scan_.expected_points().value_or(0));
-    std::vector<Slot> slots(kBatches);
-    scan_.rewind();
-    job_.arena.pipeline([&](std::size_t s) { return scan_.next(slots[s].batch); },
-                        [&](std::size_t s) { send(slots[s]); },
-                        [&](std::size_t s) {
-                          const Slot& slot = slots[s];
-                          thinned_.points += slot.batch.size();
-                          thinned_.dropped += slot.batch.size() - slot.finite;
-                          thinned_.bounds.extend(slot.bounds);
-                          phase.advance(slot.batch.size());
-                        },
-                        kBatches);
-  }
-
-  void send(Slot& slot) {
-    slot.bounds.setEmpty();
-    slot.finite = 0;
-    slot.cells.clear();
-    slot.parts.resize(parts_.lists());
-    const PointBatch& batch = slot.batch;
-    const auto add = [&](const LatticePlace& place, const Representative& point) {
-      slot.parts[place.hash % slot.parts.size()].push_back(point);
-    };
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const Eigen::Vector3d p = batch.positions[i].array() + 0.0;  // -0 is 0
-      if (!p.allFinite()) continue;
-      ++slot.finite;
-      slot.bounds.extend(p);
-      Representative point{{p.x(), p.y(), p.z(), batch.id(i)}, {}};
-      if (thinned_.has_normals) {
-        const Eigen::Vector3d& n = batch.normals[i];
-        point.normal = {n.x(), n.y(), n.z()};
-      }
-      const LatticePlace place = place_of(point.point);
-      wants_represented_ ? add(place, point) : slot.cells.add(place, point);
-    }
-    for (const Representative& point : slot.cells.representatives()) add(place_of(point.point), point);
-    for (std::size_t p = 0; p < slot.parts.size(); ++p) {
-      parts_.append(p, slot.parts[p]);
-      slot.parts[p].clear();
-    }
+  static void send(const LatticePlace& place, const Representative& point, Batch& batch) {
+    batch.parts[place.hash % batch.parts.size()].push_back(point);
   }
 
   LatticePlace place_of(const StoredPoint& point) const {
@@ -149,7 +142,6 @@ class Thinner {
     return all;
   }
 
-  PointSource& scan_;
   Lattice lattice_;
   Job& job_;
   ThinnedScan thinned_;
@@ -184,8 +176,55 @@ class Representatives final : public PointSource {
 
 }  // namespace
 
-ThinnedScan thin_scan(PointSource& scan, double edge, bool wants_represented, Job& job) {
-  return Thinner(scan, edge, wants_represented, job).run();
+ThinnedScan thin_scan(PointSource& scan, double edge, Job& job) {
+  const std::uint64_t expected = scan.expected_points().value_or(0);
+  Phase phase(job, "thin", expected);
+  Thinner thinner(edge, expected, scan.has_normals(), job.config.output.points, job);
+  struct Slot {
+    PointBatch points;
+    Thinner::Batch batch;
+  };
+  std::vector<Slot> slots(kBatches);
+  const Eigen::Vector3d no_normal = Eigen::Vector3d::Zero();
+  scan.rewind();
+  job.arena.pipeline([&](std::size_t s) { return scan.next(slots[s].points); },
+                     [&](std::size_t s) {
+                       auto& [points, batch] = slots[s];
+                       thinner.start(batch);
+                       for (std::size_t i = 0; i < points.size(); ++i)
+                         thinner.add(points.positions[i], points.id(i),
+                                     points.normals.empty() ? no_normal : points.normals[i], batch);
+                       thinner.send(batch);
+                     },
+                     [&](std::size_t s) {
+                       thinner.count(slots[s].batch);
+                       phase.advance(slots[s].points.size());
+                     },
+                     kBatches);
+  return thinner.finish();
+}
+
+ThinnedScan thin_store(const TileStore& store, double edge, Job& job) {
+  const Tiling& tiling = store.tiling();
+  Thinner thinner(edge, tiling.points(), store.has_normals(), false, job);
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * Thinner::kBytesPerPoint);
+  std::mutex mutex;
+  const Eigen::Vector3d no_normal = Eigen::Vector3d::Zero();
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+    Thinner::Batch batch{.cells = OccupiedCells(tiling.tiles[t].points)};
+    thinner.start(batch);
+    const std::vector<Eigen::Vector3d> normals = store.normals(static_cast<TileIndex>(t));
+    std::size_t i = 0;
+    store.for_each_point(static_cast<TileIndex>(t), [&](const StoredPoint& p) {
+      thinner.add(p.position(), p.id, normals.empty() ? no_normal : normals[i], batch);
+      ++i;
+    });
+    thinner.send(batch);
+    const std::lock_guard lock(mutex);
+    thinner.count(batch);
+  });
+  return thinner.finish();
 }
 
 std::unique_ptr<PointSource> read_representatives(const ThinnedScan& thinned) {

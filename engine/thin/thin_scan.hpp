@@ -31,14 +31,17 @@ struct ThinnedScan {
   Eigen::AlignedBox3d bounds;  // of all finite points; empty without any
   std::uint64_t points = 0;    // of the scan
   std::uint64_t dropped = 0;   // with a non-finite coordinate
-  // By block of the representative's id: all finite points of the scan. Only where wanted.
+  // By block of the representative's id: all finite points of the scan. Only with output.points.
   std::optional<AppendLists<Represented>> represented;
 };
 
 // Chooses one point for each occupied cell of an absolute lattice (`OccupiedCells` has the rule). The choice
-// depends on neither memory, threads nor the order of the points. Reads the scan once. Its points go to
-// parts by the hash of their cell, of some 100,000 points each, which are thinned one by one. Throws `Error`.
-ThinnedScan thin_scan(PointSource& scan, double edge, bool wants_represented, Job& job);
+// depends on neither memory, threads nor the order of the points. Reads the scan once. Its points go to parts by the
+// hash of their cell, which are thinned one by one. With output.points it says which point represents which. Throws
+// `Error`.
+ThinnedScan thin_scan(PointSource& scan, double edge, Job& job);
+// The same for distinct points that are in a store.
+ThinnedScan thin_store(const TileStore& store, double edge, Job& job);
 
 // The representatives as a scan, with the ids of the input. `thinned` must outlive it.
 std::unique_ptr<PointSource> read_representatives(const ThinnedScan& thinned);

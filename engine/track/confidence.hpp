@@ -5,14 +5,16 @@ namespace lacuna {
 
 // All numbers but the persistence are in [0, 1].
 struct TrackEvidence {
-  double surface;       // of the loop
-  double best;          // largest clearness times surface of the track's loops
+  double clearness;     // `LoopEvidence`
+  double surface;       // likewise
+  double sampling_gap;  // likewise
   double compactness;   // of the loop
-  double sampling_gap;  // `LoopEvidence::sampling_gap`
+  double best;          // largest clearness times surface of the track's loops
   double persistence;   // octaves
+  bool is_first_level;  // the loop was found at the first level
 };
 
-// The logarithm of the odds. Fitted by bench/accuracy/calibrate.py.
+// The logarithm of the odds.
 double log_odds(const TrackEvidence& evidence);
 
 double probability_of(double log_odds);

@@ -1,5 +1,6 @@
 #include "engine/track/near_loops.hpp"
 
+#include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -13,11 +14,10 @@ namespace {
 
 using CellOfLattice = std::array<double, 3>;  // whole numbers
 
-// A cell that is near a loop, or one of its own.
+// A cell that a loop passes through.
 struct LoopCell {
   CellOfLattice cell;
-  std::uint32_t loop;
-  std::uint32_t is_own;
+  std::uint64_t loop;
 
   friend auto operator<=>(const LoopCell&, const LoopCell&) = default;
 };
@@ -62,40 +62,70 @@ void draw(const PlacedLoops& loops, std::size_t loop, double edge, Visit&& visit
 }
 
 void add_cells(const LevelLoops& level, std::uint32_t first, double edge, CellSort& cells) {
-  for (std::size_t i = 0; i < level.loops.size(); ++i) {
-    const auto loop = first + static_cast<std::uint32_t>(i);
-    draw(level.loops, i, edge, [&](const CellOfLattice& cell) {
-      cells.add({cell, loop, 1});
-      for (const double x : {-1, 0, 1}) {
-        for (const double y : {-1, 0, 1}) {
-          for (const double z : {-1, 0, 1}) cells.add({{cell[0] + x, cell[1] + y, cell[2] + z}, loop, 0});
-        }
-      }
-    });
-  }
+  for (std::size_t i = 0; i < level.loops.size(); ++i)
+    draw(level.loops, i, edge, [&](const CellOfLattice& cell) { cells.add({cell, first + i}); });
 }
 
-// The loops at one cell after the other. Counts the cells of each loop.
-void add_shared(CellSort& cells, std::uint32_t first_coarse, std::vector<std::uint32_t>& own_cells,
-                SharedSort& shared) {
-  std::vector<std::uint32_t> own, near;  // loops at this cell, ascending
-  const auto add = [&] {
-    for (const std::uint32_t a : own) {
-      ++own_cells[a];
-      for (const std::uint32_t b : near) {
-        if (a != b && std::max(a, b) >= first_coarse) shared.add({a, b});
-      }
-    }
-    own.clear();
-    near.clear();
-  };
+// All cells of all loops, each once, in order.
+Column<LoopCell> sorted_cells(CellSort& cells, const Job& job) {
+  Column<LoopCell> sorted(job.file("sorted-loop-cells"));
+  ColumnWriter<LoopCell> writer(sorted);
   std::optional<LoopCell> last;
   cells.for_each([&](const LoopCell& c) {
-    if (last && last->cell != c.cell) add();
-    if (!last || *last != c) (c.is_own ? own : near).push_back(c.loop);
+    if (last != c) writer.add(c);
     last = c;
   });
-  add();
+  writer.finish();
+  return sorted;
+}
+
+// The cells of one row of the lattice, some places beside the cell that is looked at. It moves on as that cell does.
+class RowOfCells {
+ public:
+  RowOfCells(const Column<LoopCell>& cells, double x, double y) : cells_(cells), size_(cells.size()), x_(x), y_(y) {}
+
+  // visit(loop) for each loop that passes through one of the three cells in this row.
+  template <class Visit>
+  void for_each_near(const CellOfLattice& at, Visit&& visit) {
+    const CellOfLattice low{at[0] + x_, at[1] + y_, at[2] - 1}, high{low[0], low[1], at[2] + 1};
+    while (next_ < size_ && cells_[next_].cell < low) ++next_;
+    for (std::uint64_t i = next_; i < size_ && cells_[i].cell <= high; ++i)
+      visit(static_cast<std::uint32_t>(cells_[i].loop));
+  }
+
+ private:
+  ColumnReader<LoopCell> cells_;
+  std::uint64_t size_;
+  std::uint64_t next_ = 0;
+  double x_, y_;
+};
+
+// Goes along the cells in order, with the nine rows around. Counts the cells of each loop. A pair counts where one of its
+// loops is of the coarse level.
+void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse, std::vector<std::uint32_t>& own_cells,
+                SharedSort& shared) {
+  std::vector<RowOfCells> rows;
+  for (const double x : {-1, 0, 1}) {
+    for (const double y : {-1, 0, 1}) rows.emplace_back(cells, x, y);
+  }
+  ColumnReader<LoopCell> reader(cells);
+  std::vector<std::uint32_t> near;
+  std::optional<CellOfLattice> last;
+  for (std::uint64_t i = 0; i < cells.size(); ++i) {
+    const LoopCell at = reader[i];
+    if (last != at.cell) {
+      near.clear();
+      for (RowOfCells& row : rows) row.for_each_near(at.cell, [&](std::uint32_t loop) { near.push_back(loop); });
+      std::sort(near.begin(), near.end());
+      near.erase(std::unique(near.begin(), near.end()), near.end());
+      last = at.cell;
+    }
+    const auto a = static_cast<std::uint32_t>(at.loop);
+    ++own_cells[a];
+    for (const std::uint32_t b : near) {
+      if (a != b && std::max(a, b) >= first_coarse) shared.add({a, b});
+    }
+  }
 }
 
 // Both directions of a pair are wanted at a time, so pairs are sorted again by their lower loop.
@@ -147,7 +177,7 @@ std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job&
       add_cells(levels[l], first[l], levels[coarse].cell_edge, cells);
     std::vector<std::uint32_t> own_cells(first.back());
     SharedSort shared(job.file("shared-cells"), job.memory.global / 4);
-    add_shared(cells, first[coarse], own_cells, shared);
+    add_shared(sorted_cells(cells, job), first[coarse], own_cells, shared);
     add_pairs(shared, own_cells, pairs);
   }
   std::sort(pairs.begin(), pairs.end(),

@@ -87,8 +87,13 @@ void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops, J
                   [&](std::size_t i, std::span<const StoredLoopPoint> points, Scratch& scratch) {
                     TrackedLoop& loop = loops[first + i];
                     const LoopEvidence& e = level.evidence[i];
-                    loop.log_odds = log_odds({e.surface, loop.best, compactness(points, scratch), e.sampling_gap,
-                                              persistence(levels[loop.last].edge, e.spacing)});
+                    loop.log_odds = log_odds({.clearness = e.clearness,
+                                              .surface = e.surface,
+                                              .sampling_gap = e.sampling_gap,
+                                              .compactness = compactness(points, scratch),
+                                              .best = loop.best,
+                                              .persistence = persistence(levels[loop.last].edge, e.spacing),
+                                              .is_first_level = loop.level == 0});
                     loop.rank = std::min(loop.log_odds, kSure) - kLevelCost * (loop.level + 0.5 * e.is_coarse);
                   });
     first += level.loops.size();
