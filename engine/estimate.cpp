@@ -69,7 +69,7 @@ double processor_seconds() {
 
 // The options of the run, for a share of its points.
 Config config_of_sample(Config config, double extent, double share) {
-  config.scale = {.every_point = true};
+  config.scale = {.every_point = !has_levels(config)};
   config.neighbourhood.eps = eps_length(config.neighbourhood, extent);
   config.neighbourhood.eps_fraction = 0;
   config.output.sample_points =
@@ -110,23 +110,24 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   const Config config = with_min_hole(given);
   Job job(config, workspace, progress);
   const Clock::time_point start = Clock::now();
-  const Level bucketed = first_level(scan, job);
+  const Level level = first_level(scan, job);
 
-  const Tiling& tiling = bucketed.store.tiling();
-  Estimate estimate{.summary = summarise(bucketed, job), .seconds = seconds_since(start)};
+  const Tiling& tiling = level.store.tiling();
+  Estimate estimate{.summary = summarise(level, job), .seconds = seconds_since(start)};
   estimate.summary.phases = job.phases;
-  estimate.cell_size = bucketed.survey.grid.edge();
+  estimate.cell_size = level.survey.grid.edge();
   estimate.cells = tiling.cells.size();
   const Counts& counts = estimate.summary.counts;
   RunSize size{.rows = counts.points,
                .points = tiling.points(),
-               .tile_points = bucketed.tile_points,
-               .precision = bucketed.survey.precision(),
-               .is_thinned = bucketed.thinned.has_value(),
+               .tile_points = level.tile_points,
+               .precision = level.survey.precision(),
+               .is_thinned = level.thinned.has_value(),
+               .has_levels = has_levels(config),
                .has_normals = scan.has_normals(),
                .reads_slowly = scan.reads_slowly()};
   const std::uint64_t input_peak = peak_memory();
-  add_sample(bucketed.store, extent_of(bucketed.survey.bounds), job, estimate, size);
+  add_sample(level.store, extent_of(level.survey.bounds), job, estimate, size);
   estimate.disk = disk_needs(size, job);
   estimate.memory = std::max(input_peak, memory_needs(size, job));
   return estimate;

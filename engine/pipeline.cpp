@@ -99,7 +99,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // The loops of the levels above, and each hole tracked through the levels.
   std::vector<LevelLoops> levels;
   levels.push_back(std::move(found.loops));
-  if (has_levels(given)) find_loops_above(first, extent, found.totals, levels, job);
+  if (has_levels(config)) find_loops_above(first, extent, found.totals, levels, job);
   add_findings(found.totals, found.found, levels, eps_length(config.neighbourhood, extent), summary);
   MeasuredLoops loops =
       measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);

@@ -1,6 +1,7 @@
 #include "engine/run_needs.hpp"
 
 #include "engine/criteria/criteria.hpp"
+#include "engine/levels/level.hpp"
 #include "engine/model/orientation.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
@@ -22,6 +23,7 @@ constexpr double kListBytes = 12'000, kBeltBytes = 4'500;
 constexpr double kPointAtWork = 390, kCandidateAtWork = 400, kOrientedAtWork = 300;
 constexpr std::uint64_t kProgram = 18 << 20;  // while tiles are evaluated
 constexpr std::uint64_t kSpreadResult = 72;   // of a point that another one represents
+constexpr double kLevelAbove = 0.65;          // points of the level above the first one, for one of that
 
 std::uint64_t beyond(std::uint64_t bytes, std::uint64_t budget) {
   return bytes > budget ? bytes - budget : 0;
@@ -72,6 +74,7 @@ RunSize size_from_headers(const PointSource& scan, const Job& job) {
   constexpr std::uint64_t kMostRows = std::uint64_t{1} << 53;  // a broken header may have more
   RunSize size{.rows = std::min(scan.expected_points().value_or(0), kMostRows),
                .is_thinned = scale.resolution > 0 || scale.min_hole > 0,
+               .has_levels = has_levels(job.config),
                .has_normals = scan.has_normals(),
                .reads_slowly = scan.reads_slowly()};
   if (!size.is_thinned) size.points = size.rows;
@@ -87,12 +90,11 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t spills = job.memory.spills;
   const OutputConfig& output = job.config.output;
   const std::uint64_t store = size.points * stored_point(size);
-  const std::uint64_t first_store = size.stored * stored_point(size);
 
   std::uint64_t thinned = 0, chosen = 0, represented = 0;
   if (size.is_thinned) {
     thinned = size.points * sizeof(Representative);
-    chosen = sorted_on_disk(thinned, spills);
+    chosen = beyond((output.points ? size.rows : size.points) * sizeof(Representative), spills / 2);
     if (output.points) represented = beyond(size.rows * sizeof(Represented), spills / 8);
   }
   const std::uint64_t sample = sampled_points(size, job) * sizeof(StoredSample);
@@ -112,13 +114,19 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t exchanged =
       border_bytes(size, kBeltBytes) + beyond(border_bytes(size, kListBytes), spills);
 
+  const std::uint64_t above =
+      size.has_levels ? static_cast<std::uint64_t>(
+                            kLevelAbove * static_cast<double>(exchanged + size.points * (2 * sizeof(Representative) +
+                                                                                         2 * stored_point(size))))
+                      : 0;
+
   DiskNeeds needs;
-  const std::uint64_t input = kept_bytes(size) + std::max(first_store, thinned + chosen + store);
+  const std::uint64_t input = kept_bytes(size) + thinned + chosen + store;
   needs.last = sample + results + voxels + represented +
                (size.is_thinned && output.points ? beyond(size.rows * kSpreadResult, spills / 4) : 0);
   needs.most = std::max({input,
                          thinned + store + exchanged + sorted_sample + sample + results + voxels +
-                             voxel_work + orientation + represented,
+                             voxel_work + orientation + represented + above,
                          needs.last});
   return needs;
 }

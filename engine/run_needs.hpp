@@ -11,12 +11,12 @@ namespace lacuna {
 
 struct RunSize {
   std::uint64_t rows = 0;    // of the input
-  std::uint64_t stored = 0;  // finite points that are stored before a resolution is chosen; 0: it is given
-  std::uint64_t points = 0;  // that are evaluated: all, or the representatives
+  std::uint64_t points = 0;  // of the first level
   std::uint64_t tile_points = 0;
   double candidates = 0;  // share of the points that are, as on rough surfaces
   Precision precision = Precision::kSingle;
   bool is_thinned = false;
+  bool has_levels = false;
   bool has_normals = false;
   bool reads_slowly = false;
 };

@@ -1,5 +1,7 @@
 #include "tools/overall_progress.hpp"
 
+#include "engine/levels/level.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -15,13 +17,14 @@ struct TypicalTime {
 
 // Percent of a run with default options, measured on scans of 0.8 to 3 million points (dragon_30scans,
 // balm_23scans, a made plane) with 2 threads. What only some runs have is in the same unit.
-constexpr std::array<TypicalTime, 13> kTypicalTimes{{{"survey", 3},
+constexpr std::array<TypicalTime, 14> kTypicalTimes{{{"survey", 3},
                                                      {"bucket", 11},
-                                                     {"resolution", 2},
                                                      {"thin", 30},
                                                      {"halo", 6},
                                                      {"evaluate", 64},
                                                      {"loops", 8},
+                                                     {"levels", 90},
+                                                     {"track", 4},
                                                      {"coherence", 0.5},
                                                      {"measure", 0.5},
                                                      {"voxels", 13},
@@ -46,11 +49,12 @@ std::vector<ExpectedStage> expected_stages(const Config& config) {
     stages.push_back({std::string(name), typical_time(name) + more});
   };
   const bool is_thinned = config.scale.resolution > 0 || config.scale.min_hole > 0;
-  const bool chooses = config.loops.method == LoopMethod::kTangential && !config.scale.every_point;
   if (is_thinned) add("thin");
   for (const char* name : {"survey", "bucket"}) add(name);
-  if (!is_thinned && chooses) add("resolution");
-  for (const char* name : {"halo", "evaluate", "loops", "coherence", "measure"}) add(name);
+  for (const char* name : {"halo", "evaluate", "loops"}) add(name);
+  if (has_levels(config)) add("levels");
+  if (config.loops.method == LoopMethod::kTangential) add("track");
+  for (const char* name : {"measure", "coherence"}) add(name);
   if (config.output.vdb) add("voxels");
   if (config.normals.orient) add("orient");
   add("collect");

@@ -16,8 +16,7 @@ struct ExpectedStage {
   double weight = 0;  // its typical time, in units common to all
 };
 
-// The stages of a run in their order, as far as the config determines them. A resolution that the run itself
-// chooses adds stages later.
+// The stages of a run in their order, as the config determines them.
 std::vector<ExpectedStage> expected_stages(const Config& config);
 
 // Follows a run by typical times of its stages. No clock of its own: `seconds` are those since the run began.

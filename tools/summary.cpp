@@ -108,8 +108,8 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
   if (!scan.common_crs().empty()) facts.emplace_back("crs", crs_name(scan.common_crs()));
   if (summary.resolution > 0) {
     const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
-    facts.emplace_back("resolution", print_length(summary.resolution, unit) + ": " +
-                                         print_count(representatives) + " points are used, one per cell");
+    facts.emplace_back("first level", print_length(summary.resolution, unit) + ": " +
+                                          print_count(representatives) + " points are used, one per cell");
   }
   facts.emplace_back("neighbours", print_number(summary.mean_neighbours) + " of a point on average, " +
                                        print_length(summary.median_distance, unit) + " away (median)");
@@ -123,7 +123,8 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
                                     counted(counts.components, "component", "components") +
                                     "; loops of more than " + std::to_string(summary.e) + " edges");
   }
-  facts.emplace_back("loops", print_count(counts.raw_loops) + " before selection");
+  facts.emplace_back("loops", print_count(counts.raw_loops) + " before selection, at " +
+                                  counted(summary.levels.size(), "level", "levels"));
   facts.emplace_back("tiles", print_count(summary.tiles) + ", of at most " +
                                   counted(summary.tile_points, "point", "points"));
   return facts;

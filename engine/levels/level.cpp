@@ -38,6 +38,11 @@ Level bucket_representatives(ThinnedScan thinned, Job& job) {
   return level;
 }
 
+// Whether the smallest wanted hole has set the resolution.
+bool is_of_hole(const ScaleConfig& scale) {
+  return scale.min_hole > 0 && scale.resolution == scale.min_hole / kCellsAcross;
+}
+
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
 // has no more at any resolution.
 void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
@@ -48,11 +53,10 @@ void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
   const ScaleConfig& scale = config.scale;
   std::ostringstream message;
   message << "a resolution of " << scale.resolution;
-  const bool is_of_hole = scale.min_hole > 0 && scale.resolution == scale.min_hole / kCellsAcross;
-  if (is_of_hole) message << ", for holes of " << scale.min_hole << ",";
+  if (is_of_hole(scale)) message << ", for holes of " << scale.min_hole << ",";
   message << " leaves " << left << " of " << finite << " points, too few for k = " << k
           << " neighbours; the scan's size is " << size.x() << " x " << size.y() << " x " << size.z()
-          << "; allowed: a smaller " << (is_of_hole ? "--min-hole" : "--resolution");
+          << "; allowed: a smaller " << (is_of_hole(scale) ? "--min-hole" : "--resolution");
   throw Error(message.str());
 }
 
@@ -116,7 +120,8 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, Job& 
 
 bool has_levels(const Config& config) {
   const ScaleConfig& scale = config.scale;
-  return config.loops.method == LoopMethod::kTangential && !scale.every_point && scale.resolution == 0;
+  const bool is_one_level = scale.every_point || !(scale.resolution == 0 || is_of_hole(scale));
+  return config.loops.method == LoopMethod::kTangential && !is_one_level;
 }
 
 std::uint64_t points_above(const Level& first) {

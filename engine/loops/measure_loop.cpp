@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -192,10 +191,8 @@ Scratch in_memory() {
 
 }  // namespace
 
-double compactness(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
-  const double length = perimeter(loop, scratch);
-  const double area = area_vector(loop, centroid(loop, scratch), scratch).norm();
-  return 4 * std::numbers::pi * area / (length * length);
+LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+  return {perimeter(loop, scratch), area_vector(loop, centroid(loop, scratch), scratch).stableNorm()};
 }
 
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {

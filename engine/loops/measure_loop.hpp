@@ -35,8 +35,11 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
 // (see `diameter`).
 LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
 
-// Area over that of the circle with the same perimeter, [0, 1]. Scribbles and slits have little. Cost: linear.
-double compactness(std::span<const StoredLoopPoint> loop, Scratch& scratch);
+// As in `LoopMeasures`. Cost: linear.
+struct LoopShape {
+  double perimeter, area;
+};
+LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch);
 
 // Largest distance between two points, exactly, by branch and bound over runs of the loop.
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch);

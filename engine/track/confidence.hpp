@@ -8,11 +8,15 @@ struct TrackEvidence {
   double clearness;     // `LoopEvidence`
   double surface;       // likewise
   double sampling_gap;  // likewise
-  double compactness;   // of the loop
+  double roundness;     // of the loop
   double best;          // largest clearness times surface of the track's loops
   double persistence;   // octaves
   bool is_first_level;  // the loop was found at the first level
 };
+
+// Small for scribbles and slits of the sampling: the area over that of the circle with the same perimeter. A long hole
+// has up to a half, which it has from a width of eight spacings on.
+double roundness(double perimeter, double area, double spacing);
 
 // The logarithm of the odds.
 double log_odds(const TrackEvidence& evidence);

@@ -32,7 +32,10 @@ struct SharedCell {
 using CellSort = SortedRuns<LoopCell>;
 using SharedSort = SortedRuns<SharedCell>;
 
-// visit(cell) for each cell that the closed loop passes through at steps of at most an edge; some several times.
+// An edge of a loop is drawn in so many steps at most: to a far outlier it may be as long as the scan.
+constexpr double kMostSteps = 16;
+
+// visit(cell) for each cell that the closed loop passes through at steps of an edge or less; some several times.
 template <class Visit>
 void draw(const PlacedLoops& loops, std::size_t loop, double edge, Visit&& visit) {
   std::optional<CellOfLattice> last;
@@ -44,7 +47,7 @@ void draw(const PlacedLoops& loops, std::size_t loop, double edge, Visit&& visit
   std::optional<Eigen::Vector3d> first, before;
   const auto go_to = [&](const Eigen::Vector3d& to) {
     const Eigen::Vector3d way = to - *before;
-    const double steps = std::ceil(way.norm() / edge);
+    const double steps = std::min(std::ceil(way.norm() / edge), kMostSteps);
     for (double step = 1; step < steps; ++step) pass(*before + way * (step / steps));
     pass(to);
     before = to;

@@ -87,10 +87,11 @@ void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops, J
                   [&](std::size_t i, std::span<const StoredLoopPoint> points, Scratch& scratch) {
                     TrackedLoop& loop = loops[first + i];
                     const LoopEvidence& e = level.evidence[i];
+                    const auto [perimeter, area] = shape_of(points, scratch);
                     loop.log_odds = log_odds({.clearness = e.clearness,
                                               .surface = e.surface,
                                               .sampling_gap = e.sampling_gap,
-                                              .compactness = compactness(points, scratch),
+                                              .roundness = roundness(perimeter, area, e.spacing),
                                               .best = loop.best,
                                               .persistence = persistence(levels[loop.last].edge, e.spacing),
                                               .is_first_level = loop.level == 0});

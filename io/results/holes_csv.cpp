@@ -19,7 +19,7 @@ void append(std::string& line, double value) {
 std::string_view table_header() {
   static const std::string header = [] {
     std::string names = "id,kind";
-    for (const LoopMeasure& measure : kLoopMeasures) names += "," + std::string(measure.name);
+    for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
     return names + ",x,y,z,nx,ny,nz";
   }();
   return header;
@@ -32,7 +32,7 @@ void write_table(const Detection& detection, OutputFile& out) {
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
     for (const LoopMeasure& measure : kLoopMeasures) {
       if (measure.is_count) {
-        line += "," + std::to_string(static_cast<std::uint64_t>(measure.of(loop)));
+        line.append(",").append(std::to_string(static_cast<std::uint64_t>(measure.of(loop))));
       } else {
         append(line, measure.of(loop));
       }

@@ -60,6 +60,13 @@ Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector
           {"undefined_normals", counts.undefined_normals}};
 }
 
+Json levels_json(const std::vector<LevelSummary>& levels) {
+  Json list = Json::array();
+  for (const LevelSummary& level : levels)
+    list.push_back({{"edge", level.edge}, {"points", level.points}, {"loops", level.loops}});
+  return list;
+}
+
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
   const Summary& summary = detection.summary();
   Json json = begin_json(kHolesSchema);
@@ -73,6 +80,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["offset"] = offset ? list(*offset) : Json();
   json["probability"] = summary.probabilities;
   json["resolution"] = summary.resolution;
+  json["levels"] = levels_json(summary.levels);
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;
   json["median_distance"] = summary.median_distance;
@@ -99,6 +107,9 @@ void write_loop(std::size_t id, const Detection& detection, bool with_coordinate
   const Json head = {{"id", id},
                      {"kind", name_of(measures.kind)},
                      {"confidence", measures.confidence},
+                     {"persistence", measures.persistence},
+                     {"first_scale", measures.first_scale},
+                     {"last_scale", measures.last_scale},
                      {"perimeter", measures.perimeter},
                      {"area", measures.area},
                      {"diameter", measures.diameter},

@@ -33,7 +33,7 @@ inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
 // which changes with it. What is not finite is null.
-inline constexpr std::string_view kHolesSchema = "holes 1";
+inline constexpr std::string_view kHolesSchema = "holes 2";
 void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
 // run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the

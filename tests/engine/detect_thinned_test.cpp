@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -64,18 +62,12 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
   CHECK(counts.thinned_out == cloud.size() - 50 - cells.size());
   std::vector<std::size_t> chosen;
   for (const auto& [key, members] : cells) {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const std::size_t i : members) mean += cloud.positions[i] / static_cast<double>(members.size());
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : members) nearest = std::min(nearest, (cloud.positions[i] - mean).norm());
-    const auto first = [&](std::size_t a, std::size_t b) {
-      return std::lexicographical_compare(cloud.positions[a].begin(), cloud.positions[a].end(),
-                                          cloud.positions[b].begin(), cloud.positions[b].end());
-    };
-    std::vector<std::size_t> candidates;  // two points of a cell are as near as each other
-    std::copy_if(members.begin(), members.end(), std::back_inserter(candidates),
-                 [&](std::size_t i) { return (cloud.positions[i] - mean).norm() <= nearest + 1e-7; });
-    chosen.push_back(*std::min_element(candidates.begin(), candidates.end(), first));
+    chosen.push_back(*std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+      const Eigen::Vector3d &p = cloud.positions[a], &q = cloud.positions[b];
+      const double of_a = Lattice(resolution).place_of(p).squared_offset,
+                   of_b = Lattice(resolution).place_of(q).squared_offset;
+      return of_a != of_b ? of_a < of_b : std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    }));
   }
   std::sort(chosen.begin(), chosen.end());
   Cloud alone;
@@ -172,30 +164,6 @@ TEST_CASE("a resolution as large as the scan is an error that names its size") {
                           Catch::EndsWith("allowed: a smaller --resolution"));
   config = at_resolution(20);
   CHECK(error().empty());
-}
-
-// Sweeps with points one apart along them and six apart across; two of them are interrupted.
-TEST_CASE("a scan of lines is thinned to their distance, unless every point counts or by the paper") {
-  Cloud cloud;
-  for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 360; ++x) cloud.positions.emplace_back(x, 6 * y, 0);
-  }
-  cloud = cloud.punched({180, 180}, 40).jittered(0.3, 1).noisy(0.2, 2);
-  const Detected automatic = run_engine(cloud, {});
-  CHECK(automatic.summary.resolution == 6);
-  const auto holes = std::count_if(automatic.loops.begin(), automatic.loops.end(),
-                                   [](const ReportedLoop& l) { return l.measures.kind == LoopKind::kHole; });
-  CHECK(holes == 1);
-  CHECK(automatic.bytes() == run_engine(cloud, at_resolution(6)).bytes());
-
-  Config every_point;
-  every_point.scale.every_point = true;
-  CHECK(run_engine(cloud, every_point).summary.resolution == 0);
-  Config paper;
-  paper.loops.method = LoopMethod::kPaper;
-  CHECK(run_engine(cloud, paper).summary.resolution == 0);
-  paper.scale.resolution = 6;
-  CHECK(run_engine(cloud, paper).summary.resolution == 6);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ def lines_of(data):
 data = read(vtkXMLPolyDataReader(), "earth/loops.vtp")
 assert [list(map(list, line)) for line in lines_of(data)] == [loop["coordinates"] for loop in earth["loops"]]
 cells = data.GetCellData()
-for name in ("id", "points", "confidence", "perimeter", "area", "diameter", "planarity", "mean_probability"):
+for name in ("id", "points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"):
     values = cells.GetArray(name)
     assert [values.GetTuple1(i) for i in range(5)] == [loop[name] for loop in earth["loops"]], name
 kinds = cells.GetArray("kind")

@@ -88,7 +88,8 @@ import json
 import math
 from pathlib import Path
 
-MEASURES = {name: name for name in ("id", "kind", "points", "confidence", "perimeter", "area", "diameter", "planarity")}
+MEASURES = {name: name for name in ("id", "kind", "points", "confidence", "last_scale", "perimeter", "area", "diameter",
+                                    "planarity")}
 
 
 def is_near(a, b):
@@ -119,7 +120,8 @@ for run in (*CONVERTED, "again", "nonsense", "local"):
                 assert [z for x, y, z in line[:-1]] == [z for x, y, z in loop["coordinates"]], run
             else:
                 assert line[:-1] == loop["coordinates"], (run, format)
-            names = MEASURES | {"mean_prob" if format == "shp" else "mean_probability": "mean_probability"}
+            short = {"mean_probability": "mean_prob", "persistence": "persist", "first_scale": "first_scal"}
+            names = MEASURES | {name if format == "shp" else key: key for key, name in short.items()}
             assert feature["properties"].keys() == names.keys(), feature["properties"]
             for name, key in names.items():
                 assert is_near(feature["properties"][name], loop[key]), (run, format, name)

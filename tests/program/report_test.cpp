@@ -268,7 +268,7 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
     CHECK_THAT(refused(out), Contains("holes.json"));
   }
   write("{\"schema\": \"holes 9\", \"loops\": []}");
-  CHECK_THAT(refused(out), Contains("\"holes 9\"") && Contains("\"holes 1\" is read"));
+  CHECK_THAT(refused(out), Contains("\"holes 9\"") && Contains("\"holes 2\" is read"));
   write("[1, 2]");
   CHECK_THAT(refused(out), Contains("holes.json"));
   write(holes);

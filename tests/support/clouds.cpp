@@ -389,11 +389,8 @@ Config random_config(std::uint64_t seed, double spacing) {
     tangential.hole_radius = random.uniform(0.5, 2);
     tangential.most_radius = random.uniform(0.2, 0.8);
     tangential.coarse_bound = random.uniform(1, 4);
-    tangential.same_hole = random.uniform(0, 1);
     tangential.clear_radius = random.uniform(1.2, 4);
     tangential.added_length = random.uniform(0, 12);
-    tangential.confidence_middle = random.uniform(0.2, 0.9);
-    tangential.confidence_slope = random.uniform(2, 30);
     tangential.min_curve = random.whole(3, 20);
   }
   return config;

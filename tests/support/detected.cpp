@@ -47,7 +47,8 @@ std::string Detected::bytes() const {
   }
   for (const ReportedLoop& loop : loops) {
     const LoopMeasures& m = loop.measures;
-    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability})
+    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability, m.confidence,
+                               m.persistence, m.first_scale, m.last_scale})
       put(bytes, value);
     put(bytes, m.kind);
     put(bytes, m.points);

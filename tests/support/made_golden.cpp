@@ -94,7 +94,7 @@ GoldenOutcome plain_outcome(const Cloud& cloud, const Config& config) {
   GoldenOutcome outcome;
   for (const reference::Point& p : plain.points)
     outcome.points.push_back({std::uint32_t(std::lround(p.probability * 0x1p24)), p.coherent, p.boundary});
-  outcome.loops = plain.sure;
+  outcome.loops = plain.loops;
   std::sort(outcome.loops.begin(), outcome.loops.end());
   return outcome;
 }

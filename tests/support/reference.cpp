@@ -1,5 +1,6 @@
 #include "tests/support/reference.hpp"
 
+#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/run/error.hpp"
 #include "engine/simd/maths.hpp"
 
@@ -297,8 +298,11 @@ Vector3d normalised_eigenvalues(const Vector3d& eigenvalues) {
   return lambda.sum() > 0 ? Vector3d(lambda / lambda.sum()) : Vector3d::Constant(1. / 3);
 }
 
-// 3, shape.
-double shape_criterion(const Vector3d& lambda) {
+// 3, shape: of the boundary, and of boundary and interior together.
+struct ShapeShares {
+  double boundary, surface;
+};
+ShapeShares shape_shares(const Vector3d& lambda) {
   const std::array<Vector3d, 4> characteristic{Vector3d(2. / 3, 1. / 3, 0), Vector3d(1. / 2, 1. / 2, 0),
                                                Vector3d(1. / 3, 1. / 3, 1. / 3), Vector3d(1, 0, 0)};
   const Vector3d centroid(11. / 18, 5. / 18, 1. / 9);
@@ -308,7 +312,7 @@ double shape_criterion(const Vector3d& lambda) {
     kernels[i] = std::exp(-squared_length(lambda - characteristic[i]) / (s * s));
   }
   const double sum = kernels[0] + kernels[1] + kernels[2] + kernels[3];
-  return sum > 0 ? kernels[0] / sum : 0;
+  return sum > 0 ? ShapeShares{kernels[0] / sum, (kernels[0] + kernels[1]) / sum} : ShapeShares{0, 0};
 }
 
 // 2: as given, normalised; none where it is zero or not finite.
@@ -346,7 +350,8 @@ void evaluate(const Positions& positions, const std::vector<Vector3d>& given, co
   point.surface = moments.mean;
   const Vector3d lambda = normalised_eigenvalues(eigen.eigenvalues());
   point.lambda = {lambda[0], lambda[1], lambda[2]};
-  point.shape = shape_criterion(lambda);
+  point.shape = shape_shares(lambda).boundary;
+  point.surface_share = shape_shares(lambda).surface;
 
   point.normal = given_normal(given, id);
   const bool estimated = !point.normal;
@@ -592,7 +597,6 @@ void find_loops(Graph graph, Detection& result) {
   }
   std::sort(result.loops.begin(), result.loops.end());
   result.confidences.assign(result.loops.size(), 1);
-  result.sure = result.loops;
   for (PointId p : result.distinct) {
     Point& point = result.points[value(p)];
     point.boundary = point.coherent || on_loop[value(p)];
@@ -616,13 +620,16 @@ struct Star {
 
 // What confidence needs of a gap.
 struct Evidence {
-  double length, sampling, clearness;
+  double length, sampling, clearness, distance, surface;
 };
 
 struct Gap {
   PointId point, from, to;
   Evidence evidence;
 };
+
+// The ids that the points of a level have in the input.
+using Names = std::vector<PointId>;
 
 double weight(PointId id, double r) {
   std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
@@ -631,7 +638,7 @@ double weight(PointId id, double r) {
   return 1e-4 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
 }
 
-Star star_of(const Positions& positions, const Detection& result, PointId id) {
+Star star_of(const Positions& positions, const Detection& result, const Names& names, PointId id) {
   const Point& p = result.points[value(id)];
   if (!p.normal || p.neighbours.empty()) return {};
   const Vector3d u = p.normal->unitOrthogonal(), v = p.normal->cross(u);
@@ -644,7 +651,8 @@ Star star_of(const Positions& positions, const Detection& result, PointId id) {
     const Point& q = result.points[value(other)];
     closeness += 1 / q.mean_distance;
     const Vector3d d = (positions[value(other)] - positions[value(id)]) + (shift(q) - shift(p));
-    const double power = d.squaredNorm() + weight(id, p.mean_distance) - weight(other, q.mean_distance);
+    const double power = d.squaredNorm() + weight(names[value(id)], p.mean_distance) -
+                         weight(names[value(other)], q.mean_distance);
     if (power > 0) seen.emplace_back(other, Eigen::Vector2d(d.dot(u), d.dot(v)) / power);
   }
 
@@ -685,8 +693,8 @@ double median(std::vector<double> numbers) {
 // Stars of points and of their neighbours, found when they are first needed.
 class Stars {
  public:
-  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
-      : positions_(positions), config_(config), result_(result) {}
+  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result, const Names& names)
+      : positions_(positions), config_(config), result_(result), names_(names) {}
 
   // Measured by the circumradii of its own and its neighbours' stars.
   const Star& operator[](PointId p) {
@@ -698,7 +706,7 @@ class Stars {
  private:
   const Star& found(PointId p) {
     const auto [at, is_new] = found_.try_emplace(p);
-    if (is_new) at->second = star_of(positions_, result_, p);
+    if (is_new) at->second = star_of(positions_, result_, names_, p);
     return at->second;
   }
 
@@ -746,6 +754,7 @@ class Stars {
   const Positions& positions_;
   const TangentialConfig& config_;
   const Detection& result_;
+  const Names& names_;
   std::map<PointId, Star> found_, measured_;
 };
 
@@ -790,13 +799,16 @@ std::set<PointId> rough_points(const Detection& result, double threshold, Stars&
   return rough;
 }
 
-std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars, std::size_t scale,
-                         const Positions& positions, const TangentialConfig& config) {
+std::vector<Gap> gaps_of(PointId p, const Detection& result, const std::set<PointId>& rough, Stars& stars,
+                         std::size_t scale, const Positions& positions, const TangentialConfig& config) {
   const Star& star = stars[p];
   const std::size_t count = star.corners.size();
   const auto corner = [&](std::size_t i) -> const Corner& { return star.corners[i % count]; };
   const auto agreed = [&](std::size_t i) { return is_agreed(p, i % count, rough, stars, scale); };
   const auto distance = [&](PointId q) { return length(positions[value(q)] - positions[value(p)]); };
+  double surface = 0;
+  for (const PointId q : result.points[value(p)].neighbours) surface += result.points[value(q)].surface_share;
+  surface /= static_cast<double>(result.points[value(p)].neighbours.size());
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < count; ++i) {
     if (!agreed(i) || agreed(i + 1)) continue;
@@ -806,7 +818,8 @@ std::vector<Gap> gaps_of(PointId p, const std::set<PointId>& rough, Stars& stars
     const PointId from = corner(i + 1).point, to = corner(end).point;
     const double sampling = star.sampling[scale];
     const double clearness = std::clamp((ball / sampling - 1) / (config.clear_radius - 1), 0., 1.);
-    gaps.push_back({p, from, to, {(distance(from) + distance(to)) / 2, sampling, clearness}});
+    gaps.push_back(
+        {p, from, to, {(distance(from) + distance(to)) / 2, sampling, clearness, star.distance, surface}});
   }
   return gaps;
 }
@@ -850,79 +863,49 @@ std::vector<std::vector<CurvePoint>> simple_curves(std::vector<CurvePoint> rim) 
 }
 
 struct FoundLoop {
-  std::vector<PointId> points;
-  double confidence, length;
+  std::vector<PointId> points;  // by their names
+  std::vector<Vector3d> places;
+  std::size_t level, scale;
+  double clearness, surface, spacing, sampling_gap;
 };
 using Loops = std::vector<FoundLoop>;
 
 // By first id, then short ones first, then by all ids.
-void sort_loops(Loops& loops) {
-  const auto rank = [](const FoundLoop& loop) {
-    return std::tuple(loop.points.front(), loop.points.size(), loop.points);
-  };
-  std::sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+auto order_of(const FoundLoop& loop) {
+  return std::tuple(loop.points.front(), loop.points.size(), loop.points, loop.scale);
 }
 
-FoundLoop rated(const std::vector<CurvePoint>& rim, const TangentialConfig& config) {
-  FoundLoop loop{{}, 0, 0};
-  double clear = 0, sampling = 0;
+FoundLoop loop_of(const std::vector<CurvePoint>& rim, const TangentialConfig& config) {
+  FoundLoop loop{};
+  double clear = 0, length = 0, sampling = 0, distance = 0;
+  const auto count = static_cast<double>(rim.size());
   for (const auto& [point, evidence] : rim) {
     loop.points.push_back(point);
     clear += evidence.clearness * evidence.length;
-    loop.length += evidence.length;
+    length += evidence.length;
     sampling += evidence.sampling;
+    distance += evidence.distance;
+    loop.surface += evidence.surface / count;
   }
-  const double evidence =
-      clear / (loop.length + config.added_length * sampling / static_cast<double>(rim.size()));
-  loop.confidence = 1 / (1 + std::exp(-config.confidence_slope * (evidence - config.confidence_middle)));
+  loop.clearness = clear / (length + config.added_length * sampling / count);
+  loop.spacing = distance / count / 1.7;
+  loop.sampling_gap = sampling / distance;
   return loop;
 }
 
-// A coarse loop lies on a fine one that has a quarter of its points or more. The surer of the two stands. A
-// sure fine loop also stands where the sure coarse ones on it are together nearly as long.
-Loops chosen(const Loops& fine, const Loops& coarse, double same_hole) {
-  constexpr double kSure = 0.75;
-  const auto lies_on = [](const FoundLoop& loop, const FoundLoop& other) {
-    const std::set<PointId> points(other.points.begin(), other.points.end());
-    const auto count = static_cast<std::size_t>(
-        std::count_if(loop.points.begin(), loop.points.end(), [&](PointId p) { return points.contains(p); }));
-    return 4 * count >= loop.points.size();
-  };
-  Loops chosen;
-  for (const FoundLoop& f : fine) {
-    double length = 0, surest = 0;
-    for (const FoundLoop& c : coarse) {
-      if (!lies_on(c, f)) continue;
-      surest = std::max(surest, c.confidence);
-      if (c.confidence >= kSure) length += c.length;
-    }
-    const bool is_same = f.confidence >= kSure && length >= same_hole * f.length;
-    if (surest <= f.confidence || is_same) chosen.push_back(f);
-  }
-  const std::size_t standing = chosen.size();
-  for (const FoundLoop& c : coarse) {
-    if (std::none_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(standing),
-                     [&](const FoundLoop& f) { return lies_on(c, f); }))
-      chosen.push_back(c);
-  }
-  sort_loops(chosen);
-  return chosen;
-}
-
-// The curves at one scale of at least `min_curve` points, in the order of their ids.
-Loops find_curves(const Positions& positions, const TangentialConfig& config, const std::set<PointId>& rough,
-                  std::size_t scale, Stars& stars, std::size_t& edges) {
+// The curves at one scale of at least `min_curve` points that may be holes.
+void find_curves(const Positions& positions, const Detection& result, const TangentialConfig& config,
+                 const std::set<PointId>& rough, std::size_t scale, Stars& stars, std::size_t& edges, Loops& loops) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the curve)
   for (const PointId p : rough) {
-    for (const Gap& gap : gaps_of(p, rough, stars, scale, positions, config)) {
+    for (const Gap& gap : gaps_of(p, result, rough, stars, scale, positions, config)) {
       at[{p, gap.from}] = at[{p, gap.to}] = gaps.size();
       gaps.push_back(gap);
     }
   }
   edges = gaps.size();  // each ends at two, and at each of them two end
-  Loops rims;
   std::vector<bool> is_done(gaps.size(), false);
   for (std::size_t start = 0; start < gaps.size(); ++start) {
     if (is_done[start]) continue;
@@ -938,32 +921,297 @@ Loops find_curves(const Positions& positions, const TangentialConfig& config, co
     if (rim.size() < least) continue;
     for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {
       if (curve.size() < least) continue;
-      rims.push_back(rated(first_way(curve), config));
+      FoundLoop loop = loop_of(first_way(curve), config);
+      if (loop.clearness < 0.5 || loop.surface < 0.3) continue;
+      loop.scale = scale;
+      loops.push_back(loop);
     }
   }
-  sort_loops(rims);
-  return rims;
 }
 
-void find_rims(const Positions& positions, const Config& config, Detection& result) {
-  const double threshold = config.coherence.threshold, min_confidence = config.selection.min_confidence;
-  Stars stars(positions, config.tangential, result);
-  const std::set<PointId> rough = rough_points(result, threshold, stars);
+// ---- Levels (method.md, D) ---------------------------------------------------------------------------
+
+struct Level {
+  double edge = 0;
+  Positions positions;
+  Positions normals;  // given ones
+  Names names;        // ascending
+};
+
+// The loops of a level, of which `result` has the evaluated points.
+Loops loops_of(const Level& level, std::size_t number, const Config& config, Detection& result) {
+  Stars stars(level.positions, config.tangential, result, level.names);
+  const std::set<PointId> rough = rough_points(result, config.coherence.threshold, stars);
   std::size_t coarse_edges = 0;
-  std::array<Loops, 2> rims{find_curves(positions, config.tangential, rough, 0, stars, result.boundary_edges),
-                            find_curves(positions, config.tangential, rough, 1, stars, coarse_edges)};
+  Loops loops;
+  find_curves(level.positions, result, config.tangential, rough, 0, stars, result.boundary_edges, loops);
+  find_curves(level.positions, result, config.tangential, rough, 1, stars, coarse_edges, loops);
+  for (FoundLoop& loop : loops) {
+    loop.level = number;
+    for (PointId& p : loop.points) {
+      loop.places.push_back(level.positions[value(p)]);
+      p = level.names[value(p)];
+    }
+  }
+  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  return loops;
+}
+
+using LatticeCell = std::array<double, 3>;
+
+LatticeCell lattice_cell(const Vector3d& p, double edge) {
+  return {std::floor(p.x() * (1 / edge)) + 0., std::floor(p.y() * (1 / edge)) + 0.,
+          std::floor(p.z() * (1 / edge)) + 0.};
+}
+
+// Of each cell the point nearest to its middle, then the lowest coordinates, then the lowest id.
+Level thinned(const Level& below, const Detection& result, double edge) {
+  std::map<LatticeCell, PointId> nearest;
+  const auto rank = [&](PointId p) {
+    const Vector3d& x = below.positions[value(p)];
+    const LatticeCell cell = lattice_cell(x, edge);
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double offset = x[axis] * (1 / edge) - cell[static_cast<std::size_t>(axis)] - 0.5;
+      squared += offset * offset;
+    }
+    return std::tuple(squared, x.x(), x.y(), x.z(), p);
+  };
+  for (const PointId p : result.distinct) {
+    const auto [at, is_new] = nearest.try_emplace(lattice_cell(below.positions[value(p)], edge), p);
+    if (!is_new && rank(p) < rank(at->second)) at->second = p;
+  }
+  std::set<PointId> kept;
+  for (const auto& [cell, p] : nearest) kept.insert(p);
+  Level level{.edge = edge, .positions = {}, .normals = {}, .names = {}};
+  for (const PointId p : kept) {
+    level.positions.push_back(below.positions[value(p)]);
+    if (!below.normals.empty()) level.normals.push_back(below.normals[value(p)]);
+    level.names.push_back(below.names[value(p)]);
+  }
+  return level;
+}
+
+// The first power of the square root of two above a length.
+double power_above(double length) {
+  const double octave = std::ldexp(1., std::ilogb(length)), half = octave * std::numbers::sqrt2;
+  return half > length ? half : 2 * octave;
+}
+
+// The share of points that a lattice leaves, by their distances to their neighbours, of 64 steps an octave.
+double share_left(const Detection& result, double edge) {
+  double left = 0, all = 0;
+  for (const PointId p : result.distinct) {
+    const double r = result.points[value(p)].mean_distance;
+    if (!(r > 0)) continue;
+    const int octave = std::ilogb(r);
+    const double spacing = std::ldexp(std::floor(std::ldexp(r, 6 - octave)), octave - 6) / 1.7;
+    left += 1 / (1 + edge / spacing * (edge / spacing) / 1.3 / 2);
+    ++all;
+  }
+  return left / all;
+}
+
+// None where no level is above.
+std::optional<Level> level_above(const Level& below, const Detection& result) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const PointId p : result.distinct) {
+    const double r = result.points[value(p)].mean_distance;
+    if (r > 0) shortest = std::min(shortest, r);
+  }
+  if (!std::isfinite(shortest)) return std::nullopt;
+  const int octave = std::ilogb(shortest);
+  shortest = std::ldexp(std::floor(std::ldexp(shortest, 6 - octave)), octave - 6);
+  double edge = power_above(std::max(below.edge * 1.0001, shortest / 4));
+  while (share_left(result, edge) > 0.6) edge = power_above(edge * 1.0001);
+  for (;; edge = power_above(edge * 1.0001)) {
+    Level level = thinned(below, result, edge);
+    if (level.names.size() < 200) return std::nullopt;
+    if (static_cast<double>(level.names.size()) <= 0.9 * static_cast<double>(result.distinct.size())) return level;
+  }
+}
+
+// ---- Tracking ----------------------------------------------------------------------------------------
+
+std::set<LatticeCell> drawn(const FoundLoop& loop, double edge) {
+  const auto cell = [&](const Vector3d& p) {
+    return LatticeCell{std::floor(p.x() / edge), std::floor(p.y() / edge), std::floor(p.z() / edge)};
+  };
+  std::set<LatticeCell> cells;
+  for (std::size_t i = 0; i < loop.places.size(); ++i) {
+    const Vector3d &from = loop.places[i], &to = loop.places[(i + 1) % loop.places.size()];
+    const double steps = std::min(std::ceil((to - from).norm() / edge), 16.);
+    for (double step = 1; step < steps; ++step) cells.insert(cell(from + (to - from) * (step / steps)));
+    cells.insert(cell(to));
+  }
+  return cells;
+}
+
+bool is_near(const LatticeCell& at, const std::set<LatticeCell>& cells) {
+  for (const double x : {-1, 0, 1}) {
+    for (const double y : {-1, 0, 1}) {
+      for (const double z : {-1, 0, 1}) {
+        if (cells.contains({at[0] + x, at[1] + y, at[2] + z})) return true;
+      }
+    }
+  }
+  return false;
+}
+
+float share_near(const std::set<LatticeCell>& cells, const std::set<LatticeCell>& others) {
+  const auto count = std::count_if(cells.begin(), cells.end(), [&](const auto& c) { return is_near(c, others); });
+  return static_cast<float>(count) / static_cast<float>(cells.size());
+}
+
+double roundness_of(const FoundLoop& loop) {
+  Vector3d area(0, 0, 0);
+  double length = 0;
+  for (std::size_t i = 0; i < loop.places.size(); ++i) {
+    const Vector3d &a = loop.places[i], &b = loop.places[(i + 1) % loop.places.size()];
+    area += (a - loop.places[0]).cross(b - loop.places[0]) / 2;
+    length += (b - a).norm();
+  }
+  const double width = 2 * area.stableNorm() / length;
+  return std::max(2 * pi * width / length, std::min(0.5, width / loop.spacing / 16));
+}
+
+double octaves(double ratio) {
+  const double power = std::floor(std::log2(ratio));
+  return power + ratio / std::exp2(power) - 1;
+}
+
+struct Tracked {
+  std::vector<FoundLoop> loops;
+  std::vector<double> confidences;
+};
+
+// `edges`, and the edges of the lattices on which loops are compared: by level.
+Tracked track(const Loops& loops, const std::vector<double>& edges, const std::vector<double>& cells) {
+  const std::size_t count = loops.size();
+  std::vector<std::vector<float>> near(count, std::vector<float>(count, 0));  // share of the first, near the second
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = a + 1; b < count; ++b) {
+      const std::size_t coarse = std::max(loops[a].level, loops[b].level);
+      if (coarse - std::min(loops[a].level, loops[b].level) > 2) continue;
+      const std::set<LatticeCell> of_a = drawn(loops[a], cells[coarse]), of_b = drawn(loops[b], cells[coarse]);
+      near[a][b] = share_near(of_a, of_b);
+      near[b][a] = share_near(of_b, of_a);
+    }
+  }
+  const auto is_same = [&](std::size_t a, std::size_t b) { return near[a][b] >= 0.7f && near[b][a] >= 0.7f; };
+  const auto own = [&](std::size_t i) { return loops[i].clearness * loops[i].surface; };
+  std::vector<double> above(count), below(count);
+  std::vector<std::size_t> last(count);
+  for (std::size_t a = count; a-- > 0;) {
+    above[a] = own(a);
+    last[a] = loops[a].level;
+    for (std::size_t b = a + 1; b < count; ++b) {
+      if (loops[a].level == loops[b].level || !is_same(a, b)) continue;
+      above[a] = std::max(above[a], above[b]);
+      last[a] = std::max(last[a], last[b]);
+    }
+  }
+  for (std::size_t b = 0; b < count; ++b) {
+    below[b] = own(b);
+    for (std::size_t a = 0; a < b; ++a) {
+      if (loops[a].level != loops[b].level && is_same(a, b)) below[b] = std::max(below[b], below[a]);
+    }
+  }
+  std::vector<double> odds(count), ranks(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const FoundLoop& loop = loops[i];
+    const double edge = edges[last[i]], round = roundness_of(loop);
+    const double persistence = edge > loop.spacing ? octaves(edge / loop.spacing) : 0;
+    odds[i] = 11.34 * loop.surface * std::max(above[i], below[i]) -
+              1.77 * loop.surface * loop.surface / (round + 0.1) + 0.84 * std::min(persistence, 2.) -
+              7.44 * loop.sampling_gap - 0.24;
+    if (loop.level == 0 && loop.surface >= 0.84 && round >= 0.2)
+      odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - 0.65), 2.));
+    ranks[i] = std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
+  }
+
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranks[a] > ranks[b]; });
+  std::set<std::size_t> chosen, covered;
+  for (const std::size_t i : order) {
+    if (covered.contains(i)) continue;
+    chosen.insert(i);
+    std::set<std::size_t> place;  // the loops of the same hole, of which those at the place are covered
+    std::vector<std::size_t> ahead = {i};
+    while (!ahead.empty()) {
+      const std::size_t at = ahead.back();
+      ahead.pop_back();
+      for (std::size_t other = 0; other < count; ++other) {
+        if (other == at || chosen.contains(other) || place.contains(other)) continue;
+        if (near[at][other] < 0.5f && near[other][at] < 0.5f) continue;
+        place.insert(other);
+        covered.insert(other);
+        if (is_same(at, other)) ahead.push_back(other);
+      }
+    }
+  }
+  Tracked tracked;
+  std::vector<std::size_t> sorted(chosen.begin(), chosen.end());
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::size_t a, std::size_t b) { return order_of(loops[a]) < order_of(loops[b]); });
+  for (const std::size_t i : sorted) {
+    tracked.loops.push_back(loops[i]);
+    tracked.confidences.push_back(1 / (1 + std::exp(-odds[i])));
+  }
+  return tracked;
+}
+
+Detection evaluated(const Level& level, const Config& config) {
+  Detection result;
+  result.points.resize(level.positions.size());
+  find_distinct(level.positions, result);
+  find_neighbours(level.positions, config.neighbourhood, result);
+  for (PointId p : result.distinct) evaluate(level.positions, level.normals, config, p, result.points[value(p)]);
+  return result;
+}
+
+// The median over points, within a step of 64 an octave: as the engine has it.
+double median_distance(const Detection& result) {
+  LengthBins bins;
+  for (const PointId p : result.distinct) {
+    const double r = result.points[value(p)].mean_distance;
+    if (r > 0 && std::isfinite(r)) ++bins.counts[LengthBins::bin_of(r)];
+  }
+  return bins.median();
+}
+
+void find_rims(Level level, const Config& config, Detection& result) {
+  const bool has_levels = !config.scale.every_point && config.scale.resolution == 0;
+  Loops loops = loops_of(level, 0, config, result);
+  std::vector<double> edges = {0}, cells = {median_distance(result) / 1.7};
+  if (has_levels) {
+    Config one_eps = config;  // a length, alike at all levels
+    one_eps.neighbourhood.eps = result.eps;
+    one_eps.neighbourhood.eps_fraction = 0;
+    Detection below = result;
+    while (std::optional<Level> above = level_above(level, below)) {
+      level = *std::move(above);
+      below = evaluated(level, one_eps);
+      const Loops of_level = loops_of(level, edges.size(), config, below);
+      loops.insert(loops.end(), of_level.begin(), of_level.end());
+      edges.push_back(level.edge);
+      cells.push_back(level.edge);
+    }
+  }
+  const Tracked tracked = track(loops, edges, cells);
   std::set<PointId> on_loop;
-  for (const auto& [rim, confidence, length] : chosen(rims[0], rims[1], config.tangential.same_hole)) {
-    if (confidence < min_confidence) continue;
+  for (std::size_t i = 0; i < tracked.loops.size(); ++i) {
+    if (tracked.confidences[i] < config.selection.min_confidence) continue;
+    const std::vector<PointId>& rim = tracked.loops[i].points;
     result.loops.push_back(rim);
-    result.confidences.push_back(confidence);
-    result.sure.push_back(rim);
+    result.confidences.push_back(tracked.confidences[i]);
     on_loop.insert(rim.begin(), rim.end());
   }
   for (const PointId p : result.distinct) {
     Point& point = result.points[value(p)];
-    const bool is_beside = point.probability > threshold && point.gap && on_loop.contains((*point.gap)[0]) &&
-                           on_loop.contains((*point.gap)[1]);
+    const bool is_beside = point.probability > config.coherence.threshold && point.gap &&
+                           on_loop.contains((*point.gap)[0]) && on_loop.contains((*point.gap)[1]);
     point.boundary = is_beside || on_loop.contains(p);
   }
 }
@@ -972,11 +1220,9 @@ void find_rims(const Positions& positions, const Config& config, Detection& resu
 
 Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vector3d>& normals,
                  const Config& config) {
-  Detection result;
-  result.points.resize(positions.size());
-  find_distinct(positions, result);
-  find_neighbours(positions, config.neighbourhood, result);
-  for (PointId p : result.distinct) evaluate(positions, normals, config, p, result.points[value(p)]);
+  Level level{.edge = 0, .positions = positions, .normals = normals, .names = {}};
+  for (std::uint64_t i = 0; i < positions.size(); ++i) level.names.push_back(PointId{i});
+  Detection result = evaluated(level, config);
   if (config.normals.orient) orient_normals(positions, result);
   find_coherent(config.coherence, result);
   if (config.loops.method == LoopMethod::kPaper) {
@@ -986,7 +1232,7 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
     result.boundary_edges = result.eligible.size();
     find_loops(span(result), result);
   } else {
-    find_rims(positions, config, result);
+    find_rims(std::move(level), config, result);
   }
   for (Point& point : result.points) {
     if (!point.dropped) point = Point(result.points[value(point.representative)]);

@@ -42,6 +42,7 @@ struct Point {
   std::optional<std::array<PointId, 2>> gap;             // the gap neighbours, nearer first; may be the same
   Eigen::Vector3d surface{0, 0, 0};                      // mu_p - p
   std::array<double, 3> lambda{1. / 3, 1. / 3, 1. / 3};  // Lambda_p, largest first
+  double surface_share = 0;                              // of the boundary and the interior shape
 
   // 4 to 6.
   bool coherent = false;
@@ -66,9 +67,8 @@ struct Detection {
   std::size_t boundary_edges = 0;           // of the boundary graph
   std::vector<Edge> eligible;               // with w_total, in the order in which they are taken
   std::vector<Edge> spanning;               // those accepted, in that order
-  std::vector<std::vector<PointId>> loops;  // raw, as step 6 writes and sorts them
+  std::vector<std::vector<PointId>> loops;  // of the paper raw, as step 6 writes and sorts them; else those that stand
   std::vector<double> confidences;          // of the loops; of the paper's all 1
-  std::vector<std::vector<PointId>> sure;   // those of at least min_confidence
 };
 
 // `normals` is empty or has one per point. Throws `Error` where the squared distance of distinct points is

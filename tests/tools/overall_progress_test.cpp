@@ -75,11 +75,11 @@ TEST_CASE("the expected stages are those of the config") {
     return std::find(all.begin(), all.end(), name) != all.end();
   };
   Config config;
-  CHECK(names(config) == std::vector<std::string>{"survey", "bucket", "resolution", "halo", "evaluate",
-                                                  "loops", "coherence", "measure", "collect", "write"});
+  CHECK(names(config) == std::vector<std::string>{"survey", "bucket",  "halo",      "evaluate", "loops", "levels",
+                                                  "track",  "measure", "coherence", "collect",  "write"});
   config.scale.every_point = true;
   config.output.vdb = true;
-  CHECK(!has(config, "resolution"));
+  CHECK(!has(config, "levels"));
   CHECK(has(config, "voxels"));
   config.scale.min_hole = 0.2;
   CHECK(names(config).front() == "thin");

@@ -38,6 +38,7 @@ class Details {
           ["Perimeter", units.length(loops.perimeter[index], 4)],
           ["Diameter", units.length(loops.diameter[index], 4)],
           ["Confidence", format_fraction(loops.confidence[index])],
+          ["Found at scales", scales(loops, index, units)],
           ["Planarity", format_fraction(loops.planarity[index])],
           ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
           ["Points", format_count(loops.points[index])],
@@ -46,6 +47,13 @@ class Details {
         ]),
         element("div", {class: "buttons"}, copy, fly, close));
   }
+}
+
+// From the first to the last lattice at which the hole is found.
+function scales(loops, index, units) {
+  const name = (edge) => edge > 0 ? units.length(edge) : "all points";
+  const first = name(loops.first_scale[index]), last = name(loops.last_scale[index]);
+  return first === last ? first : `${first} to ${last}`;
 }
 
 function loop_name(loops, index) {

@@ -206,9 +206,9 @@ class LoopTable {
   csv() {
     const {loops} = this;
     const text = (value) => (Number.isFinite(value) ? String(value) : "");
-    const lines = ["id,kind,points,confidence,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz"];
+    const lines = ["id,kind,points,confidence,persistence,first_scale,last_scale,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz"];
     for (const i of this.shown) {
-      const numbers = ["points", "confidence", "perimeter", "area", "diameter", "planarity", "mean_probability"];
+      const numbers = ["points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
       lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...numbers.map((name) => text(loops[name][i])),
                   ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), text),
                   ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text)].join(","));

@@ -161,8 +161,17 @@ TEST_CASE("the shape probability is largest at the boundary's eigenvalues, small
   const auto shape = [](double a, double b, double c) {
     formulas::Surface<One> surface{};
     surface.eigenvalues = {one(a), one(b), one(c)};
+    surface.shape = formulas::shape_shares(surface);
+    CHECK(number(surface.shape.surface) >= number(formulas::shape_probability(surface)));
     return number(formulas::shape_probability(surface));
   };
+  const auto surface_share = [](double a, double b, double c) {
+    formulas::Surface<One> surface{};
+    surface.eigenvalues = {one(a), one(b), one(c)};
+    return number(formulas::shape_shares(surface).surface);
+  };
+  for (const double on_surface : {surface_share(2, 1, 0), surface_share(1, 1, 0)}) CHECK(on_surface > 0.9);
+  for (const double off : {surface_share(1, 1, 1), surface_share(1, 0, 0)}) CHECK(off < 0.1);
   const double boundary = shape(2, 1, 0);
   CHECK(boundary > 0.7);
   for (const double other : {shape(1, 1, 0), shape(1, 1, 1), shape(1, 0, 0)}) CHECK(other < boundary / 2);

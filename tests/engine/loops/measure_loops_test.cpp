@@ -26,6 +26,13 @@ bool same(const LoopMeasures& a, const LoopMeasures& b) {
          a.planarity == b.planarity && a.mean_probability == b.mean_probability && a.tiles == b.tiles;
 }
 
+MeasuredLoops measured_loops(const FoundLoops& found, const BoundaryMethod& boundary, const Totals& totals,
+                             TiledScan& scan) {
+  PlacedLoops placed = place_loops(found.loops, boundary.loop_points(), scan.store.tiling(), scan.job);
+  std::vector<LoopTrack> tracks(placed.size());
+  return measure_loops({std::move(placed), std::move(tracks)}, totals.mean_edge_length(), scan.job);
+}
+
 TEST_CASE(
     "points of a loop have their places and what the evaluation said, however few loops fit in memory") {
   const Cloud cloud = four_loops();
@@ -39,20 +46,19 @@ TEST_CASE(
     const FoundLoops traced = boundary.find_loops(totals, scan.job);
     REQUIRE(traced.loops.size() == 4);
     scan.job.memory.global = memory;
-    const MeasuredLoops measured = measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(),
-                                                 totals.mean_edge_length(), scan.job);
+    const MeasuredLoops measured = measured_loops(traced, boundary, totals, scan);
     REQUIRE(measured.measures.size() == 4);
-    REQUIRE(measured.offsets.size() == 5);
+    REQUIRE(measured.loops.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       Loop loop;
-      measured.for_each_point(i, [&](const StoredLoopPoint& p) { loop.push_back(loaded(p)); });
+      measured.loops.for_each_point(i, [&](const StoredLoopPoint& p) { loop.push_back(loaded(p)); });
       const std::vector<Vertex> vertices = traced.loops.read(i);
       REQUIRE(loop.size() == vertices.size());
       std::size_t wrong = 0;
       for (std::size_t j = 0; j < loop.size(); ++j) {
         const LoopPoint& p = loop[j];
         const reference::Point& q = plain.points[value(vertices[j].id)];
-        wrong += p.id != vertices[j].id || p.row != vertices[j].row;
+        wrong += p.id != vertices[j].id;
         wrong += p.position != cloud.positions[value(p.id)];
         wrong += std::abs(p.probability - q.probability) > 1e-6;
         wrong += (p.surface.cast<double>() - q.surface).norm() > 1e-5;
@@ -69,10 +75,9 @@ TEST_CASE("no loops: nothing is measured") {
   const Totals totals = scan.evaluate({&boundary});
   const FoundLoops traced = boundary.find_loops(totals, scan.job);
   REQUIRE(traced.loops.size() == 0);
-  const MeasuredLoops measured = measure_loops(traced.loops, boundary.loop_points(), scan.store.tiling(),
-                                               totals.mean_edge_length(), scan.job);
+  const MeasuredLoops measured = measured_loops(traced, boundary, totals, scan);
   CHECK(measured.measures.empty());
-  CHECK(measured.offsets == std::vector<std::uint64_t>{0});
+  CHECK(measured.loops.size() == 0);
 }
 
 TEST_CASE("loops are selected by points, perimeter and kind, limits included") {

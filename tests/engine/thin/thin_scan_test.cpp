@@ -5,6 +5,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,13 +48,11 @@ bool same(const Representative& a, const Representative& b) {
          a.normal.y == b.normal.y && a.normal.z == b.normal.z;
 }
 
-TEST_CASE("each occupied cell has one representative, by ascending id, with its position and normal") {
+TEST_CASE("each occupied cell has one representative, with its position and normal") {
   Cloud cloud = scattered(20'000, 1).noisy(0.2, 1).with_unusable(100, 2);
   for (const Eigen::Vector3d& p : cloud.positions) cloud.normals.push_back(2 * p);
   const Thinned thin(cloud, 0.05);
   const std::vector<Representative> representatives = thin.representatives();
-  CHECK(std::is_sorted(representatives.begin(), representatives.end(),
-                       [](const auto& a, const auto& b) { return a.point.id < b.point.id; }));
   std::set<CellKey> occupied, represented;
   std::size_t finite = 0;
   for (const Eigen::Vector3d& p : cloud.positions) {
@@ -73,14 +72,14 @@ TEST_CASE("each occupied cell has one representative, by ascending id, with its 
   CHECK_FALSE(thin.thinned->represented);
 }
 
-TEST_CASE("cells that do not fit in memory are taken in shares, with the same representatives") {
+TEST_CASE("within little memory the representatives are the same, and each point has its own") {
   const Cloud cloud = scattered(400'000, 3).scaled(1000);
   Config small;
   small.run.memory_limit = std::uint64_t{64} << 20;
   small.output.points = true;
   const Thinned all(cloud, 1), shared(cloud, 1, small);
   const std::vector<Representative> a = all.representatives(), b = shared.representatives();
-  REQUIRE(a.size() > 300'000);  // more than fit
+  REQUIRE(a.size() > 300'000);
   REQUIRE(a.size() == b.size());
   CHECK(std::equal(a.begin(), a.end(), b.begin(), same));
 
@@ -119,6 +118,21 @@ TEST_CASE("representatives are read in batches with the ids of the input") {
     CHECK(read == representatives.size());
     CHECK(wrong == 0);
     CHECK(batches > 1);
+  }
+}
+
+TEST_CASE("the points of a store have the same representatives as the scan, under any tiling") {
+  Cloud cloud = scattered(30'000, 5).noisy(0.1, 5);
+  for (const Eigen::Vector3d& p : cloud.positions) cloud.normals.push_back(2 * p);
+  const Thinned thin(cloud, 0.05);
+  for (const std::int64_t tile_points : {200, 5'000, 1'000'000}) {
+    TiledScan tiled_scan(cloud, tiled({}, tile_points));
+    const ThinnedScan of_store = thin_store(tiled_scan.store, 0.05, tiled_scan.job);
+    const std::vector<Representative> expected = thin.representatives(),
+                                      found = of_store.representatives.read(0, of_store.representatives.size());
+    REQUIRE(found.size() == expected.size());
+    CHECK(std::equal(found.begin(), found.end(), expected.begin(), same));
+    CHECK(of_store.points == cloud.size());
   }
 }
 

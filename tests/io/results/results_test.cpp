@@ -72,7 +72,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
 
   const auto json = report(folder.path());
   CHECK(json.at("lacuna") == "0.1.0");
-  CHECK(json.at("schema") == "holes 1");
+  CHECK(json.at("schema") == "holes 2");
   for (const Parameter& parameter : parameters(config)) {
     const auto run = run_of(folder.path());
     const auto& place = parameter.section == "run" ? run : json;
@@ -94,12 +94,12 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[1].at("area").is_null());
   CHECK_THAT(
       read_file(folder / "holes.json"),
-      Contains("\n    {\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"perimeter\":0.1,\"area\":0.0,"
-               "\"diameter\":0.0,\"planarity\":0.0,\"mean_probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
+      Contains("\n    {\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"persistence\":0.0,\"first_scale\":0.0,\"last_scale\":0.0,"
+               "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
                "\"normal\":[0.0,0.0,1.0],\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
                "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
   CHECK_THAT(read_file(folder / "holes.csv"),
-             Contains("\n0,hole,3,1,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0.1,,0,0,0,1,2,3,0,0,1\n"));
+             Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0,0,0,0.1,,0,0,0,1,2,3,0,0,1\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());
   CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));

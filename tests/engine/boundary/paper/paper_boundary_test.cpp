@@ -143,7 +143,7 @@ TEST_CASE("raw loops are sorted by first id, then length, then ids") {
   for (const std::vector<PointId>& ids : unsorted) {
     std::vector<Vertex> loop;
     for (const PointId id : ids) loop.push_back({id, Row{100 + value(id)}});
-    loops.add(loop, LoopRating{});
+    loops.add(loop);
   }
   CHECK(loops.size() == 5);
   CHECK(loops.points() == 16);

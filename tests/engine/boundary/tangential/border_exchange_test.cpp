@@ -20,8 +20,8 @@ namespace {
 struct NamedWedge {
   PointId point, low, high;
   Scale scale;
-  double length, sampling_radius;
-  float clearness;
+  double length, sampling_radius, distance;
+  float clearness, surface;
 
   auto operator<=>(const NamedWedge&) const = default;
 };
@@ -63,8 +63,9 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
   Found found{.tiles = tiling.tiles.size()};
   for (const Wedge& wedge : wedges()) {
     const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
-    const auto& [length, sampling_radius, clearness] = wedge.evidence;
-    found.wedges.push_back({wedge.point.id, low, high, wedge.scale, length, sampling_radius, clearness});
+    const auto& [length, sampling_radius, distance, clearness, surface] = wedge.evidence;
+    found.wedges.push_back(
+        {wedge.point.id, low, high, wedge.scale, length, sampling_radius, distance, clearness, surface});
   }
   found.across_tiles = found.wedges.size() > certain;
   std::sort(found.wedges.begin(), found.wedges.end());

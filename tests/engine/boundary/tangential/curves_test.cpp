@@ -45,7 +45,7 @@ std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
                                  const std::vector<float>& clearness = {}) {
   std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, {1, 1, clearness.empty() ? 0 : clearness[i]}});
+    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, {1, 1, 2, clearness.empty() ? 0 : clearness[i], 0.5f}});
   return curve;
 }
 
@@ -69,10 +69,11 @@ std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
   return curves;
 }
 
-double confidence_of(const std::vector<CurvePoint>& curve, const TangentialConfig& config) {
+LoopEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConfig& config,
+                      Scale scale = Scale::kFine) {
   const test::ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
-  return rate(curve, config, scratch).confidence;
+  return evidence_of(curve, scale, config, scratch);
 }
 
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
@@ -210,17 +211,34 @@ TEST_CASE("long random curves are split into simple ones, in memory and in mappe
   check_random_curves(13, 10, 30'000);
 }
 
-TEST_CASE("confidence is a logistic function of the mean clearness along the curve and some length more") {
-  const TangentialConfig config{.added_length = 5, .confidence_middle = 0.5, .confidence_slope = 8};
-  const auto logistic = [](double evidence) { return 1 / (1 + std::exp(-8 * (evidence - 0.5))); };
+TEST_CASE("the clearness of a curve is the mean one along it, with some length more that is not clear") {
+  const TangentialConfig config{.added_length = 5};
   const std::vector<std::uint64_t> twenty(20, 1);
-  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 1)), config) == Approx(logistic(20. / 25)));
-  CHECK(confidence_of(curve_of(twenty, std::vector<float>(20, 0.625)), config) == Approx(0.5));
-  CHECK(confidence_of(curve_of(twenty), config) == Approx(logistic(0)));
+  CHECK(evidence(curve_of(twenty, std::vector<float>(20, 1)), config).clearness == Approx(20. / 25));
+  CHECK(evidence(curve_of(twenty, std::vector<float>(20, 0.625)), config).clearness == Approx(0.5));
+  CHECK(evidence(curve_of(twenty), config).clearness == 0);
   // Half of the points are clear, and three times as long as the others; circumradii are twice as large.
   std::vector<CurvePoint> curve = curve_of(twenty);
-  for (std::size_t i = 0; i < 20; ++i) curve[i].evidence = {i % 2 == 0 ? 3. : 1., 2, i % 2 == 0 ? 1.f : 0.f};
-  CHECK(confidence_of(curve, config) == Approx(logistic(30. / (40 + 5 * 2))));
+  for (std::size_t i = 0; i < 20; ++i) {
+    const bool is_clear = i % 2 == 0;
+    curve[i].evidence = {is_clear ? 3. : 1., 2, is_clear ? 3. : 5., is_clear ? 1.f : 0.f, is_clear ? 1.f : 0.5f};
+  }
+  const LoopEvidence half = evidence(curve, config, Scale::kCoarse);
+  CHECK(half.clearness == Approx(30. / (40 + 5 * 2)));
+  CHECK(half.surface == Approx(0.75));
+  CHECK(half.spacing == Approx(4 / 1.7));
+  CHECK(half.sampling_gap == Approx(2. / 4));
+  CHECK(half.is_coarse);
+  CHECK_FALSE(evidence(curve, config).is_coarse);
+}
+
+TEST_CASE("a curve of little clearness, or without a surface around it, is no hole") {
+  const auto may_be_hole = [](double clearness, double surface) {
+    return LoopEvidence{.clearness = clearness, .surface = surface}.may_be_hole();
+  };
+  CHECK(may_be_hole(0.5, 0.3));
+  CHECK_FALSE(may_be_hole(0.49, 1));
+  CHECK_FALSE(may_be_hole(1, 0.29));
 }
 
 TEST_CASE("a circumradius is clear in proportion to what it has beyond the sampling radius") {
@@ -250,11 +268,11 @@ TEST_CASE("wedges of both scales at the same points chain apart") {
         std::set<std::set<std::uint64_t>>{{1, 3}, {1, 4}});
 }
 
-TEST_CASE("the longer a clear curve is, the surer it is") {
+TEST_CASE("the longer a clear curve is, the clearer it is") {
   double before = 0;
   for (std::size_t count = 3; count < 40; ++count) {
     const double now =
-        confidence_of(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 1)), {});
+        evidence(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 1)), {}).clearness;
     CHECK(now > before);
     before = now;
   }
