@@ -44,7 +44,6 @@ struct FoundLevel {
 FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundary,
                       std::vector<TileConsumer*> consumers, Job& job) {
   const double eps = eps_length(job.config.neighbourhood, extent);
-  refuse_balls(level.store.tiling(), eps, job);
   AppendLists<HaloEdge> halo = exchange_halo(level.store, job);
   consumers.push_back(&boundary);
   Totals totals = evaluate_tiles(level.store, std::move(halo), eps, extent, consumers, job);
@@ -80,6 +79,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   const TileStore& store = first.store;
   const double extent = extent_of(first.survey.bounds);
   Summary summary = summarise(first, job);
+  const double eps = eps_length(config.neighbourhood, extent);
+  refuse_balls(store.tiling(), eps, job);  // those of thinner levels are smaller
 
   // The loops of the first level, and all else that is found of its points.
   Candidates candidates(store, job);
@@ -100,7 +101,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   std::vector<LevelLoops> levels;
   levels.push_back(std::move(found.loops));
   if (has_levels(config)) find_loops_above(first, extent, found.totals, levels, job);
-  add_findings(found.totals, found.found, levels, eps_length(config.neighbourhood, extent), summary);
+  add_findings(found.totals, found.found, levels, eps, summary);
   MeasuredLoops loops =
       measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);
 

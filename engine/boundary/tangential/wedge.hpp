@@ -41,16 +41,18 @@ template <class Name, class Radius, class Surface, class LinkRow, class LinkLeng
 void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Consistency> consistencies,
                 double distance, Radius&& sampling_radius, Surface&& surface, LinkRow&& row, LinkLength&& length,
                 const TangentialConfig& config, std::vector<Wedge>& wedges) {
+  std::optional<float> around;
   for (const Scale scale : kScales) {
     std::optional<double> sampling;
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
       if (!sampling) sampling = sampling_radius(scale);
+      if (!around) around = surface();
       wedges.push_back(
           {point,
            row(first),
            row(last),
            {(length(first) + length(last)) / 2, *sampling, distance,
-            clearness(radius * distance, *sampling, config), surface()},
+            clearness(radius * distance, *sampling, config), *around},
            scale});
     });
   }
