@@ -85,6 +85,7 @@ class Evaluation:
     angle: float
     halfdisc: float
     shape_probability: float
+    surface_share: float
     probability: float
 
 
@@ -116,11 +117,12 @@ def evaluate(points, p, neighbours, weights=(1, 1, 1), cone=15.0):
     shape = tuple(max(x, 0.0) / total for x in values)
     kernels = [math.exp(-(math.dist(shape, c) / kernel_width(c)) ** 2) for c in CHARACTERISTIC.values()]
     shape_probability = kernels[0] / sum(kernels) if sum(kernels) > 0 else 0.0
+    surface_share = (kernels[0] + kernels[1]) / sum(kernels) if sum(kernels) > 0 else 0.0
 
     probability = sum(x * y for x, y in zip(weights, (angle, halfdisc, shape_probability))) / sum(weights)
     probability = round(probability * 2**24) / 2**24
     return Evaluation(r, mean, normal, directions, (first, second), gap_angle, shape, angle, halfdisc,
-                      shape_probability, probability)
+                      shape_probability, surface_share, probability)
 
 
 CHARACTERISTIC = {"boundary": (2 / 3, 1 / 3, 0), "interior": (1 / 2, 1 / 2, 0), "corner": (1 / 3, 1 / 3, 1 / 3),

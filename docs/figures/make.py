@@ -10,11 +10,11 @@ import sys
 from pathlib import Path
 
 import criteria_figures
-import resolution_figures
+import level_figures
 import surface_figures
 import tiling_figures
 
-FIGURES = criteria_figures.FIGURES | surface_figures.FIGURES | resolution_figures.FIGURES | tiling_figures.FIGURES
+FIGURES = criteria_figures.FIGURES | surface_figures.FIGURES | level_figures.FIGURES | tiling_figures.FIGURES
 
 
 def main():

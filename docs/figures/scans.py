@@ -51,6 +51,19 @@ def uneven(hole, size=24, seed=15):
     return points
 
 
+def scan_lines(size, hole, distance=1.6, step=0.25, seed=3):
+    """Lines of points along x, without those in the hole (x, y, radius)."""
+    rng = random.Random(seed)
+    width, height = size
+    points = []
+    for j in range(math.ceil(height / distance)):
+        for i in range(math.ceil(width / step)):
+            p = ((i + rng.uniform(-0.3, 0.3)) * step, j * distance + rng.uniform(-0.2, 0.2))
+            if math.dist(p, hole[:2]) > hole[2]:
+                points.append((*p, 0.0))
+    return points
+
+
 def island(seed=193):
     """A ring-shaped hole that a bridge of points crosses. Its curve passes a point twice."""
     def is_kept(x, y):

@@ -5,8 +5,8 @@ import math
 from paper import eligible_edges, paper_loops, spanning_graph
 from scans import nearest_to, patch, uneven
 from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
-from tangential import (COARSE, COARSE_BOUND, FINE, MAX_RADIUS, MIN_CURVE, SAME_HOLE, SCALES, Surface, confidence,
-                        length, points_of)
+from tangential import COARSE, COARSE_BOUND, FINE, MAX_RADIUS, MIN_CURVE, SCALES, Surface, points_of
+from tracking import choose, levels_of, rated
 
 HOLE = (9.0, 8.0, 2.9)
 LIGHT_ORANGE, LIGHT_GREEN = "#f5d7b0", "#cfe6d8"
@@ -182,9 +182,12 @@ def wedges(path):
 
 def scales(path):
     hole = (12, 12, 4.6)
-    scan = Surface(uneven(hole))
-    stands = next(c for c in scan.loops() if any(c is other for other in scan.curves[COARSE]))
-    gives_way = max(scan.curves[FINE], key=lambda c: len(set(points_of(c)) & set(points_of(stands))))
+    found = levels_of(uneven(hole))
+    scan, _ = found[0]
+    loops, near, ranks = rated(found)
+    stands = next(loop for loop in choose(loops, near, ranks) if (loop.level, loop.scale) == (0, COARSE))
+    gives_way = max((loop for loop in loops if (loop.level, loop.scale) == (0, FINE)),
+                    key=lambda loop: len(set(loop.points) & set(stands.points)))
     fine, coarse = ({min((p, a, b), (a, b, p), (b, p, a)) for p, s in enumerate(scan.stars)
                      for _, a, b in s.triangles(scale) if scan.is_consistent(p, a, b, scan.active, scale)}
                     for scale in SCALES)
@@ -193,20 +196,21 @@ def scales(path):
     for triangles, fill in ((fine, FILL), (coarse - fine, LIGHT_ORANGE)):
         panel.triangles([corners(scan, *t) for t in sorted(triangles)], "#a9c3da", 0.5, fill)
     panel.dots(scan.points, MUTED, 2)
-    panel.path(corners(scan, *points_of(gives_way)), BLUE, 5, closed=True)
-    panel.path(corners(scan, *points_of(stands)), RED, 2.2, closed=True)
+    panel.path(gives_way.places, BLUE, 5, closed=True)
+    panel.path(stands.places, RED, 2.2, closed=True)
     panel.circle(hole[:2], hole[2], INK, 1.2, dash=True)
     page.legend(448, 50, [("fill", FILL, "within the fine bound"),
                           ("fill", LIGHT_ORANGE, "within the coarse bound only"),
-                          ("line", BLUE, f"fine loop, {length(gives_way):.1f} long"),
-                          ("line", RED, f"coarse loop, {length(stands):.1f} long"), ("dash", INK, "the hole, as made")])
-    page.text(448, 172, f"Confidence {confidence(gives_way):.2f} and {confidence(stands):.2f}.", MUTED)
-    page.text(448, 207, "The coarse loop is shorter than", MUTED)
-    page.text(448, 227, f"{100 * SAME_HOLE:.0f} % of the fine one: it stands.", MUTED)
+                          ("line", BLUE, "fine loop"),
+                          ("line", RED, "coarse loop"), ("dash", INK, "the hole, as made")])
+    page.text(448, 172, f"Clearness {gives_way.clearness:.2f} and {stands.clearness:.2f},", MUTED)
+    page.text(448, 192, f"surface share {gives_way.surface:.2f} and {stands.surface:.2f}:", MUTED)
+    page.text(448, 212, f"confidence {gives_way.confidence:.2f} and {stands.confidence:.2f}.", MUTED)
+    page.text(448, 232, "The coarse loop stands.", MUTED)
     page.text(448, 262, "White places around are gaps of", MUTED)
     page.text(448, 282, "the sampling. Their curves have", MUTED)
     page.text(448, 302, f"fewer than {MIN_CURVE} points, or little", MUTED)
-    page.text(448, 322, "confidence.", MUTED)
+    page.text(448, 322, "clearness.", MUTED)
     page.write(path)
 
 

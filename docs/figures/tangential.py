@@ -9,10 +9,7 @@ FINE, COARSE = SCALES = 0, 1
 
 # C.7
 MAX_RADIUS, HOLE_RADIUS, MOST_RADIUS = 1.5, 0.85, 0.5
-COARSE_BOUND, SAME_HOLE, SURE = 2, 0.8, 0.75
-CLEAR_RADIUS, ADDED_LENGTH = 2.5, 4
-CONFIDENCE_MIDDLE, CONFIDENCE_SLOPE = 0.6, 25
-MIN_CURVE = 8
+COARSE_BOUND, CLEAR_RADIUS, ADDED_LENGTH, MIN_CURVE = 2, 2.5, 4, 8
 
 
 def hash_share(identity):
@@ -53,7 +50,9 @@ class Wedge:
     last: int
     length: float  # of the curve at the point
     sampling: float  # the point's sampling radius
+    distance: float  # d_p of the point
     clearness: float
+    surface: float  # mean surface share of its neighbours
 
 
 def hull(points):
@@ -74,18 +73,18 @@ def turn(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def site(points, evaluations, p):
+def site(points, names, evaluations, p):
     e = evaluations[p]
-    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-4 * hash_share(p) * e.r**2
+    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-4 * hash_share(names[p]) * e.r**2
 
 
-def star_of(points, evaluations, p, neighbours):
-    position, weight = site(points, evaluations, p)
+def star_of(points, names, evaluations, p, neighbours):
+    position, weight = site(points, names, evaluations, p)
     u, v = frame(evaluations[p].normal)
     star = Star()
     star.distance = (len(neighbours) + 1) / sum(1 / evaluations[q].r for q in [p, *neighbours])
     for q in neighbours:
-        other, other_weight = site(points, evaluations, q)
+        other, other_weight = site(points, names, evaluations, q)
         d = sub(other, position)
         power = dot(d, d) + weight - other_weight
         if power > 0:
@@ -157,46 +156,27 @@ def length(curve):
     return sum(w.length for w in curve)
 
 
-def confidence(curve):
+def clearness(curve):
     """C.6"""
     clear = sum(w.clearness * w.length for w in curve)
-    added = ADDED_LENGTH * sum(w.sampling for w in curve) / len(curve)
-    evidence = clear / (length(curve) + added)
-    return 1 / (1 + math.exp(-CONFIDENCE_SLOPE * (evidence - CONFIDENCE_MIDDLE)))
-
-
-def choose_scale(fine, coarse):
-    """The curves that stand (C.6)."""
-    def lies_on(curve, other):
-        return 4 * len(set(points_of(curve)) & set(points_of(other))) >= len(points_of(curve))
-
-    def stands(curve):
-        on = [other for other in coarse if lies_on(other, curve)]
-        is_surest = confidence(curve) >= max(map(confidence, on), default=0)
-        sure_length = sum(length(other) for other in on if confidence(other) >= SURE)
-        return is_surest or (confidence(curve) >= SURE and sure_length >= SAME_HOLE * length(curve))
-
-    standing = [curve for curve in fine if stands(curve)]
-    return standing + [curve for curve in coarse if not any(lies_on(curve, other) for other in standing)]
+    return clear / (length(curve) + ADDED_LENGTH * sum(w.sampling for w in curve) / len(curve))
 
 
 class Surface:
     """Everything of a point set: evaluations, stars, active points; boundary wedges and curves, by scale."""
 
-    def __init__(self, points, k=15, is_seed=lambda e: e.probability > 0.5, weights=(1, 1, 1)):
+    def __init__(self, points, k=15, is_seed=lambda e: e.probability > 0.5, weights=(1, 1, 1), names=None):
         self.points = points
+        self.names = names or range(len(points))  # ids in the input, ascending
         self.nearest, self.around = neighbourhoods(points, k)
         self.evaluations = [evaluate(points, p, self.around[p], weights) for p in range(len(points))]
-        self.stars = [star_of(points, self.evaluations, p, self.around[p]) for p in range(len(points))]
+        self.stars = [star_of(points, self.names, self.evaluations, p, self.around[p]) for p in range(len(points))]
         set_bounds(self.stars, self.around)
         self.kept = [[{frozenset((a, b)) for _, a, b in s.triangles(scale)} for s in self.stars] for scale in SCALES]
         self.seeds = {p for p, e in enumerate(self.evaluations) if is_seed(e)}
         self.active = self.grow()
         self.wedges = [[w for p in sorted(self.active) for w in self.wedges_of(p, scale)] for scale in SCALES]
         self.curves = [self.chain(scale) for scale in SCALES]
-
-    def loops(self, min_confidence=0.5):
-        return [curve for curve in choose_scale(*self.curves) if confidence(curve) >= min_confidence]
 
     def edges_of(self, p):
         link = self.stars[p].link
@@ -223,6 +203,7 @@ class Surface:
 
     def wedges_of(self, p, scale):
         edges, star = self.edges_of(p), self.stars[p]
+        surface = sum(self.evaluations[q].surface_share for q in self.around[p]) / len(self.around[p])
         n = len(edges)
         good = [self.is_consistent(p, a, b, self.active, scale) for a, b in edges]
         result = []
@@ -234,8 +215,8 @@ class Surface:
                     end = (end + 1) % n
                 first, last, sampling = edges[i][1], edges[end][0], star.sampling[scale]
                 way = math.dist(self.points[first], self.points[p]) + math.dist(self.points[p], self.points[last])
-                clearness = min(max((largest / sampling - 1) / (CLEAR_RADIUS - 1), 0), 1)
-                result.append(Wedge(p, first, last, way / 2, sampling, clearness))
+                clear = min(max((largest / sampling - 1) / (CLEAR_RADIUS - 1), 0), 1)
+                result.append(Wedge(p, first, last, way / 2, sampling, star.distance, clear, surface))
         return result
 
     def chain(self, scale):

@@ -1,0 +1,67 @@
+"""Figures of part D: the loops of a hole at the levels of a scan, and which holes `--min-hole` reports."""
+
+import math
+
+from scans import scan_lines
+from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
+from tracking import choose, levels_of, rated
+
+HOLE = (15, 13, 5.5)
+
+
+def levels(path):
+    found = levels_of(scan_lines((30, 26), HOLE))
+    loops, near, ranks = rated(found)
+    standing = choose(loops, near, ranks)
+    page = Page(820, 400, "The loops of a hole at three levels of a scan")
+    for i, (surface, edge) in enumerate(found):
+        x = 20 + 265 * i
+        panel = page.panel(x, 46, 250, 250, HOLE[:2], 17)
+        if edge:
+            ends = range(-40, 40)
+            panel.lines([((j * edge, -40), (j * edge, 40)) for j in ends] + [((-40, j * edge), (40, j * edge)) for j in ends])
+        panel.dots(surface.points, MUTED, 1.6 + 0.5 * i)
+        of_hole = [loop for loop in loops if loop.level == i and
+                   all(math.dist(p[:2], HOLE[:2]) < HOLE[2] + 4 for p in loop.places)]
+        loop = max(of_hole, key=lambda x: ranks[loops.index(x)])
+        stands = any(loop is other for other in standing)
+        panel.path(loop.places, RED if stands else BLUE, 2.8, closed=True)
+        page.text(x, 30, f"Cells of edge {edge:.0f}" if edge else "All points", weight="bold")
+        page.text(x, 320, f"{len(surface.points)} points, surface share {loop.surface:.2f},", MUTED)
+        page.text(x, 341, f"clearness {loop.clearness:.2f}, confidence {loop.confidence:.2f}", MUTED)
+    page.legend(20, 376, [("line", BLUE, "surest loop of the level"), ("line", RED, "the one that stands")], 230)
+    page.write(path)
+
+
+# bench/accuracy/results/2026-11-23-min-hole.csv: holes of 960, of all noises.
+DIAMETERS = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5)
+REPORTED = {
+    "eight points in a cell": (BLUE, (0.0, 0.0, 0.0, 0.009, 0.24, 0.965, 0.998, 0.999, 0.999)),
+    "scan lines, 2/3 of a cell apart": (GREEN, (0.0, 0.0, 0.0, 0.003, 0.255, 0.94, 0.999, 0.997, 1.0)),
+    "a point in every other cell": (ORANGE, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.045, 0.556)),
+}
+
+
+def min_hole(path):
+    page = Page(820, 380, "Which holes --min-hole reports, by their diameter")
+    x0, y0, width, height = 70, 30, 430, 280
+
+    def at(diameter, share):
+        return x0 + (diameter - 0.4) / 1.1 * width, y0 + (1 - share) * height
+
+    for share in (0, 0.25, 0.5, 0.75, 1):
+        (left, y), (right, _) = at(0.4, share), at(1.5, share)
+        page.parts.append(f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{right:.1f}" y2="{y:.1f}" stroke="{LINE}"/>')
+        page.text(left - 8, y + 5, f"{100 * share:.0f} %", MUTED, "end")
+    for diameter in (0.4, 0.6, 0.8, 1.0, 1.2, 1.4):
+        page.text(at(diameter, 0)[0], y0 + height + 20, f"{diameter}", MUTED, "middle")
+    page.text(x0 + width / 2, y0 + height + 44, "diameter of the hole, in --min-hole", INK, "middle")
+    for color, shares in REPORTED.values():
+        d = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*p) for p in zip(DIAMETERS, shares)))
+        page.parts.append(f'<path d="{d}" fill="none" stroke="{color}" stroke-width="2.5"/>')
+    page.text(520, 60, "Holes reported", weight="bold")
+    page.legend(520, 88, [("line", color, words) for words, (color, _) in REPORTED.items()])
+    page.write(path)
+
+
+FIGURES = {"levels": levels, "min_hole": min_hole}

@@ -1,0 +1,220 @@
+"""Part D of docs/method.md, plainly and in memory, for the figures: levels, tracks, confidence and choice."""
+
+import math
+from dataclasses import dataclass
+
+from tangential import SCALES, Surface, clearness, points_of
+
+DISTANCE_OVER_SPACING = 1.7
+FEWEST, WANTED_LEFT, MOST_LEFT = 200, 0.6, 0.9
+SAME, NEAR, APART = 0.7, 0.5, 2  # shares of cells; levels
+
+
+@dataclass
+class Loop:
+    points: list  # ids
+    places: list
+    level: int
+    scale: int
+    clearness: float
+    surface: float
+    spacing: float
+    gap: float
+    confidence: float = 0.0
+    persistence: float = 0.0
+    first: float = 0.0  # edges of the first and the last lattice of the track
+    last: float = 0.0
+
+    def own(self):
+        return self.clearness * self.surface
+
+
+# ---- D.1 Levels
+
+def step_of(length):
+    """The start of its step, of 64 steps an octave."""
+    mantissa, power = math.frexp(length)
+    return math.ldexp(math.floor(mantissa * 128) / 128, power)
+
+
+def median(lengths):
+    """As if the lengths within a step were spread evenly over it."""
+    steps, half, before = [step_of(x) for x in lengths], len(lengths) / 2, 0
+    for step in sorted(set(steps)):
+        count = steps.count(step)
+        if before + count >= half:
+            _, power = math.frexp(step)
+            return step + (half - before) / count * math.ldexp(1 / 128, power)
+        before += count
+    return 0.0
+
+
+def power_above(length):
+    """The first power of sqrt 2 above a length."""
+    octave = math.ldexp(1.0, math.frexp(length)[1] - 1)
+    return octave * math.sqrt(2) if octave * math.sqrt(2) > length else 2 * octave
+
+
+def share_left(lengths, edge):
+    return sum(1 / (1 + (edge * DISTANCE_OVER_SPACING / step_of(r)) ** 2 / 2.6) for r in lengths) / len(lengths)
+
+
+def cell_of(p, edge):
+    return tuple(math.floor(x * (1 / edge)) for x in p)
+
+
+def representatives(points, edge):
+    """The points nearest to the middle of their cell, by their numbers."""
+    nearest = {}
+    for i, p in enumerate(points):
+        cell = cell_of(p, edge)
+        rank = (sum((x * (1 / edge) - c - 0.5) ** 2 for x, c in zip(p, cell)), *p, i)
+        nearest[cell] = min(nearest.get(cell, rank), rank)
+    return sorted(rank[-1] for rank in nearest.values())
+
+
+def level_above(surface, edge, **options):
+    """The surface of the level above and its edge, or None."""
+    lengths = [e.r for e in surface.evaluations]
+    edge = power_above(max(edge * 1.0001, step_of(min(lengths)) / 4))
+    while share_left(lengths, edge) > WANTED_LEFT:
+        edge = power_above(edge * 1.0001)
+    while True:
+        kept = representatives(surface.points, edge)
+        if len(kept) < FEWEST:
+            return None
+        if len(kept) <= MOST_LEFT * len(surface.points):
+            return Surface([surface.points[i] for i in kept], names=[surface.names[i] for i in kept], **options), edge
+        edge = power_above(edge * 1.0001)
+
+
+def levels_of(points, **options):
+    """Surfaces and their edges, from fine to coarse."""
+    levels = [(Surface(points, **options), 0.0)]
+    while above := level_above(*levels[-1], **options):
+        levels.append(above)
+    return levels
+
+
+# ---- C.6 Evidence
+
+def loops_of(surface, level=0):
+    loops = []
+    for scale in SCALES:
+        for curve in surface.curves[scale]:
+            n, sampling, distance = (len(curve), sum(w.sampling for w in curve), sum(w.distance for w in curve))
+            loop = Loop([surface.names[p] for p in points_of(curve)], [surface.points[p] for p in points_of(curve)],
+                        level, scale, clearness(curve), sum(w.surface for w in curve) / n,
+                        distance / n / DISTANCE_OVER_SPACING, sampling / distance)
+            if loop.clearness >= 0.5 and loop.surface >= 0.3:
+                loops.append(loop)
+    return sorted(loops, key=lambda x: (x.points[0], len(x.points), x.points, x.scale))
+
+
+# ---- D.2 The same hole
+
+def drawn(loop, edge):
+    """The cells that the loop passes through."""
+    cells = set()
+    for a, b in zip(loop.places, loop.places[1:] + loop.places[:1]):
+        steps = min(math.ceil(math.dist(a, b) / edge), 16)
+        for i in range(1, steps + 1):
+            p = b if i == steps else tuple(x + (y - x) * (i / steps) for x, y in zip(a, b))
+            cells.add(tuple(math.floor(x / edge) for x in p))
+    return cells
+
+
+def share_near(cells, others):
+    steps = (-1, 0, 1)
+    wide = {(x + i, y + j, z + k) for x, y, z in others for i in steps for j in steps for k in steps}
+    return len(cells & wide) / len(cells)
+
+
+def shares_of(loops, cell_edges):
+    """By pair of loops: the share of the first one's cells near the second one."""
+    near = {}
+    for a, x in enumerate(loops):
+        for b, y in enumerate(loops):
+            if a != b and abs(x.level - y.level) <= APART:
+                edge = cell_edges[max(x.level, y.level)]
+                near[a, b] = share_near(drawn(x, edge), drawn(y, edge))
+    return near
+
+
+def is_same(near, a, b):
+    return near[a, b] >= SAME and near[b, a] >= SAME
+
+
+# ---- D.3 Confidence
+
+def roundness(loop):
+    first, area, length = loop.places[0], (0.0, 0.0, 0.0), 0.0
+    for p, q in zip(loop.places, loop.places[1:] + loop.places[:1]):
+        a, b = ([x - y for x, y in zip(r, first)] for r in (p, q))
+        area = tuple(s + (a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2]) / 2 for i, s in enumerate(area))
+        length += math.dist(p, q)
+    size = math.hypot(*area)
+    return max(4 * math.pi * size / length**2, 0.5 * min(1, 2 * size / length / (8 * loop.spacing)))
+
+
+def octaves(ratio):
+    mantissa, power = math.frexp(ratio)
+    return power - 1 + 2 * mantissa - 1
+
+
+def log_odds(loop, best):
+    s, q = loop.surface, roundness(loop)
+    odds = 11.34 * s * best - 1.77 * s * s / (q + 0.1) + 0.84 * min(loop.persistence, 2) - 7.44 * loop.gap - 0.24
+    is_even = loop.level == 0 and s >= 0.84 and q >= 0.2
+    return max(odds, min(25 * (loop.clearness - 0.65), 2)) if is_even else odds
+
+
+def rated(levels):
+    """All loops of all levels, each with its confidence, persistence, first and last scale; their pairs and ranks."""
+    loops = [loop for i, (surface, _) in enumerate(levels) for loop in loops_of(surface, i)]
+    edges = [edge for _, edge in levels]
+    first = median([e.r for e in levels[0][0].evaluations]) / DISTANCE_OVER_SPACING
+    near = shares_of(loops, [edges[0] or first, *edges[1:]])
+    above, below = [x.own() for x in loops], [x.own() for x in loops]
+    lasts, firsts = [x.level for x in loops], [x.level for x in loops]
+    links = [(a, b) for a, b in near if loops[a].level < loops[b].level and is_same(near, a, b)]
+    for a, b in sorted(links, reverse=True):
+        above[a], lasts[a] = max(above[a], above[b]), max(lasts[a], lasts[b])
+    for a, b in sorted(links, key=lambda link: link[::-1]):
+        below[b], firsts[b] = max(below[b], below[a]), min(firsts[b], firsts[a])
+
+    ranks = []
+    for i, loop in enumerate(loops):
+        loop.first, loop.last = edges[firsts[i]], edges[lasts[i]]
+        loop.persistence = octaves(loop.last / loop.spacing) if loop.last > loop.spacing else 0.0
+        odds = log_odds(loop, max(above[i], below[i]))
+        loop.confidence = 1 / (1 + math.exp(-odds))
+        ranks.append(min(odds, 2) - 0.4 * (loop.level + 0.5 * loop.scale))
+    return loops, near, ranks
+
+
+# ---- D.4 The choice
+
+def choose(loops, near, ranks):
+    """The loops that stand."""
+    neighbours = [[] for _ in loops]
+    for (a, b), share in near.items():
+        if share >= NEAR or near[b, a] >= NEAR:
+            neighbours[a].append(b)
+    standing, covered = [], set()
+    for i in sorted(range(len(loops)), key=lambda i: (-ranks[i], i)):
+        if i in covered:
+            continue
+        standing.append(i)
+        place, ahead = set(), [i]
+        while ahead:
+            at = ahead.pop()
+            around = set(neighbours[at]) - place - set(standing)
+            place |= around
+            ahead += [j for j in around if is_same(near, at, j)]
+        covered |= place
+    return [loops[i] for i in sorted(standing)]
+
+
+def track(levels):
+    return choose(*rated(levels))
