@@ -1,30 +1,31 @@
 #!/usr/bin/env python3
 """Fits the confidence of the method `tangential`, so that it is a probability. Of the loops said to be 0.7 sure, 7 in
-10 are true. Prints the two constants, and how well they hold on the scans of the fit and on those of run.py (see
-bench/accuracy/README.md).
+10 are true. Prints the five coefficients of `tracked` in engine/track/confidence.cpp, and how well they hold on the
+scans of the fit. Likewise it prints how well the program's own confidence holds on these scans, and on those of run.py.
+bench/accuracy/README.md has more.
 
-The scans of the fit are none of run.py's. A loop's evidence follows from its confidence. Whether the loop is true
-is known from `lacuna evaluate`. Logistic regression gives the constants."""
+The scans of the fit are none of run.py's. `lacuna_track_features` finds the loops of every level, and what is known of
+each. Whether a loop is true is known from `lacuna evaluate`. Logistic regression gives the coefficients."""
 
 import argparse
+import csv
 import itertools
 import json
 import math
 import os
-import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from constants import constants  # noqa: E402
 from degrade import Scan, doubled, falling_by_ten, halved, kept_with  # noqa: E402
 from range_map import SCENES, range_map  # noqa: E402
-from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, Set, cut_mesh, degraded, fail, made_mesh, real, run,  # noqa: E402
-                  synth)
+from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, made_mesh, quick_sets,  # noqa: E402
+                  real, run, synth)
 
-TEST_GROUPS = "^(synth|uneven|meshes|uneven-meshes|half|half-meshes|density|density-meshes|range|range-made)/"
+UNDECIDED = ("joined", "parted", "step")  # such loops are neither right nor wrong
+REPORTED = 0.5  # the least confidence, by default
 MESH_SEEDS = (11, 12, 13, 14)
 CONTRAST = 6  # of densities that vary
 WAVES = 12
@@ -129,127 +130,177 @@ def lidar_sets(arguments):
 
 
 def fit_sets(arguments):
-    """Without --lidar none of the scans is a lidar scan: the present evidence does not serve these."""
-    return [*surface_sets(arguments), *mesh_sets(arguments), *range_sets(arguments),
-            *(lidar_sets(arguments) if arguments.lidar else ())]
+    return [*surface_sets(arguments), *mesh_sets(arguments), *range_sets(arguments), *lidar_sets(arguments)]
 
 
 def test_sets(arguments):
-    return [case for sets in GROUPS for case in sets(arguments)
-            if re.search(TEST_GROUPS, f"{case.group}/{case.name}")]
+    return [case for sets in GROUPS if sets is not quick_sets for case in sets(arguments)]
+
+
+def is_lidar(group):
+    return group.startswith("lidar") or group == "aerial"
 
 
 # ---- their loops
 
 @dataclass
-class Logistic:
-    """The confidence of a loop with some evidence."""
-    middle: float
-    slope: float
-
-    def confidence(self, evidence):
-        return 1 / (1 + math.exp(-self.slope * (evidence - self.middle)))
-
-    def evidence(self, confidence):
-        return self.middle + math.log(confidence / (1 - confidence)) / self.slope
-
-
-@dataclass
 class Loop:
-    kind: str  # of the set
-    evidence: float
-    is_true: bool
+    group: str  # of the set
+    verdict: str  # of `lacuna evaluate`
+    confidence: float  # of the program
+    terms: tuple = ()  # what the coefficients belong to
+
+    @property
+    def is_true(self):
+        return self.verdict != "false"
 
 
-def loops_of(arguments, case, logistic, config):
-    """Loops that are joined, parted or along steps of density take no part: they are neither right nor wrong."""
+def verdicts(arguments, case, result):
+    """One for each loop of a folder of `lacuna detect`, or of loops as text."""
+    positions = [] if case.truth == case.scan else ["--scan", case.scan]
+    matches = json.loads(run([arguments.lacuna, "evaluate", result, case.truth, "--json", *positions,
+                              "--min-vertices", case.min_vertices]))["loop_matches"]
+    return [match["verdict"] for match in matches]
+
+
+def probability(log_odds):
+    return (1 + math.tanh(log_odds / 2)) / 2  # never overflows
+
+
+def terms(row):
+    """As `tracked` in engine/track/confidence.cpp has them."""
+    surface = row["surface"]
+    return (surface * row["best"], surface ** 2 / (row["roundness"] + 0.1), min(row["persistence"], 2.0),
+            row["sampling_gap"], 1.0)
+
+
+def formula(coefficients):
+    best, shape, persistence, gap, constant = coefficients
+    return (f"{best:+.2f} S best {shape:+.2f} S^2 / (roundness + 0.1) {persistence:+.2f} min(persistence, 2) "
+            f"{gap:+.2f} g {constant:+.2f}")
+
+
+def loops_of_all_levels(arguments, case):
+    stem = arguments.work / "out" / "calibrate" / case.name
+    ids, features = stem.with_name(f"{case.name}.loops.txt"), stem.with_name(f"{case.name}.csv")
+    run([arguments.features, case.scan, ids, features])
+    with features.open(encoding="utf-8", newline="") as file:
+        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+    return [Loop(case.group, verdict, probability(row["log_odds"]), terms(row))
+            for row, verdict in zip(rows, verdicts(arguments, case, ids), strict=True)]
+
+
+def reported_loops(arguments, case):
     folder = arguments.work / "out" / "calibrate" / case.name
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--overwrite", "--threads", 1,
-         "--config", config, "--min-confidence", arguments.least])
+         "--sample-points", 0, "--min-confidence", 0])
     found = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
-    positions = [] if case.truth == case.scan else ["--scan", case.scan]
-    verdicts = json.loads(run([arguments.lacuna, "evaluate", folder, case.truth, "--json", *positions,
-                               "--min-vertices", case.min_vertices]))["loop_matches"]
-    return [Loop(case.group, logistic.evidence(loop["confidence"]), match["verdict"] != "false")
-            for loop, match in zip(found, verdicts, strict=True) if match["verdict"] not in ("joined", "parted", "step")]
+    return [Loop(case.group, verdict, loop["confidence"])
+            for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
 
 
-def detect_all(arguments, cases, logistic):
-    """The loops that `lacuna detect` reports with these constants."""
-    config = arguments.work / "calibrate.toml"
-    config.write_text(f"[tangential]\nconfidence_middle = {logistic.middle!r}\nconfidence_slope = {logistic.slope!r}\n",
-                      encoding="utf-8")
+def of_all(arguments, cases, loops_of):
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        return [loop for loops in pool.map(lambda case: loops_of(arguments, case, logistic, config), cases)
-                for loop in loops]
+        return [loop for loops in pool.map(lambda case: loops_of(arguments, case), cases) for loop in loops]
 
 
 # ---- the fit
 
-def by_kind(loops):
-    kinds = {}
+def by_group(loops):
+    groups = {}
     for loop in loops:
-        kinds.setdefault(loop.kind, []).append(loop)
-    return kinds
+        groups.setdefault(loop.group, []).append(loop)
+    return groups
 
 
-def fit(loops, start):
-    """The constants under which the truth is likeliest, by Newton's method. In each kind of set the true loops weigh
-    the same in total."""
-    weighted = [(loop, 1 / sum(other.is_true for other in own)) for own in by_kind(loops).values() for loop in own]
-    offset, slope = -start.middle * start.slope, start.slope
+def solve(rows, right):
+    """Gaussian elimination, of a positive definite matrix."""
+    rows = [[*row, value] for row, value in zip(rows, right)]
+    for i, pivot in enumerate(rows):
+        for row in rows[i + 1:]:
+            factor = row[i] / pivot[i]
+            row[i:] = [a - factor * b for a, b in zip(row[i:], pivot[i:])]
+    solution = []  # from the last one on
+    for row in reversed(rows):
+        known = sum(a * x for a, x in zip(row[-2::-1], solution))
+        solution.append((row[-1] - known) / row[-2 - len(solution)])
+    return solution[::-1]
+
+
+def log_odds(coefficients, loop):
+    return sum(a * b for a, b in zip(coefficients, loop.terms))
+
+
+def fit(loops):
+    """The coefficients under which the truth is likeliest, by Newton's method. In each group the true loops weigh the
+    same in total."""
+    weighted = [(loop, 1 / sum(other.is_true for other in own))
+                for own in by_group(loops).values() for loop in own]
+    size = len(loops[0].terms)
+    coefficients = [0.0] * size
     for _ in range(50):
-        g0 = g1 = h00 = h01 = h11 = 0.0  # of the log likelihood its gradient, and its second derivatives negated
+        gradient = [0.0] * size  # of the log likelihood
+        bends = [[0.0] * size for _ in range(size)]  # its second derivatives, negated
         for loop, weight in weighted:
-            sure = 1 / (1 + math.exp(-offset - slope * loop.evidence))
+            sure = probability(log_odds(coefficients, loop))
             error, bend = weight * (loop.is_true - sure), weight * sure * (1 - sure)
-            g0, g1 = g0 + error, g1 + error * loop.evidence
-            h00, h01, h11 = h00 + bend, h01 + bend * loop.evidence, h11 + bend * loop.evidence ** 2
-        determinant = h00 * h11 - h01 * h01
-        steps = (h11 * g0 - h01 * g1) / determinant, (h00 * g1 - h01 * g0) / determinant
-        offset, slope = offset + steps[0], slope + steps[1]
+            for i, term in enumerate(loop.terms):
+                gradient[i] += error * term
+                for j in range(i + 1):
+                    bends[i][j] += bend * term * loop.terms[j]
+        for i, j in itertools.combinations(range(size), 2):
+            bends[i][j] = bends[j][i]
+        steps = solve(bends, gradient)
+        coefficients = [a + step for a, step in zip(coefficients, steps)]
         if max(map(abs, steps)) < 1e-9:
-            break
-    else:
-        fail("the fit does not converge")
-    return Logistic(-offset / slope, slope)
+            return coefficients
+    return fail("the fit does not converge")
 
 
 # ---- what is printed
+
+def decided(loops):
+    return [loop for loop in loops if loop.verdict not in UNDECIDED]
+
 
 def share(loops):
     return f"{sum(loop.is_true for loop in loops) / len(loops):.2f}" if loops else "-"
 
 
-def print_curve(columns, logistic):
-    """`columns`: a title and loops."""
-    print("| confidence |" + "".join(f" {title}: true | loops |" for title in columns))
-    print("|---" * (2 * len(columns) + 1) + "|")
+def print_tenths(loops, confidence):
+    """By tenths of their confidence, lidar scans apart from the others."""
+    columns = {"lidar": [loop for loop in loops if is_lidar(loop.group)],
+               "others": [loop for loop in loops if not is_lidar(loop.group)]}
+    print("| confidence |" + "".join(f" {title}: true | loops | {', '.join(UNDECIDED)} |" for title in columns))
+    print("|---" * (3 * len(columns) + 1) + "|")
     for tenth in range(10):
         cells = []
-        for loops in columns.values():
-            own = [loop for loop in loops if min(9, int(10 * logistic.confidence(loop.evidence))) == tenth]
-            cells += [share(own), f"{len(own):,}"]
+        for column in columns.values():
+            own = [loop for loop in column if min(9, int(10 * confidence(loop))) == tenth]
+            cells += [share(decided(own)), f"{len(decided(own)):,}", f"{len(own) - len(decided(own)):,}"]
         print(f"| {tenth / 10:.1f} to {(tenth + 1) / 10:.1f} | {' | '.join(cells)} |")
 
 
-def print_kinds(loops, logistic):
-    print("| sets | loops | mean confidence | true |\n|---|---|---|---|")
-    for kind, own in by_kind(loops).items():
-        mean = sum(logistic.confidence(loop.evidence) for loop in own) / len(own)
-        print(f"| {kind} | {len(own):,} | {mean:.2f} | {share(own)} |")
+def print_groups(loops, confidence):
+    print("| group | loops | mean confidence | true |\n|---|---|---|---|")
+    for group, own in by_group(loops).items():
+        mean = sum(map(confidence, own)) / len(own)
+        print(f"| {group} | {len(own):,} | {mean:.2f} | {share(own)} |")
+
+
+def print_section(title, loops, confidence):
+    print(f"\n{title}\n")
+    print_tenths(loops, confidence)
+    print(f"\nOf these, with a confidence of {REPORTED} or more:\n")
+    print_groups([loop for loop in decided(loops) if confidence(loop) >= REPORTED], confidence)
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lacuna", type=Path, required=True, help="the program")
+    parser.add_argument("--features", type=Path, required=True, help="lacuna_track_features, of the same build")
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")
-    parser.add_argument("--rounds", type=int, default=3,
-                        help="fits, each to the loops found with the constants of the one before; with 0 the program's "
-                             "own constants are checked (default 3)")
-    parser.add_argument("--least", type=float, default=0.02, help="confidence of the loops that take part (default 0.02)")
-    parser.add_argument("--lidar", action="store_true", help="lidar scans take part in the fit, too")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
     return parser.parse_args()
 
@@ -257,23 +308,20 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
+    (arguments.work / "out" / "calibrate").mkdir(parents=True, exist_ok=True)
     fitted, tested = fit_sets(arguments), test_sets(arguments)
     for case in [*fitted, *tested]:
         if not case.scan.exists():
             print(f"calibrate: {case.name}", file=sys.stderr)
         case.ensure()
-    values = dict(constants(arguments.lacuna))
-    logistic = Logistic(float(values["confidence_middle"]), float(values["confidence_slope"]))
-    loops = detect_all(arguments, fitted, logistic)
-    for _ in range(arguments.rounds):
-        logistic = fit(loops, logistic)
-        print(f"confidence_middle = {logistic.middle:.3f}, confidence_slope = {logistic.slope:.2f}", flush=True)
-        loops = detect_all(arguments, fitted, logistic)
-    others = detect_all(arguments, tested, logistic)
-    print()
-    print_curve({"fit": loops, "test": others}, logistic)
-    print()
-    print_kinds([*loops, *others], logistic)
+    loops = of_all(arguments, fitted, loops_of_all_levels)
+    coefficients = fit(decided(loops))
+    print(formula(coefficients), flush=True)
+    print_section("All loops of the scans of the fit, with these coefficients:", loops,
+                  lambda loop: probability(log_odds(coefficients, loop)))
+    print_section("All loops of the scans of the fit, as the program has them:", loops, lambda loop: loop.confidence)
+    print_section("The loops that stand on the test scans, as the program has them:",
+                  of_all(arguments, tested, reported_loops), lambda loop: loop.confidence)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,11 @@ namespace lacuna {
 struct NearLoops {
   std::uint32_t a, b;    // a < b
   float of_a, of_b;      // share of the cells of one that are near the other, [0, 1]
+
+  bool is_same_hole() const {
+    constexpr float kSame = 0.7f;
+    return of_a >= kSame && of_b >= kSame;
+  }
 };
 
 // Pairs of loops of one level, or of two that are at most `kBridged` + 1 apart, of which one has at least half of its

@@ -4,6 +4,7 @@
 #include "engine/store/column_writer.hpp"
 #include "engine/track/confidence.hpp"
 #include "engine/track/near_loops.hpp"
+#include "engine/track/track_all.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -58,6 +60,7 @@ class Drawn {
   }
 
   std::vector<NearLoops> near() const { return near_loops(levels_, job_); }
+  std::vector<TrackedLoop> track_all() { return lacuna::track_all(levels_, near(), job_); }
   TrackedLoops track() { return track_loops(std::move(levels_), job_); }
 
  private:
@@ -107,6 +110,27 @@ TEST_CASE("a hole is reported once, by its finest sure loop, and lasts to its la
   CHECK(tracked.tracks[0].last_scale == 4);
   CHECK(tracked.tracks[0].persistence == 2);
   CHECK(tracked.tracks[0].confidence > 0.9);
+}
+
+TEST_CASE("every loop of every level has its own surface, and the best and the last level of its track") {
+  Drawn drawn;
+  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::unsure()}, {{100, 0, 0}, 20, DrawnLoop::unsure()}});
+  drawn.add(2, {{{0, 0, 0}, 20}});
+  const std::vector<TrackedLoop> loops = drawn.track_all();
+  REQUIRE(loops.size() == 3);
+  const auto& [fine, other, coarse] = std::tie(loops[0], loops[1], loops[2]);
+  CHECK(fine.evidence.surface == 0.5);
+  CHECK(fine.evidence.best == Approx(0.9 * 0.9));
+  CHECK(fine.evidence.persistence == 1);
+  CHECK(fine.evidence.is_first_level);
+  CHECK(fine.last == 1);
+  CHECK(other.evidence.best == Approx(0.6 * 0.5));
+  CHECK(other.evidence.persistence == 0);
+  CHECK(other.last == 0);
+  CHECK(coarse.evidence.surface == 0.9);
+  CHECK(coarse.evidence.best == fine.evidence.best);
+  CHECK(coarse.first == 0);
+  CHECK(coarse.log_odds == log_odds(coarse.evidence));
 }
 
 TEST_CASE("a coarse loop stands where the fine ones at its place are unsure") {
