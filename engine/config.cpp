@@ -178,10 +178,13 @@ std::string print_config(const Config& config) {
   return text;
 }
 
+double first_edge(const ScaleConfig& scale) {
+  if (scale.resolution > 0 || scale.every_point) return scale.resolution;
+  return scale.min_hole / kCellsAcross;
+}
+
 Config with_min_hole(Config config) {
-  const double min_hole = config.scale.min_hole;
-  if (config.scale.resolution == 0) config.scale.resolution = min_hole / kCellsAcross;
-  if (config.selection.min_diameter == 0) config.selection.min_diameter = min_hole;
+  if (config.selection.min_diameter == 0) config.selection.min_diameter = config.scale.min_hole;
   return config;
 }
 

@@ -205,7 +205,9 @@ std::string print_config(const Config& config);
 // Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
 // found (docs/method.md, D).
 inline constexpr double kCellsAcross = 5;
-// The config in effect: min_hole sets the resolution and min_diameter where these are 0.
+// Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every point.
+double first_edge(const ScaleConfig& scale);
+// The config in effect: min_hole sets min_diameter where that is 0.
 Config with_min_hole(Config config);
 
 // Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit

@@ -38,9 +38,9 @@ struct FoundLevel {
   LevelLoops loops;
 };
 
-// The loops of one level: halo and evaluate, each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6);
-// then boundary edges, stitched across tiles to components, and their loops. Each consumer keeps what it needs of an
-// evaluated tile.
+// Finds the loops of one level. Halo and evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to
+// 4.6). Then boundary edges, stitched across tiles to components, and their loops. Each consumer keeps what it needs of
+// an evaluated tile.
 FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundary,
                       std::vector<TileConsumer*> consumers, Job& job) {
   const double eps = eps_length(job.config.neighbourhood, extent);
@@ -52,7 +52,7 @@ FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundar
   return {std::move(totals), std::move(found), std::move(loops)};
 }
 
-// The same for each level above, from fine to coarse.
+// Finds the loops of each level above, from fine to coarse.
 void find_loops_above(const Level& first, double extent, Totals totals, std::vector<LevelLoops>& levels, Job& job) {
   Phase phase(job, "levels", points_above(first));
   std::optional<Level> below;

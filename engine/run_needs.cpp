@@ -70,10 +70,9 @@ std::uint64_t result_bytes() {
 }  // namespace
 
 RunSize size_from_headers(const PointSource& scan, const Job& job) {
-  const ScaleConfig& scale = job.config.scale;
   constexpr std::uint64_t kMostRows = std::uint64_t{1} << 53;  // a broken header may have more
   RunSize size{.rows = std::min(scan.expected_points().value_or(0), kMostRows),
-               .is_thinned = scale.resolution > 0 || scale.min_hole > 0,
+               .is_thinned = first_edge(job.config.scale) > 0,
                .has_levels = has_levels(job.config),
                .has_normals = scan.has_normals(),
                .reads_slowly = scan.reads_slowly()};

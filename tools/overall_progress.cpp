@@ -48,7 +48,7 @@ std::vector<ExpectedStage> expected_stages(const Config& config) {
   const auto add = [&stages](std::string_view name, double more = 0) {
     stages.push_back({std::string(name), typical_time(name) + more});
   };
-  const bool is_thinned = config.scale.resolution > 0 || config.scale.min_hole > 0;
+  const bool is_thinned = first_edge(config.scale) > 0;
   if (is_thinned) add("thin");
   for (const char* name : {"survey", "bucket"}) add(name);
   for (const char* name : {"halo", "evaluate", "loops"}) add(name);

@@ -38,11 +38,6 @@ Level bucket_representatives(ThinnedScan thinned, Job& job) {
   return level;
 }
 
-// Whether the smallest wanted hole has set the resolution.
-bool is_of_hole(const ScaleConfig& scale) {
-  return scale.min_hole > 0 && scale.resolution == scale.min_hole / kCellsAcross;
-}
-
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
 // has no more at any resolution.
 void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
@@ -51,12 +46,13 @@ void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
   if (left > k || finite <= k || thinned.bounds.sizes().isZero(0)) return;
   const Eigen::Vector3d size = thinned.bounds.sizes();
   const ScaleConfig& scale = config.scale;
+  const bool is_of_hole = scale.resolution == 0;
   std::ostringstream message;
-  message << "a resolution of " << scale.resolution;
-  if (is_of_hole(scale)) message << ", for holes of " << scale.min_hole << ",";
+  message << "a resolution of " << first_edge(scale);
+  if (is_of_hole) message << ", for holes of " << scale.min_hole << ",";
   message << " leaves " << left << " of " << finite << " points, too few for k = " << k
           << " neighbours; the scan's size is " << size.x() << " x " << size.y() << " x " << size.z()
-          << "; allowed: a smaller " << (is_of_hole(scale) ? "--min-hole" : "--resolution");
+          << "; allowed: a smaller " << (is_of_hole ? "--min-hole" : "--resolution");
   throw Error(message.str());
 }
 
@@ -66,8 +62,8 @@ double power_above(double length) {
   return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
 }
 
-// The share of the points that cells of this edge leave, from how far apart the points are: about 1 / (1 + n / 2) where
-// a cell of a surface has n points on average.
+// The share of the points that cells of this edge leave. Where a cell of a surface has n points on average, that is about
+// 1 / (1 + n / 2).
 double share_left(const LengthBins& distances, double edge) {
   constexpr double kCellsOfSurface = 1.3;  // to cover one cell's area, as surfaces are tilted
   double left = 0, all = 0;
@@ -81,9 +77,8 @@ double share_left(const LengthBins& distances, double edge) {
 
 constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
 
-// The first edge above a length that leaves as few points as a level is to have; 0: no edge does, since no points have
-// distances.
-double first_edge(const LengthBins& distances, double length) {
+// The first edge above a length that leaves as few points as a level is to have; 0 where no point has a neighbour.
+double edge_above(const LengthBins& distances, double length) {
   if (distances.counts.empty()) return 0;
   double edge = power_above(std::max(length, LengthBins::start_of(distances.counts.begin()->first) / 4));
   while (share_left(distances, edge) > kWantedLeft) edge = power_above(edge * 1.0001);
@@ -97,9 +92,9 @@ Level first_level(PointSource& input, Job& job) {
     KeptScan kept(input, job.file("input"));
     return first_level(kept, job);
   }
-  const double resolution = job.config.scale.resolution;
-  if (resolution == 0) return bucket_points(input, job);
-  ThinnedScan thinned = thin_scan(input, resolution, job);
+  const double edge = first_edge(job.config.scale);
+  if (edge == 0) return bucket_points(input, job);
+  ThinnedScan thinned = thin_scan(input, edge, job);
   refuse_too_coarse(thinned, job.config);
   return bucket_representatives(std::move(thinned), job);
 }
@@ -108,7 +103,7 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, Job& 
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
   // Edges are rounded powers.
-  for (double edge = first_edge(totals.distances, below.edge() * 1.0001); edge > 0;
+  for (double edge = edge_above(totals.distances, below.edge() * 1.0001); edge > 0;
        edge = power_above(edge * 1.0001)) {
     ThinnedScan thinned = thin_store(below.store, edge, job);
     const std::uint64_t left = thinned.representatives.size();
@@ -120,8 +115,7 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, Job& 
 
 bool has_levels(const Config& config) {
   const ScaleConfig& scale = config.scale;
-  const bool is_one_level = scale.every_point || !(scale.resolution == 0 || is_of_hole(scale));
-  return config.loops.method == LoopMethod::kTangential && !is_one_level;
+  return config.loops.method == LoopMethod::kTangential && !scale.every_point && scale.resolution == 0;
 }
 
 std::uint64_t points_above(const Level& first) {

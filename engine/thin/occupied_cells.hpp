@@ -30,7 +30,7 @@ class OccupiedCells {
 
   // The point represents its cell if it comes before the one that does so far.
   void add(const LatticePlace& place, const Representative& point);
-  // Of the cell of this place, which has a point.
+  // Returns the point of this place's cell, which has one.
   const Representative& at(const LatticePlace& place) const;
   // In the order in which the cells came.
   std::span<const Representative> representatives() const { return representatives_; }

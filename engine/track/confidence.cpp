@@ -12,18 +12,20 @@ namespace {
 // What all levels say. Fitted by bench/accuracy/calibrate.py.
 double tracked(const TrackEvidence& e) {
   constexpr double kMostOctaves = 2;  // more say nothing more
-  return 11.34 * e.surface * e.best - 1.77 * e.surface * e.surface / (e.roundness + 0.1) +
-         0.84 * std::min(e.persistence, kMostOctaves) - 7.44 * e.sampling_gap - 0.24;
+  return 11.24 * e.surface * e.best - 1.84 * e.surface * e.surface / (e.roundness + 0.1) +
+         0.93 * std::min(e.persistence, kMostOctaves) - 7.44 * e.sampling_gap - 0.4;
 }
 
-// Where sampling is even at the first level, its own loop says enough: a small hole cannot persist.
-bool is_even(const TrackEvidence& e) {
-  constexpr double kEven = 0.84, kRound = 0.2;
-  return e.is_first_level && e.surface >= kEven && e.roundness >= kRound;
+// A small hole cannot persist. So at the first level its own loop may say enough, the more so the more even the
+// sampling.
+bool may_say_enough(const TrackEvidence& e) {
+  constexpr double kLeastRound = 0.2;
+  return e.is_first_level && e.roundness >= kLeastRound;
 }
-double evenly_sampled(const TrackEvidence& e) {
-  constexpr double kMiddle = 0.65, kSlope = 25, kMost = 2;
-  return std::min(kSlope * (e.clearness - kMiddle), kMost);
+double at_first_level(const TrackEvidence& e) {
+  constexpr double kEven = 0.84, kMiddle = 0.65, kRise = 1.2, kSlope = 25, kMost = 2;
+  const double middle = kMiddle + kRise * std::max(0.0, kEven - e.surface);
+  return std::min(kSlope * (e.clearness - middle), kMost);
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ double roundness(double perimeter, double area, double spacing) {
 }
 
 double log_odds(const TrackEvidence& evidence) {
-  return is_even(evidence) ? std::max(tracked(evidence), evenly_sampled(evidence)) : tracked(evidence);
+  return may_say_enough(evidence) ? std::max(tracked(evidence), at_first_level(evidence)) : tracked(evidence);
 }
 
 double probability_of(double log_odds) {

@@ -82,7 +82,7 @@ Column<LoopCell> sorted_cells(CellSort& cells, const Job& job) {
   return sorted;
 }
 
-// The cells of one row of the lattice, some places beside the cell that is looked at. It moves on as that cell does.
+// The cells of one row of the lattice, at a fixed offset from the current cell. It moves on as that cell does.
 class RowOfCells {
  public:
   RowOfCells(const Column<LoopCell>& cells, double x, double y) : cells_(cells), size_(cells.size()), x_(x), y_(y) {}

@@ -25,8 +25,8 @@ struct NearLoops {
   }
 };
 
-// Pairs of loops of one level, or of two that are at most `kBridged` + 1 apart, of which one has at least half of its
-// cells near the other. In ascending order. Cost: a sort of the loops' cells on disk.
+// Returns pairs of loops of one level, or of two that are at most `kBridged` + 1 apart. One of the two has at least half
+// of its cells near the other. Pairs ascend. Cost: a sort of the loops' cells on disk.
 std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job);
 
 // A hole may be missing at so many levels between two at which it is found.

@@ -124,16 +124,17 @@ TEST_CASE("the order of the points does not change the loops at a resolution") {
         positions(run_engine(cloud.shuffled(7), at_resolution(2.5))));
 }
 
-TEST_CASE("min_hole sets a fifth of it as resolution, and leaves smaller loops out") {
+TEST_CASE("min_hole sets a fifth of it as the first edge, and leaves smaller loops out") {
   Config config;
   config.scale.min_hole = 30;
-  CHECK(with_min_hole(config).scale.resolution == 6);
+  CHECK(first_edge(config.scale) == 6);
   CHECK(with_min_hole(config).selection.min_diameter == 30);
   config.scale.resolution = 2;
   config.selection.min_diameter = 1;
-  CHECK(with_min_hole(config).scale.resolution == 2);
+  CHECK(first_edge(config.scale) == 2);
   CHECK(with_min_hole(config).selection.min_diameter == 1);
-  CHECK(with_min_hole(Config{}).scale.resolution == 0);
+  CHECK(first_edge({}) == 0);
+  CHECK(first_edge({.min_hole = 30, .every_point = true}) == 0);
 
   // Holes 24 and 36 across.
   config = {};

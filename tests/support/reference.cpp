@@ -964,7 +964,7 @@ LatticeCell lattice_cell(const Vector3d& p, double edge) {
           std::floor(p.z() * (1 / edge)) + 0.};
 }
 
-// Of each cell the point nearest to its middle, then the lowest coordinates, then the lowest id.
+// Keeps of each cell the point nearest to its middle, then the lowest coordinates, then the lowest id.
 Level thinned(const Level& below, const Detection& result, double edge) {
   std::map<LatticeCell, PointId> nearest;
   const auto rank = [&](PointId p) {
@@ -1122,11 +1122,11 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     const FoundLoop& loop = loops[i];
     const double edge = edges[last[i]], round = roundness_of(loop);
     const double persistence = edge > loop.spacing ? octaves(edge / loop.spacing) : 0;
-    odds[i] = 11.34 * loop.surface * std::max(above[i], below[i]) -
-              1.77 * loop.surface * loop.surface / (round + 0.1) + 0.84 * std::min(persistence, 2.) -
-              7.44 * loop.sampling_gap - 0.24;
-    if (loop.level == 0 && loop.surface >= 0.84 && round >= 0.2)
-      odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - 0.65), 2.));
+    odds[i] = 11.24 * loop.surface * std::max(above[i], below[i]) -
+              1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -
+              7.44 * loop.sampling_gap - 0.4;
+    const double middle = 0.65 + 1.2 * std::max(0., 0.84 - loop.surface);
+    if (loop.level == 0 && round >= 0.2) odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
     ranks[i] = std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
   }
 

@@ -81,7 +81,7 @@ TEST_CASE("the expected stages are those of the config") {
   config.output.vdb = true;
   CHECK(!has(config, "levels"));
   CHECK(has(config, "voxels"));
-  config.scale.min_hole = 0.2;
+  config.scale = {.min_hole = 0.2};
   CHECK(names(config).front() == "thin");
   const double without = expected_stages(config).back().weight;
   config.output.points = true;

@@ -114,7 +114,7 @@ TEST_CASE("a smallest hole sets the first level; a resolution, every point and t
   CHECK(has_levels(config));
   config.scale.min_hole = 20;
   CHECK(has_levels(config));
-  CHECK(levels_of(plane(100), with_min_hole(config))[0].edge == 4);
+  CHECK(levels_of(plane(100), config)[0].edge == 4);
   config = {};
   config.scale.resolution = 3;
   CHECK_FALSE(has_levels(config));
