@@ -165,7 +165,7 @@ def octaves(ratio):
 def log_odds(loop, best):
     s, q = loop.surface, roundness(loop)
     odds = 11.24 * s * best - 1.84 * s * s / (q + 0.1) + 0.93 * min(loop.persistence, 2) - 7.44 * loop.gap - 0.4
-    middle = 0.65 + 1.2 * max(0, 0.84 - s)
+    middle = 0.65 + 2 * max(0, 0.84 - s)
     is_enough = loop.level == 0 and q >= 0.2
     return max(odds, min(25 * (loop.clearness - middle), 2)) if is_enough else odds
 

@@ -23,7 +23,7 @@ bool may_say_enough(const TrackEvidence& e) {
   return e.is_first_level && e.roundness >= kLeastRound;
 }
 double at_first_level(const TrackEvidence& e) {
-  constexpr double kEven = 0.84, kMiddle = 0.65, kRise = 1.2, kSlope = 25, kMost = 2;
+  constexpr double kEven = 0.84, kMiddle = 0.65, kRise = 2, kSlope = 25, kMost = 2;
   const double middle = kMiddle + kRise * std::max(0.0, kEven - e.surface);
   return std::min(kSlope * (e.clearness - middle), kMost);
 }

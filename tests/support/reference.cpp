@@ -1125,7 +1125,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     odds[i] = 11.24 * loop.surface * std::max(above[i], below[i]) -
               1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -
               7.44 * loop.sampling_gap - 0.4;
-    const double middle = 0.65 + 1.2 * std::max(0., 0.84 - loop.surface);
+    const double middle = 0.65 + 2 * std::max(0., 0.84 - loop.surface);
     if (loop.level == 0 && round >= 0.2) odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
     ranks[i] = std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
   }
