@@ -146,7 +146,7 @@ std::vector<Loop> loops() {
     for (const LocalIndex v : found) {
       const LocalIndex p = sample.vertices[v];
       const Evaluation& e = evaluations()[p];
-      loop.push_back({tile().ids[p], Row{p}, tile().positions[p], e.mean_offset.cast<float>(),
+      loop.push_back({tile().ids[p], tile().positions[p], e.mean_offset.cast<float>(),
                       static_cast<float>(e.probability)});
     }
   });

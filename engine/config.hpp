@@ -85,9 +85,9 @@ struct TangentialConfig {
 };
 
 struct SelectionConfig {
-  double min_confidence = 0.5;   // from 0 to 1; the paper's loops have 1
-  double min_perimeter = 0.0;    // lengths in units of the scan
-  double max_perimeter = 0.0;    // 0: no limit
+  double min_confidence = 0.5;  // from 0 to 1; the paper's loops have 1
+  double min_perimeter = 0.0;   // lengths in units of the scan
+  double max_perimeter = 0.0;   // 0: no limit
   double min_diameter = 0.0;
   std::int64_t min_points = 0;
   bool holes_only = false;  // no outer boundaries
@@ -205,7 +205,8 @@ std::string print_config(const Config& config);
 // Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
 // found (docs/method.md, D).
 inline constexpr double kCellsAcross = 5;
-// Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every point.
+// Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every
+// point.
 double first_edge(const ScaleConfig& scale);
 // The config in effect: min_hole sets min_diameter where that is 0.
 Config with_min_hole(Config config);

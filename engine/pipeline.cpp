@@ -38,9 +38,9 @@ struct FoundLevel {
   LevelLoops loops;
 };
 
-// Finds the loops of one level. Halo and evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to
-// 4.6). Then boundary edges, stitched across tiles to components, and their loops. Each consumer keeps what it needs of
-// an evaluated tile.
+// Finds the loops of one level. Halo and evaluate: each point's criteria from its exact neighbourhood
+// (paper, 4.1 to 4.6). Then boundary edges, stitched across tiles to components, and their loops. Each
+// consumer keeps what it needs of an evaluated tile.
 FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundary,
                       std::vector<TileConsumer*> consumers, Job& job) {
   const double eps = eps_length(job.config.neighbourhood, extent);
@@ -53,7 +53,8 @@ FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundar
 }
 
 // Finds the loops of each level above, from fine to coarse.
-void find_loops_above(const Level& first, double extent, Totals totals, std::vector<LevelLoops>& levels, Job& job) {
+void find_loops_above(const Level& first, double extent, Totals totals, std::vector<LevelLoops>& levels,
+                      Job& job) {
   Phase phase(job, "levels", points_above(first));
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(below ? *below : first, totals, job)) {
@@ -116,11 +117,11 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   if (sampler) sample.emplace(sampler->finish(job));
   std::optional<RowSet> opposed_normals;
   if (orientation) opposed_normals = orientation->opposed_normals(job);
-  std::unique_ptr<Detection> detection = collect_results(
-      {std::move(summary), std::move(loops), std::move(selected), std::move(on_loops), std::move(coherent),
-       std::move(boundary_candidates), std::move(points), std::move(probabilities), std::move(sample),
-       std::move(opposed_normals)},
-      candidates, store, job);
+  std::unique_ptr<Detection> detection =
+      collect_results({std::move(summary), std::move(loops), std::move(selected), std::move(on_loops),
+                       std::move(coherent), std::move(boundary_candidates), std::move(points),
+                       std::move(probabilities), std::move(sample), std::move(opposed_normals)},
+                      candidates, store, job);
   if (!first.thinned || !config.output.points) return detection;
   return spread_results(std::move(detection), std::move(*first.thinned->represented), job);
 }

@@ -114,10 +114,11 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
       border_bytes(size, kBeltBytes) + beyond(border_bytes(size, kListBytes), spills);
 
   const std::uint64_t above =
-      size.has_levels ? static_cast<std::uint64_t>(
-                            kLevelAbove * static_cast<double>(exchanged + size.points * (2 * sizeof(Representative) +
-                                                                                         2 * stored_point(size))))
-                      : 0;
+      size.has_levels
+          ? static_cast<std::uint64_t>(
+                kLevelAbove * static_cast<double>(exchanged + size.points * (2 * sizeof(Representative) +
+                                                                             2 * stored_point(size))))
+          : 0;
 
   DiskNeeds needs;
   const std::uint64_t input = kept_bytes(size) + thinned + chosen + store;

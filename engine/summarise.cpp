@@ -26,8 +26,8 @@ Summary summarise(const Level& level, const Job& job) {
   return summary;
 }
 
-void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels, double eps,
-                  Summary& summary) {
+void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels,
+                  double eps, Summary& summary) {
   Counts& counts = summary.counts;
   counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
   counts.candidates = totals.candidates;

@@ -3,12 +3,12 @@
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/levels/level.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
 #include "engine/track/level_loops.hpp"
 
 #include <span>
-#include "engine/levels/level.hpp"
 
 namespace lacuna {
 
@@ -16,7 +16,7 @@ namespace lacuna {
 Summary summarise(const Level& level, const Job& job);
 
 // What the evaluation of the first level and the search for loops at all levels have found. `eps`: in effect.
-void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels, double eps,
-                  Summary& summary);
+void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels,
+                  double eps, Summary& summary);
 
 }  // namespace lacuna

@@ -21,8 +21,8 @@ struct LengthBins {
   static constexpr int kShift = 46;  // bits of a number within a bin
   std::map<std::uint32_t, std::uint64_t> counts;
 
-  static std::uint32_t bin_of(double length);    // positive
-  static double start_of(std::uint32_t bin);     // the shortest of the bin
+  static std::uint32_t bin_of(double length);  // positive
+  static double start_of(std::uint32_t bin);   // the shortest of the bin
   // Returns the median, as if the numbers of a bin were spread evenly over it. 0 without any number.
   double median() const;
 };

@@ -62,8 +62,8 @@ double power_above(double length) {
   return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
 }
 
-// The share of the points that cells of this edge leave. Where a cell of a surface has n points on average, that is about
-// 1 / (1 + n / 2).
+// The share of the points that cells of this edge leave. Where a cell of a surface has n points on average,
+// that is about 1 / (1 + n / 2).
 double share_left(const LengthBins& distances, double edge) {
   constexpr double kCellsOfSurface = 1.3;  // to cover one cell's area, as surfaces are tilted
   double left = 0, all = 0;
@@ -77,7 +77,8 @@ double share_left(const LengthBins& distances, double edge) {
 
 constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
 
-// The first edge above a length that leaves as few points as a level is to have; 0 where no point has a neighbour.
+// The first edge above a length that leaves as few points as a level is to have; 0 where no point has a
+// neighbour.
 double edge_above(const LengthBins& distances, double length) {
   if (distances.counts.empty()) return 0;
   double edge = power_above(std::max(length, LengthBins::start_of(distances.counts.begin()->first) / 4));
@@ -108,7 +109,8 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, Job& 
     ThinnedScan thinned = thin_store(below.store, edge, job);
     const std::uint64_t left = thinned.representatives.size();
     if (left < kFewest) break;
-    if (left <= kMostLeft * static_cast<double>(points)) return bucket_representatives(std::move(thinned), job);
+    if (left <= kMostLeft * static_cast<double>(points))
+      return bucket_representatives(std::move(thinned), job);
   }
   return std::nullopt;
 }

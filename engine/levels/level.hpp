@@ -25,18 +25,18 @@ struct Level {
   double edge() const { return thinned ? thinned->edge : 0; }  // of its lattice
 };
 
-// Survey and bucket: all points or, where the config has a resolution, one for each cell of its lattice. Reads
-// the input twice, or once with a resolution. An input that reads slowly is read once, and kept in the workspace
-// meanwhile (engine/store/kept_scan.hpp). Throws `Error`.
+// Survey and bucket: all points or, where the config has a resolution, one for each cell of its lattice.
+// Reads the input twice, or once with a resolution. An input that reads slowly is read once, and kept in the
+// workspace meanwhile (engine/store/kept_scan.hpp). Throws `Error`.
 Level first_level(PointSource& input, Job& job);
 
-// The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so that
-// lattices do not depend on the scan. The edge is the first one that leaves about six in ten points. None where too few
-// are left for a hole. `totals`: of the level below.
+// The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so
+// that lattices do not depend on the scan. The edge is the first one that leaves about six in ten points.
+// None where too few are left for a hole. `totals`: of the level below.
 std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job);
 
-// Whether a run with this config has levels above the first one: unless the config names one level, or the method is
-// the paper's.
+// Whether a run with this config has levels above the first one: unless the config names one level, or the
+// method is the paper's.
 bool has_levels(const Config& config);
 
 // So many points all levels above a first one have together, on a surface that is sampled evenly.

@@ -42,9 +42,8 @@ void place_points(std::vector<Wanted> wanted, std::span<const StoredVertex> vert
                                          [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
     if (vertex == vertices.end() || vertex->owned != owned)
       fail_inconsistent("a loop passes through a point that was not kept");
-    run.push_back({vertex->point,
-                   {vertex->surface[0], vertex->surface[1], vertex->surface[2]},
-                   vertex->probability});
+    run.push_back(
+        {vertex->point, {vertex->surface[0], vertex->surface[1], vertex->surface[2]}, vertex->probability});
     if (i + 1 < wanted.size() && wanted[i + 1].place == wanted[i].place + 1) continue;
     points.write(wanted[i].place + 1 - run.size(), run);
     run.clear();
@@ -70,8 +69,9 @@ PlacedLoops place_loops(const RawLoops& loops, const LoopPointLists& lists, cons
   return placed;
 }
 
-void for_each_loop(const PlacedLoops& loops, Job& job,
-                   const std::function<void(std::size_t, std::span<const StoredLoopPoint>, Scratch&)>& visit) {
+void for_each_loop(
+    const PlacedLoops& loops, Job& job,
+    const std::function<void(std::size_t, std::span<const StoredLoopPoint>, Scratch&)>& visit) {
   std::vector<std::uint64_t> needs;
   const std::uint64_t most = job.memory.global / (2 * job.arena.threads());
   for (std::size_t i = 0; i < loops.size(); ++i)

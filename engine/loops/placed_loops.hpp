@@ -1,5 +1,5 @@
-// The loops of one level, each point joined with what the evaluation found of it. From then on, nothing else of the
-// level is needed.
+// The loops of one level, each point joined with what the evaluation found of it. From then on, nothing else
+// of the level is needed.
 #pragma once
 
 #include "engine/loops/loop_points.hpp"
@@ -35,8 +35,8 @@ struct TrackedLoops {
 
 PlacedLoops place_loops(const RawLoops& loops, const LoopPointLists& points, const Tiling& tiling, Job& job);
 
-// visit(i, points, scratch) for each loop, from several threads. Memory: a share of the limit, whatever the length of a
-// loop.
+// visit(i, points, scratch) for each loop, from several threads. Memory: a share of the limit, whatever the
+// length of a loop.
 void for_each_loop(const PlacedLoops& loops, Job& job,
                    const std::function<void(std::size_t, std::span<const StoredLoopPoint>, Scratch&)>& visit);
 

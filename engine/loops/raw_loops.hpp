@@ -47,8 +47,8 @@ class RawLoops {
   std::vector<Vertex> read(std::size_t loop) const;
   // In the order of the loop, in blocks: it may be larger than memory.
   void for_each_vertex(std::size_t loop, const std::function<void(const Vertex&)>& visit) const;
-  // In order of (first id, length, ids), a fine loop before the same coarse one: from then on loops are numbered in
-  // that order.
+  // In order of (first id, length, ids), a fine loop before the same coarse one: from then on loops are
+  // numbered in that order.
   void sort();
 
  private:

@@ -67,9 +67,9 @@ struct Summary {
   double eps = 0;                   // in effect
   std::int64_t e = 0;               // in effect; 0: method tangential
   std::uint64_t tiles = 0;
-  std::uint64_t tile_points = 0;   // in effect
-  std::uint64_t threads = 0;       // in effect
-  std::uint64_t memory_limit = 0;  // bytes, in effect
+  std::uint64_t tile_points = 0;     // in effect
+  std::uint64_t threads = 0;         // in effect
+  std::uint64_t memory_limit = 0;    // bytes, in effect
   std::vector<LevelSummary> levels;  // from fine to coarse
   std::vector<PhaseTime> phases;
 };

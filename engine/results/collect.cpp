@@ -217,8 +217,8 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   }
   summary.phases = job.phases;
   return std::make_unique<WorkspaceDetection>(
-      std::move(summary), std::move(findings.loops), std::move(findings.selected), std::move(boundary_points), marked,
-      std::move(findings.points), std::move(findings.probabilities), std::move(findings.sample),
+      std::move(summary), std::move(findings.loops), std::move(findings.selected), std::move(boundary_points),
+      marked, std::move(findings.points), std::move(findings.probabilities), std::move(findings.sample),
       std::move(findings.opposed_normals));
 }
 

@@ -19,8 +19,9 @@ void send_points(const PlacedLoops& loops, std::span<const std::size_t> selected
     const bool is_reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = is_reported ? static_cast<std::int32_t>(next_selected++) : kNotReported;
     loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      tiling.for_each_tile_at(p.point.position(),
-                              [&](TileIndex t) { outbox.add(t, {kNoIndex, name, p.probability, p.point}); });
+      tiling.for_each_tile_at(p.point.position(), [&](TileIndex t) {
+        outbox.add(t, {kNoIndex, name, p.probability, p.point});
+      });
     });
   }
   outbox.send();
@@ -42,8 +43,8 @@ std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const Til
 
 }  // namespace
 
-LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> selected, const TileStore& store,
-                        Job& job) {
+LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> selected,
+                        const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.memory.spills / 4);
   send_points(loops, selected, tiling, sent);

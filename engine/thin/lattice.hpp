@@ -10,9 +10,9 @@ namespace lacuna {
 
 // Where a point lies.
 struct LatticePlace {
-  Eigen::Vector3d cell;    // whole numbers
-  double squared_offset;   // squared distance to the cell's middle, in edges
-  std::uint64_t hash;      // of the cell
+  Eigen::Vector3d cell;   // whole numbers
+  double squared_offset;  // squared distance to the cell's middle, in edges
+  std::uint64_t hash;     // of the cell
 };
 
 std::uint64_t hash_of(const Eigen::Vector3d& cell);

@@ -22,7 +22,8 @@ OccupiedCells::OccupiedCells(std::size_t expected_cells) {
 // The slot with this cell, or the empty one where it belongs.
 std::size_t OccupiedCells::slot_of(const LatticePlace& place) const {
   std::size_t slot = (place.hash >> 32) & (slots_.size() - 1);
-  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].cell != place.cell) slot = (slot + 1) & (slots_.size() - 1);
+  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].cell != place.cell)
+    slot = (slot + 1) & (slots_.size() - 1);
   return slot;
 }
 

@@ -66,7 +66,8 @@ class Thinner {
 
   // Unless each point is wanted, a batch sends one for each of its cells. From any thread.
   void send(Batch& batch) {
-    for (const Representative& point : batch.cells.representatives()) send(place_of(point.point), point, batch);
+    for (const Representative& point : batch.cells.representatives())
+      send(place_of(point.point), point, batch);
     for (std::size_t p = 0; p < batch.parts.size(); ++p) {
       parts_.append(p, batch.parts[p]);
       batch.parts[p].clear();
@@ -86,8 +87,7 @@ class Thinner {
       thinned_.represented.emplace(job_.file("represented"), thinned_.points / kRepresentedBlock + 1,
                                    job_.memory.spills / 8);
     std::vector<std::uint64_t> needs;
-    for (std::size_t p = 0; p < parts_.lists(); ++p)
-      needs.push_back(parts_.count(p) * kBytesPerPoint);
+    for (std::size_t p = 0; p < parts_.lists(); ++p) needs.push_back(parts_.count(p) * kBytesPerPoint);
     // The representatives of a part are written once those of all parts before it are.
     std::vector<std::vector<Representative>> waiting(parts_.lists());
     std::vector<std::uint8_t> is_done(parts_.lists());

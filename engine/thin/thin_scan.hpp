@@ -36,9 +36,9 @@ struct ThinnedScan {
 };
 
 // Chooses one point for each occupied cell of an absolute lattice (`OccupiedCells` has the rule). The choice
-// depends on neither memory, threads nor the order of the points. Reads the scan once. Its points go to parts by the
-// hash of their cell, which are thinned one by one. With output.points it says which point represents which. Throws
-// `Error`.
+// depends on neither memory, threads nor the order of the points. Reads the scan once. Its points go to parts
+// by the hash of their cell, which are thinned one by one. With output.points it says which point represents
+// which. Throws `Error`.
 ThinnedScan thin_scan(PointSource& scan, double edge, Job& job);
 // The same for distinct points that are in a store.
 ThinnedScan thin_store(const TileStore& store, double edge, Job& job);

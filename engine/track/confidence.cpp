@@ -16,8 +16,8 @@ double tracked(const TrackEvidence& e) {
          0.93 * std::min(e.persistence, kMostOctaves) - 7.44 * e.sampling_gap - 0.4;
 }
 
-// A small hole cannot persist. So at the first level its own loop may say enough, the more so the more even the
-// sampling.
+// A small hole cannot persist. So at the first level its own loop may say enough, the more so the more even
+// the sampling.
 bool may_say_enough(const TrackEvidence& e) {
   constexpr double kLeastRound = 0.2;
   return e.is_first_level && e.roundness >= kLeastRound;
@@ -32,7 +32,8 @@ double at_first_level(const TrackEvidence& e) {
 
 double roundness(double perimeter, double area, double spacing) {
   constexpr double kMostOfLong = 0.5, kWidth = 8;
-  const double compactness = 4 * std::numbers::pi * (area / perimeter) / perimeter, width = 2 * area / perimeter;
+  const double compactness = 4 * std::numbers::pi * (area / perimeter) / perimeter,
+               width = 2 * area / perimeter;
   return std::max(compactness, kMostOfLong * std::min(1.0, width / spacing / kWidth));
 }
 

@@ -14,8 +14,8 @@ struct TrackEvidence {
   bool is_first_level;  // the loop was found at the first level
 };
 
-// Small for scribbles and slits of the sampling: the area over that of the circle with the same perimeter. A long hole
-// has up to a half, which it has from a width of eight spacings on.
+// Small for scribbles and slits of the sampling: the area over that of the circle with the same perimeter. A
+// long hole has up to a half, which it has from a width of eight spacings on.
 double roundness(double perimeter, double area, double spacing);
 
 // The logarithm of the odds.

@@ -13,8 +13,8 @@
 namespace lacuna {
 
 struct LevelLoops {
-  double edge = 0;       // of the level's lattice; 0: every point
-  double cell_edge = 0;  // of the lattice on which its loops are compared with others
+  double edge = 0;           // of the level's lattice; 0: every point
+  double cell_edge = 0;      // of the lattice on which its loops are compared with others
   std::uint64_t points = 0;  // distinct ones of the level
   PlacedLoops loops;
   std::vector<LoopEvidence> evidence;  // of each loop

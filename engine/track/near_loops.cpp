@@ -35,7 +35,8 @@ using SharedSort = SortedRuns<SharedCell>;
 // An edge of a loop is drawn in so many steps at most: to a far outlier it may be as long as the scan.
 constexpr double kMostSteps = 16;
 
-// visit(cell) for each cell that the closed loop passes through at steps of an edge or less; some several times.
+// visit(cell) for each cell that the closed loop passes through at steps of an edge or less; some several
+// times.
 template <class Visit>
 void draw(const PlacedLoops& loops, std::size_t loop, double edge, Visit&& visit) {
   std::optional<CellOfLattice> last;
@@ -82,10 +83,12 @@ Column<LoopCell> sorted_cells(CellSort& cells, const Job& job) {
   return sorted;
 }
 
-// The cells of one row of the lattice, at a fixed offset from the current cell. It moves on as that cell does.
+// The cells of one row of the lattice, at a fixed offset from the current cell. It moves on as that cell
+// does.
 class RowOfCells {
  public:
-  RowOfCells(const Column<LoopCell>& cells, double x, double y) : cells_(cells), size_(cells.size()), x_(x), y_(y) {}
+  RowOfCells(const Column<LoopCell>& cells, double x, double y)
+      : cells_(cells), size_(cells.size()), x_(x), y_(y) {}
 
   // visit(loop) for each loop that passes through one of the three cells in this row.
   template <class Visit>
@@ -103,10 +106,10 @@ class RowOfCells {
   double x_, y_;
 };
 
-// Goes along the cells in order, with the nine rows around. Counts the cells of each loop. A pair counts where one of its
-// loops is of the coarse level.
-void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse, std::vector<std::uint32_t>& own_cells,
-                SharedSort& shared) {
+// Goes along the cells in order, with the nine rows around. Counts the cells of each loop. A pair counts
+// where one of its loops is of the coarse level.
+void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse,
+                std::vector<std::uint32_t>& own_cells, SharedSort& shared) {
   std::vector<RowOfCells> rows;
   for (const double x : {-1, 0, 1}) {
     for (const double y : {-1, 0, 1}) rows.emplace_back(cells, x, y);
@@ -118,7 +121,8 @@ void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse, std::
     const LoopCell at = reader[i];
     if (last != at.cell) {
       near.clear();
-      for (RowOfCells& row : rows) row.for_each_near(at.cell, [&](std::uint32_t loop) { near.push_back(loop); });
+      for (RowOfCells& row : rows)
+        row.for_each_near(at.cell, [&](std::uint32_t loop) { near.push_back(loop); });
       std::sort(near.begin(), near.end());
       near.erase(std::unique(near.begin(), near.end()), near.end());
       last = at.cell;
@@ -132,7 +136,8 @@ void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse, std::
 }
 
 // Both directions of a pair are wanted at a time, so pairs are sorted again by their lower loop.
-void add_pairs(SharedSort& shared, const std::vector<std::uint32_t>& own_cells, std::vector<NearLoops>& pairs) {
+void add_pairs(SharedSort& shared, const std::vector<std::uint32_t>& own_cells,
+               std::vector<NearLoops>& pairs) {
   const std::size_t begin = pairs.size();
   std::optional<SharedCell> last;
   std::uint32_t count = 0;

@@ -1,8 +1,8 @@
 // near_loops: which loops of neighbouring levels run along each other.
 //
-// Both loops are drawn in the cells of a lattice, that of the coarser level. A cell is near a loop if it or one of the 26
-// around it is a cell of that loop. The shares of near cells say how much the loops have in common. They are ratios of
-// whole numbers, so neither order nor rounding matters.
+// Both loops are drawn in the cells of a lattice, that of the coarser level. A cell is near a loop if it or
+// one of the 26 around it is a cell of that loop. The shares of near cells say how much the loops have in
+// common. They are ratios of whole numbers, so neither order nor rounding matters.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -16,8 +16,8 @@ namespace lacuna {
 
 // Loops are numbered level by level, from the finest on.
 struct NearLoops {
-  std::uint32_t a, b;    // a < b
-  float of_a, of_b;      // share of the cells of one that are near the other, [0, 1]
+  std::uint32_t a, b;  // a < b
+  float of_a, of_b;    // share of the cells of one that are near the other, [0, 1]
 
   bool is_same_hole() const {
     constexpr float kSame = 0.7f;
@@ -25,8 +25,8 @@ struct NearLoops {
   }
 };
 
-// Returns pairs of loops of one level, or of two that are at most `kBridged` + 1 apart. One of the two has at least half
-// of its cells near the other. Pairs ascend. Cost: a sort of the loops' cells on disk.
+// Returns pairs of loops of one level, or of two that are at most `kBridged` + 1 apart. One of the two has at
+// least half of its cells near the other. Pairs ascend. Cost: a sort of the loops' cells on disk.
 std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job);
 
 // A hole may be missing at so many levels between two at which it is found.

@@ -26,8 +26,8 @@ std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const
   return ranks;
 }
 
-// From the highest rank on: a loop stands unless it is at the place of one that does. At a place are the loops that
-// run along half of it, and those that run along loops of the same hole.
+// From the highest rank on: a loop stands unless it is at the place of one that does. At a place are the
+// loops that run along half of it, and those that run along loops of the same hole.
 std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const double> ranks) {
   struct Neighbour {
     std::uint32_t loop;
@@ -72,7 +72,8 @@ std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<co
   return chosen;
 }
 
-// Whether the points of a loop come before those of another: by first id, then short ones first, then by all ids.
+// Whether the points of a loop come before those of another: by first id, then short ones first, then by all
+// ids.
 bool comes_first(const PlacedLoops& a, std::size_t i, const PlacedLoops& b, std::size_t j) {
   ColumnReader<StoredLoopPoint> of_a(a.points), of_b(b.points);
   const auto id_a = [&](std::uint64_t k) { return of_a[a.offsets[i] + k].point.id; };
@@ -99,7 +100,8 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
-    return comes_first(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops, loops[y].loop);
+    return comes_first(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
+                       loops[y].loop);
   });
 
   TrackedLoops tracked{.loops = {.points = Column<StoredLoopPoint>(job.file("tracked-loops"))}, .tracks = {}};

@@ -9,9 +9,9 @@
 
 namespace lacuna {
 
-// For each hole the loop that stands, if it is as sure as the config wants. `levels`: from fine to coarse. The choice
-// does not depend on what is wanted, so a higher confidence gives a subset. The paper's loops, of one level, all stand.
-// Cost: a sort of the loops' cells on disk.
+// For each hole the loop that stands, if it is as sure as the config wants. `levels`: from fine to coarse.
+// The choice does not depend on what is wanted, so a higher confidence gives a subset. The paper's loops, of
+// one level, all stand. Cost: a sort of the loops' cells on disk.
 TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job);
 
 }  // namespace lacuna

@@ -387,7 +387,9 @@ Cloud holed_cloud(std::uint64_t seed) {
 }
 
 // The lattices of the levels do not move with the scan.
-TEST_CASE("a scan moved by a million has the same results among all points, to the last bit where its digits allow") {
+TEST_CASE(
+    "a scan moved by a million has the same results among all points, to the last bit where its digits "
+    "allow") {
   Config config = tiled({}, 300);
   config.scale.every_point = true;
   for (const std::uint64_t seed : {1, 2, 3}) {

@@ -66,7 +66,8 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
       const Eigen::Vector3d &p = cloud.positions[a], &q = cloud.positions[b];
       const double of_a = Lattice(resolution).place_of(p).squared_offset,
                    of_b = Lattice(resolution).place_of(q).squared_offset;
-      return of_a != of_b ? of_a < of_b : std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+      return of_a != of_b ? of_a < of_b
+                          : std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
     }));
   }
   std::sort(chosen.begin(), chosen.end());

@@ -21,8 +21,9 @@ using test::read_file;
 using test::run_program;
 using Point = std::array<double, 3>;
 
-const std::vector<std::string> kMeasures{"points",     "confidence", "persistence", "first_scale", "last_scale",
-                                         "perimeter",  "area",       "diameter",    "planarity",   "mean_probability"};
+const std::vector<std::string> kMeasures{"points",     "confidence",      "persistence", "first_scale",
+                                         "last_scale", "perimeter",       "area",        "diameter",
+                                         "planarity",  "mean_probability"};
 
 // What holes.json and each of the formats say of a loop.
 struct ReadLoop {

@@ -693,7 +693,8 @@ double median(std::vector<double> numbers) {
 // Stars of points and of their neighbours, found when they are first needed.
 class Stars {
  public:
-  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result, const Names& names)
+  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result,
+        const Names& names)
       : positions_(positions), config_(config), result_(result), names_(names) {}
 
   // Measured by the circumradii of its own and its neighbours' stars.
@@ -895,7 +896,8 @@ FoundLoop loop_of(const std::vector<CurvePoint>& rim, const TangentialConfig& co
 
 // The curves at one scale of at least `min_curve` points that may be holes.
 void find_curves(const Positions& positions, const Detection& result, const TangentialConfig& config,
-                 const std::set<PointId>& rough, std::size_t scale, Stars& stars, std::size_t& edges, Loops& loops) {
+                 const std::set<PointId>& rough, std::size_t scale, Stars& stars, std::size_t& edges,
+                 Loops& loops) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   std::vector<Gap> gaps;
   std::map<std::pair<PointId, PointId>, std::size_t> at;  // (point, neighbour along the curve)
@@ -953,7 +955,8 @@ Loops loops_of(const Level& level, std::size_t number, const Config& config, Det
       p = level.names[value(p)];
     }
   }
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  std::sort(loops.begin(), loops.end(),
+            [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   return loops;
 }
 
@@ -1027,7 +1030,8 @@ std::optional<Level> level_above(const Level& below, const Detection& result) {
   for (;; edge = power_above(edge * 1.0001)) {
     Level level = thinned(below, result, edge);
     if (level.names.size() < 200) return std::nullopt;
-    if (static_cast<double>(level.names.size()) <= 0.9 * static_cast<double>(result.distinct.size())) return level;
+    if (static_cast<double>(level.names.size()) <= 0.9 * static_cast<double>(result.distinct.size()))
+      return level;
   }
 }
 
@@ -1059,7 +1063,8 @@ bool is_near(const LatticeCell& at, const std::set<LatticeCell>& cells) {
 }
 
 float share_near(const std::set<LatticeCell>& cells, const std::set<LatticeCell>& others) {
-  const auto count = std::count_if(cells.begin(), cells.end(), [&](const auto& c) { return is_near(c, others); });
+  const auto count =
+      std::count_if(cells.begin(), cells.end(), [&](const auto& c) { return is_near(c, others); });
   return static_cast<float>(count) / static_cast<float>(cells.size());
 }
 
@@ -1088,12 +1093,14 @@ struct Tracked {
 // `edges`, and the edges of the lattices on which loops are compared: by level.
 Tracked track(const Loops& loops, const std::vector<double>& edges, const std::vector<double>& cells) {
   const std::size_t count = loops.size();
-  std::vector<std::vector<float>> near(count, std::vector<float>(count, 0));  // share of the first, near the second
+  std::vector<std::vector<float>> near(count,
+                                       std::vector<float>(count, 0));  // share of the first, near the second
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       const std::size_t coarse = std::max(loops[a].level, loops[b].level);
       if (coarse - std::min(loops[a].level, loops[b].level) > 2) continue;
-      const std::set<LatticeCell> of_a = drawn(loops[a], cells[coarse]), of_b = drawn(loops[b], cells[coarse]);
+      const std::set<LatticeCell> of_a = drawn(loops[a], cells[coarse]),
+                                  of_b = drawn(loops[b], cells[coarse]);
       near[a][b] = share_near(of_a, of_b);
       near[b][a] = share_near(of_b, of_a);
     }
@@ -1126,13 +1133,16 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
               1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -
               7.44 * loop.sampling_gap - 0.4;
     const double middle = 0.65 + 2 * std::max(0., 0.84 - loop.surface);
-    if (loop.level == 0 && round >= 0.2) odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
-    ranks[i] = std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
+    if (loop.level == 0 && round >= 0.2)
+      odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
+    ranks[i] =
+        std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
   }
 
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranks[a] > ranks[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return ranks[a] > ranks[b]; });
   std::set<std::size_t> chosen, covered;
   for (const std::size_t i : order) {
     if (covered.contains(i)) continue;
@@ -1167,7 +1177,8 @@ Detection evaluated(const Level& level, const Config& config) {
   result.points.resize(level.positions.size());
   find_distinct(level.positions, result);
   find_neighbours(level.positions, config.neighbourhood, result);
-  for (PointId p : result.distinct) evaluate(level.positions, level.normals, config, p, result.points[value(p)]);
+  for (PointId p : result.distinct)
+    evaluate(level.positions, level.normals, config, p, result.points[value(p)]);
   return result;
 }
 

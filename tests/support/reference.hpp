@@ -58,17 +58,18 @@ struct Edge {
 };
 
 struct Detection {
-  std::vector<Point> points;                // one per row of the input
-  std::vector<PointId> distinct;            // the points of the method, ascending
-  double mean_neighbours = 0;               // K
-  double mean_edge_length = 0;              // over the edges of G; 0 without edges
-  double eps = 0;                           // in effect
-  std::int64_t e = 0;                       // in effect
-  std::size_t boundary_edges = 0;           // of the boundary graph
-  std::vector<Edge> eligible;               // with w_total, in the order in which they are taken
-  std::vector<Edge> spanning;               // those accepted, in that order
-  std::vector<std::vector<PointId>> loops;  // of the paper raw, as step 6 writes and sorts them; else those that stand
-  std::vector<double> confidences;          // of the loops; of the paper's all 1
+  std::vector<Point> points;       // one per row of the input
+  std::vector<PointId> distinct;   // the points of the method, ascending
+  double mean_neighbours = 0;      // K
+  double mean_edge_length = 0;     // over the edges of G; 0 without edges
+  double eps = 0;                  // in effect
+  std::int64_t e = 0;              // in effect
+  std::size_t boundary_edges = 0;  // of the boundary graph
+  std::vector<Edge> eligible;      // with w_total, in the order in which they are taken
+  std::vector<Edge> spanning;      // those accepted, in that order
+  std::vector<std::vector<PointId>>
+      loops;  // of the paper raw, as step 6 writes and sorts them; else those that stand
+  std::vector<double> confidences;  // of the loops; of the paper's all 1
 };
 
 // `normals` is empty or has one per point. Throws `Error` where the squared distance of distinct points is

@@ -75,8 +75,8 @@ TEST_CASE("the expected stages are those of the config") {
     return std::find(all.begin(), all.end(), name) != all.end();
   };
   Config config;
-  CHECK(names(config) == std::vector<std::string>{"survey", "bucket",  "halo",      "evaluate", "loops", "levels",
-                                                  "track",  "measure", "coherence", "collect",  "write"});
+  CHECK(names(config) == std::vector<std::string>{"survey", "bucket", "halo", "evaluate", "loops", "levels",
+                                                  "track", "measure", "coherence", "collect", "write"});
   config.scale.every_point = true;
   config.output.vdb = true;
   CHECK(!has(config, "levels"));

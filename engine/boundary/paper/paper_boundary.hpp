@@ -35,8 +35,7 @@ class PaperBoundary final : public BoundaryMethod {
   void take(const EvaluatedTile& tile) override;
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // The coherent ones.
-  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RowSet&,
-                             Job&) const override {
+  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RowSet&, Job&) const override {
     return coherent;
   }
 

@@ -1,7 +1,6 @@
 #include "engine/boundary/tangential/curves.hpp"
 
 #include "engine/evaluate/evaluate_tiles.hpp"
-
 #include "engine/store/row_numbers.hpp"
 #include "engine/store/sorted_runs.hpp"
 

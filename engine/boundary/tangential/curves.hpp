@@ -50,10 +50,10 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
 void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit);
 
-// What says whether a curve bounds a hole (method.md, C.6). Where a scan happens to be thin, the circumradius is
-// large at few points of the curve. So its clearness is the mean one of its wedges along its length. Some sampling
-// radii of length without clearness are added: a short curve may be clear by chance. The other values are means over
-// its points. Sums are in the order of the curve.
+// What says whether a curve bounds a hole (method.md, C.6). Where a scan happens to be thin, the circumradius
+// is large at few points of the curve. So its clearness is the mean one of its wedges along its length. Some
+// sampling radii of length without clearness are added: a short curve may be clear by chance. The other
+// values are means over its points. Sums are in the order of the curve.
 LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
                          Scratch& scratch);
 

@@ -75,9 +75,8 @@ std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
         {points_[s].id, row(s)}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
         points_[s].distance,
         [&](Scale scale) { return points_[s].sampling_radius[static_cast<std::size_t>(scale)]; },
-        [&] { return points_[s].surface; },
-        [&](std::size_t i) { return link[i].point; }, [&](std::size_t i) { return link[i].length; }, config,
-        wedges);
+        [&] { return points_[s].surface; }, [&](std::size_t i) { return link[i].point; },
+        [&](std::size_t i) { return link[i].length; }, config, wedges);
   }
   return wedges;
 }

@@ -95,7 +95,8 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
         return around->within(star.bound.at(scale) * distance);
       };
       const auto surface = [&] { return radii.surface_around(p); };
-      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, surface, row, length, config, wedges);
+      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, surface, row, length, config,
+                 wedges);
     }
   }
   lists.append_open(tile.index, std::move(open));

@@ -33,7 +33,7 @@ class TangentialBoundary final : public BoundaryMethod {
 
   const Tiling& tiling_;
   StarLists stars_;
-  Column<CurvePoint> chain_points_;             // of open chains
+  Column<CurvePoint> chain_points_;  // of open chains
   RawLoops loops_;
   std::filesystem::path workspace_;
   std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work

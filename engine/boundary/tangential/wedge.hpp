@@ -35,25 +35,24 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// Adds the wedges of a star's point at both scales. `distance`: `Sampling::distance`; sampling_radius(scale) and
-// surface(): of the point; row(i), length(i): of link vertex i, and its distance from the point.
+// Adds the wedges of a star's point at both scales. `distance`: `Sampling::distance`; sampling_radius(scale)
+// and surface(): of the point; row(i), length(i): of link vertex i, and its distance from the point.
 template <class Name, class Radius, class Surface, class LinkRow, class LinkLength>
 void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Consistency> consistencies,
-                double distance, Radius&& sampling_radius, Surface&& surface, LinkRow&& row, LinkLength&& length,
-                const TangentialConfig& config, std::vector<Wedge>& wedges) {
+                double distance, Radius&& sampling_radius, Surface&& surface, LinkRow&& row,
+                LinkLength&& length, const TangentialConfig& config, std::vector<Wedge>& wedges) {
   std::optional<float> around;
   for (const Scale scale : kScales) {
     std::optional<double> sampling;
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
       if (!sampling) sampling = sampling_radius(scale);
       if (!around) around = surface();
-      wedges.push_back(
-          {point,
-           row(first),
-           row(last),
-           {(length(first) + length(last)) / 2, *sampling, distance,
-            clearness(radius * distance, *sampling, config), *around},
-           scale});
+      wedges.push_back({point,
+                        row(first),
+                        row(last),
+                        {(length(first) + length(last)) / 2, *sampling, distance,
+                         clearness(radius * distance, *sampling, config), *around},
+                        scale});
     });
   }
 }

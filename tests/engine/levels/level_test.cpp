@@ -2,8 +2,8 @@
 #include "engine/levels/level.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/tiled_scan.hpp"
 #include "tests/support/memory_scan.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +52,13 @@ std::vector<AtLevel> levels_of(const Cloud& cloud, const Config& config) {
 }
 
 bool is_power_of_sqrt2(double edge) {
-  return edge == std::ldexp(1.0, std::ilogb(edge)) || edge == std::ldexp(std::numbers::sqrt2, std::ilogb(edge));
+  return edge == std::ldexp(1.0, std::ilogb(edge)) ||
+         edge == std::ldexp(std::numbers::sqrt2, std::ilogb(edge));
 }
 
-TEST_CASE("edges are powers of sqrt 2, each level is a part of the one below, and the last has hundreds of points") {
+TEST_CASE(
+    "edges are powers of sqrt 2, each level is a part of the one below, and the last has hundreds of "
+    "points") {
   const Cloud cloud = plane(100).jittered(0.4, 1).noisy(0.1, 2).scaled(0.37);
   const std::vector<AtLevel> levels = levels_of(cloud, {});
   REQUIRE(levels.size() >= 4);
@@ -91,7 +94,8 @@ TEST_CASE("levels do not depend on tiles, threads, memory or the order of the po
 }
 
 TEST_CASE("dense places are thinned, sparse ones stay as they are") {
-  const Cloud dense = plane(100).jittered(0.3, 1), sparse = plane(40).jittered(0.3, 2).scaled(8).translated({0, 0, 50});
+  const Cloud dense = plane(100).jittered(0.3, 1),
+              sparse = plane(40).jittered(0.3, 2).scaled(8).translated({0, 0, 50});
   const std::vector<AtLevel> levels = levels_of(dense.joined(sparse), {});
   REQUIRE(levels.size() > 3);
   const auto of_sparse = [&](const AtLevel& level) {
@@ -109,7 +113,8 @@ TEST_CASE("few points, no points, and points at one place have no level above") 
   CHECK(levels_of({std::vector<Eigen::Vector3d>(500, {1, 2, 3}), {}}, {}).size() == 1);
 }
 
-TEST_CASE("a smallest hole sets the first level; a resolution, every point and the paper's method have no other") {
+TEST_CASE(
+    "a smallest hole sets the first level; a resolution, every point and the paper's method have no other") {
   Config config;
   CHECK(has_levels(config));
   config.scale.min_hole = 20;

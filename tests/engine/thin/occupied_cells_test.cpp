@@ -35,7 +35,9 @@ TEST_CASE("cells of the lattice are counted from the origin of the coordinates")
   CHECK_FALSE(Lattice(1e-100).place_of({1e300, 0, 0}).cell.allFinite());
 }
 
-TEST_CASE("the point nearest to its middle represents a cell, of several the one with the lowest coordinates, then id") {
+TEST_CASE(
+    "the point nearest to its middle represents a cell, of several the one with the lowest coordinates, then "
+    "id") {
   const Lattice lattice(10);
   const auto representative = [&](const std::vector<Eigen::Vector3d>& positions) {
     const OccupiedCells cells = occupied(positions, lattice);
@@ -50,7 +52,8 @@ TEST_CASE("the point nearest to its middle represents a cell, of several the one
   CHECK(representative({{-1, -5, -5}, {-4, -5, -5}, {-9, -5, -5}}) == 1);
 }
 
-TEST_CASE("the representatives of random points are the nearest to the middles, whatever the order and the parts") {
+TEST_CASE(
+    "the representatives of random points are the nearest to the middles, whatever the order and the parts") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);
     const Cloud cloud = scattered(2000, seed).noisy(0.1, seed).translated({1e5, -3e5, 7});

@@ -29,7 +29,9 @@ struct DrawnLoop {
   static LoopEvidence sure(bool is_coarse = false) {
     return {.clearness = 0.9, .surface = 0.9, .spacing = 1, .sampling_gap = 0.55, .is_coarse = is_coarse};
   }
-  static LoopEvidence unsure() { return {.clearness = 0.6, .surface = 0.5, .spacing = 1, .sampling_gap = 0.6}; }
+  static LoopEvidence unsure() {
+    return {.clearness = 0.6, .surface = 0.5, .spacing = 1, .sampling_gap = 0.6};
+  }
 };
 
 class Drawn {
@@ -97,7 +99,9 @@ TEST_CASE("of two loops that share an arc, the shares say how much of each is ne
   CHECK(apart.near().empty());
 }
 
-TEST_CASE("a hole is reported once, by its finest sure loop, and lasts to its last level, one of which it may miss") {
+TEST_CASE(
+    "a hole is reported once, by its finest sure loop, and lasts to its last level, one of which it may "
+    "miss") {
   Drawn drawn;
   drawn.add(0, {{{0, 0, 0}, 20}});
   drawn.add(2, {{{0, 0, 0}, 20}});
@@ -184,7 +188,8 @@ TEST_CASE("log-odds rise with surface, persistence and roundness, and fall with 
   const double before = log_odds(plain);
   CHECK(with([](TrackEvidence& e) { e.best = 0.7; }) > before);
   CHECK(with([](TrackEvidence& e) { e.persistence = 1.5; }) > before);
-  CHECK(with([](TrackEvidence& e) { e.persistence = 2; }) == with([](TrackEvidence& e) { e.persistence = 9; }));
+  CHECK(with([](TrackEvidence& e) { e.persistence = 2; }) ==
+        with([](TrackEvidence& e) { e.persistence = 9; }));
   CHECK(with([](TrackEvidence& e) { e.roundness = 0.9; }) > before);
   CHECK(with([](TrackEvidence& e) { e.sampling_gap = 0.7; }) < before);
   // Even sampling at the first level is enough.
@@ -206,8 +211,8 @@ TEST_CASE("log-odds rise with surface, persistence and roundness, and fall with 
 TEST_CASE("a circle is round, a wide river half round, and a slit of the sampling is not") {
   const double pi = std::numbers::pi;
   CHECK(roundness(2 * pi * 5, pi * 25, 1) == Approx(1));
-  CHECK(roundness(2000, 1000 * 16, 1) == 0.5);            // 16 wide
-  CHECK(roundness(2000, 1000 * 4, 1) == Approx(0.25));    // 4 wide
+  CHECK(roundness(2000, 1000 * 16, 1) == 0.5);          // 16 wide
+  CHECK(roundness(2000, 1000 * 4, 1) == Approx(0.25));  // 4 wide
   CHECK(roundness(2000, 1000 * 0.5, 1) == Approx(1. / 32));
 }
 
@@ -232,7 +237,9 @@ TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {
 }
 
 // Sweeps with points one apart along them and six apart across; two of them are interrupted.
-TEST_CASE("a hole in a scan of lines is found at the level at which the lines become a surface, and no gap between them") {
+TEST_CASE(
+    "a hole in a scan of lines is found at the level at which the lines become a surface, and no gap between "
+    "them") {
   Cloud cloud;
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 360; ++x) cloud.positions.emplace_back(x, 6 * y, 0);

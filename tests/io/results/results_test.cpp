@@ -92,14 +92,17 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[0].at("ids") == nlohmann::json{1, 5, 3});
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
+  CHECK_THAT(read_file(folder / "holes.json"),
+             Contains("\n    "
+                      "{\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"persistence\":0.0,\"first_scale\":0."
+                      "0,\"last_scale\":0.0,"
+                      "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_"
+                      "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
+                      "\"normal\":[0.0,0.0,1.0],\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
+                      "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
   CHECK_THAT(
-      read_file(folder / "holes.json"),
-      Contains("\n    {\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"persistence\":0.0,\"first_scale\":0.0,\"last_scale\":0.0,"
-               "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
-               "\"normal\":[0.0,0.0,1.0],\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
-               "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
-  CHECK_THAT(read_file(folder / "holes.csv"),
-             Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0,0,0,0.1,,0,0,0,1,2,3,0,0,1\n"));
+      read_file(folder / "holes.csv"),
+      Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0,0,0,0.1,,0,0,0,1,2,3,0,0,1\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());
   CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));

@@ -221,7 +221,8 @@ TEST_CASE("the clearness of a curve is the mean one along it, with some length m
   std::vector<CurvePoint> curve = curve_of(twenty);
   for (std::size_t i = 0; i < 20; ++i) {
     const bool is_clear = i % 2 == 0;
-    curve[i].evidence = {is_clear ? 3. : 1., 2, is_clear ? 3. : 5., is_clear ? 1.f : 0.f, is_clear ? 1.f : 0.5f};
+    curve[i].evidence = {is_clear ? 3. : 1., 2, is_clear ? 3. : 5., is_clear ? 1.f : 0.f,
+                         is_clear ? 1.f : 0.5f};
   }
   const LoopEvidence half = evidence(curve, config, Scale::kCoarse);
   CHECK(half.clearness == Approx(30. / (40 + 5 * 2)));
