@@ -154,7 +154,8 @@ def roundness(loop):
         area = tuple(s + (a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2]) / 2 for i, s in enumerate(area))
         length += math.dist(p, q)
     size = math.hypot(*area)
-    return max(4 * math.pi * size / length**2, 0.5 * min(1, 2 * size / length / (8 * loop.spacing)))
+    width = 2 * size / length / loop.spacing
+    return max(4 * math.pi * size / length**2, 0.5 * min(1, width / 8)), width
 
 
 def octaves(ratio):
@@ -163,10 +164,11 @@ def octaves(ratio):
 
 
 def log_odds(loop, best):
-    s, q = loop.surface, roundness(loop)
+    s = loop.surface
+    q, width = roundness(loop)
     odds = 11.24 * s * best - 1.84 * s * s / (q + 0.1) + 0.93 * min(loop.persistence, 2) - 7.44 * loop.gap - 0.4
     middle = 0.65 + 2 * max(0, 0.84 - s)
-    is_enough = loop.level == 0 and q >= 0.2
+    is_enough = loop.level == 0 and width <= 8 and q >= 0.2
     return max(odds, min(25 * (loop.clearness - middle), 2)) if is_enough else odds
 
 

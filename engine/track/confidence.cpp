@@ -19,8 +19,8 @@ double tracked(const TrackEvidence& e) {
 // A small hole cannot persist. So at the first level its own loop may say enough, the more so the more even
 // the sampling.
 bool may_say_enough(const TrackEvidence& e) {
-  constexpr double kLeastRound = 0.2;
-  return e.is_first_level && e.roundness >= kLeastRound;
+  constexpr double kWidest = 8, kLeastRound = 0.2;
+  return e.is_first_level && e.width <= kWidest && e.roundness >= kLeastRound;
 }
 double at_first_level(const TrackEvidence& e) {
   constexpr double kEven = 0.84, kMiddle = 0.65, kRise = 2, kSlope = 25, kMost = 2;
@@ -30,11 +30,10 @@ double at_first_level(const TrackEvidence& e) {
 
 }  // namespace
 
-double roundness(double perimeter, double area, double spacing) {
+double roundness(double perimeter, double area, double width) {
   constexpr double kMostOfLong = 0.5, kWidth = 8;
-  const double compactness = 4 * std::numbers::pi * (area / perimeter) / perimeter,
-               width = 2 * area / perimeter;
-  return std::max(compactness, kMostOfLong * std::min(1.0, width / spacing / kWidth));
+  const double compactness = 4 * std::numbers::pi * (area / perimeter) / perimeter;
+  return std::max(compactness, kMostOfLong * std::min(1.0, width / kWidth));
 }
 
 double log_odds(const TrackEvidence& evidence) {

@@ -3,11 +3,12 @@
 
 namespace lacuna {
 
-// All numbers but the persistence are in [0, 1].
+// All numbers but the width and the persistence are in [0, 1].
 struct TrackEvidence {
   double clearness;     // `LoopEvidence`
   double surface;       // likewise
   double sampling_gap;  // likewise
+  double width;         // of the loop, in spacings
   double roundness;     // of the loop
   double best;          // largest clearness times surface of the track's loops
   double persistence;   // octaves
@@ -16,7 +17,7 @@ struct TrackEvidence {
 
 // Small for scribbles and slits of the sampling: the area over that of the circle with the same perimeter. A
 // long hole has up to a half, which it has from a width of eight spacings on.
-double roundness(double perimeter, double area, double spacing);
+double roundness(double perimeter, double area, double width);
 
 // The logarithm of the odds.
 double log_odds(const TrackEvidence& evidence);

@@ -75,7 +75,8 @@ void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops, J
                     TrackedLoop& loop = loops[first + i];
                     const double spacing = level.evidence[i].spacing;
                     const auto [perimeter, area] = shape_of(points, scratch);
-                    loop.evidence.roundness = roundness(perimeter, area, spacing);
+                    loop.evidence.width = 2 * area / perimeter / spacing;
+                    loop.evidence.roundness = roundness(perimeter, area, loop.evidence.width);
                     loop.evidence.persistence = persistence(levels[loop.last].edge, spacing);
                     loop.log_odds = log_odds(loop.evidence);
                   });

@@ -1068,7 +1068,11 @@ float share_near(const std::set<LatticeCell>& cells, const std::set<LatticeCell>
   return static_cast<float>(count) / static_cast<float>(cells.size());
 }
 
-double roundness_of(const FoundLoop& loop) {
+struct Shape {
+  double length, area;
+};
+
+Shape shape_of(const FoundLoop& loop) {
   Vector3d area(0, 0, 0);
   double length = 0;
   for (std::size_t i = 0; i < loop.places.size(); ++i) {
@@ -1076,8 +1080,7 @@ double roundness_of(const FoundLoop& loop) {
     area += (a - loop.places[0]).cross(b - loop.places[0]) / 2;
     length += (b - a).norm();
   }
-  const double width = 2 * area.stableNorm() / length;
-  return std::max(2 * pi * width / length, std::min(0.5, width / loop.spacing / 16));
+  return {length, area.stableNorm()};
 }
 
 double octaves(double ratio) {
@@ -1127,13 +1130,15 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
   std::vector<double> odds(count), ranks(count);
   for (std::size_t i = 0; i < count; ++i) {
     const FoundLoop& loop = loops[i];
-    const double edge = edges[last[i]], round = roundness_of(loop);
+    const Shape shape = shape_of(loop);
+    const double edge = edges[last[i]], width = 2 * shape.area / shape.length / loop.spacing,
+                 round = std::max(4 * pi * shape.area / shape.length / shape.length, std::min(0.5, width / 16));
     const double persistence = edge > loop.spacing ? octaves(edge / loop.spacing) : 0;
     odds[i] = 11.24 * loop.surface * std::max(above[i], below[i]) -
               1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -
               7.44 * loop.sampling_gap - 0.4;
     const double middle = 0.65 + 2 * std::max(0., 0.84 - loop.surface);
-    if (loop.level == 0 && round >= 0.2)
+    if (loop.level == 0 && width <= 8 && round >= 0.2)
       odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
     ranks[i] =
         std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));

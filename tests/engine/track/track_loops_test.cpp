@@ -176,6 +176,7 @@ TEST_CASE("log-odds rise with surface, persistence and roundness, and fall with 
   const TrackEvidence plain{.clearness = 0.6,
                             .surface = 0.8,
                             .sampling_gap = 0.55,
+                            .width = 5,
                             .roundness = 0.5,
                             .best = 0.6,
                             .persistence = 0.5,
@@ -204,16 +205,20 @@ TEST_CASE("log-odds rise with surface, persistence and roundness, and fall with 
           even(e);
           e.is_first_level = false;
         }) < 0);
+  CHECK(with([&](TrackEvidence& e) {
+          even(e);
+          e.width = 9;  // it would persist
+        }) < 0);
   CHECK(probability_of(0) == 0.5);
   CHECK(probability_of(2) + probability_of(-2) == Approx(1));
 }
 
 TEST_CASE("a circle is round, a wide river half round, and a slit of the sampling is not") {
   const double pi = std::numbers::pi;
-  CHECK(roundness(2 * pi * 5, pi * 25, 1) == Approx(1));
-  CHECK(roundness(2000, 1000 * 16, 1) == 0.5);          // 16 wide
-  CHECK(roundness(2000, 1000 * 4, 1) == Approx(0.25));  // 4 wide
-  CHECK(roundness(2000, 1000 * 0.5, 1) == Approx(1. / 32));
+  CHECK(roundness(2 * pi * 5, pi * 25, 5) == Approx(1));
+  CHECK(roundness(2000, 1000 * 16, 16) == 0.5);
+  CHECK(roundness(2000, 1000 * 4, 4) == Approx(0.25));
+  CHECK(roundness(2000, 1000 * 0.5, 0.5) == Approx(1. / 32));
 }
 
 TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {
