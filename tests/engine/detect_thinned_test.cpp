@@ -73,9 +73,7 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
   std::sort(chosen.begin(), chosen.end());
   Cloud alone;
   for (const std::size_t i : chosen) alone.positions.push_back(cloud.positions[i]);
-  Config every_point;
-  every_point.scale.every_point = true;
-  const Detected plain = run_engine(alone, every_point);
+  const Detected plain = run_engine(alone, at_resolution(resolution));  // each is alone in its cell
   std::vector<std::vector<PointId>> expected = plain.loop_ids();
   for (auto& loop : expected) {
     for (PointId& id : loop) id = PointId{chosen[value(id)]};
