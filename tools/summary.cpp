@@ -80,7 +80,7 @@ std::string print_largest(const std::vector<LoopMeasures>& loops, const Kind& ho
     rows.push_back({"loop " + std::to_string(holes.loops[at]), print_area(loop.area, unit),
                     print_length(loop.perimeter, unit), print_length(loop.diameter, unit),
                     print_place(loop.centroid, extent), print_count(loop.points),
-                    print_share(loop.confidence)});
+                    print_share(loop.track.confidence)});
   }
   std::string text = "\n" + print_table(rows);
   if (holes.loops.size() > kMostRows) {

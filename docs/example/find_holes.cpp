@@ -33,7 +33,7 @@ int main() {
       const lacuna::LoopMeasures& hole = loop.measures;
       std::printf("hole at %.1f %.1f %.1f: %zu points, perimeter %.1f, diameter %.1f, confidence %.2f\n",
                   hole.centroid.x(), hole.centroid.y(), hole.centroid.z(), loop.points.size(), hole.perimeter,
-                  hole.diameter, hole.confidence);
+                  hole.diameter, hole.track.confidence);
     }
   } catch (const lacuna::Error& error) {
     std::fprintf(stderr, "find_holes: %s\n", error.what());

@@ -20,11 +20,7 @@ MeasuredLoops measure_loops(TrackedLoops tracked, double mean_edge_length, Job& 
   for_each_loop(tracked.loops, job,
                 [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch& scratch) {
                   measures[i] = measure_loop(loop, edge, scratch);
-                  const LoopTrack& track = tracked.tracks[i];
-                  measures[i].confidence = track.confidence;
-                  measures[i].persistence = track.persistence;
-                  measures[i].first_scale = track.first_scale;
-                  measures[i].last_scale = track.last_scale;
+                  measures[i].track = tracked.tracks[i];
                   phase.advance(loop.size());
                 });
   return {std::move(tracked.loops), std::move(measures)};

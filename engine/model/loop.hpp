@@ -33,9 +33,8 @@ constexpr const char* name_of(LoopKind kind) {
 struct LoopTrack {
   double confidence = 1;   // that it is one, [0, 1]; of the method "paper": 1
   double persistence = 0;  // octaves from the spacing along the loop to the last scale, 0 or more
-  double first_scale =
-      0;  // edges of the first and of the last lattice at which it is found; 0: among all points
-  double last_scale = 0;
+  // Edges of the first and of the last lattice at which it is found; 0: among all points.
+  double first_scale = 0, last_scale = 0;
 };
 
 // What a user sorts and filters loops by. Lengths in units of the scan.
@@ -46,14 +45,11 @@ struct LoopMeasures {
   double area = 0;                    // of the loop seen along its normal
   double diameter = 0;                // largest distance between two of its points
   Eigen::Vector3d centroid{0, 0, 0};  // of its points
-  Eigen::Vector3d normal{0, 0,
-                         0};  // unit; right hand rule about the loop's direction; 0 where it encloses nothing
-  double planarity = 0;       // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
+  // Unit; right hand rule about the loop's direction; 0 where it encloses nothing.
+  Eigen::Vector3d normal{0, 0, 0};
+  double planarity = 0;  // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
-  double confidence = 1;  // as in `LoopTrack`, and so are the next three
-  double persistence = 0;
-  double first_scale = 0;
-  double last_scale = 0;
+  LoopTrack track;
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 

@@ -4,8 +4,6 @@
 #include "engine/model/ids.hpp"
 
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,9 +60,6 @@ struct Tiling {
 
   TileIndex tile_of_cell(std::uint32_t cell) const;
   TileIndex tile_of_row(Row row) const;
-  // visit(tile) for each whose cells' boxes have this place, in ascending order.
-  template <class Visit>
-  void for_each_tile_at(const Eigen::Vector3d& place, Visit&& visit) const;
   std::vector<TileIndex> tiles_of(std::span<const Row> rows) const;  // each once, in ascending order
   std::uint64_t row_count() const;                                   // rows up to the last used one
   std::uint64_t points() const;                                      // distinct ones
@@ -77,29 +72,6 @@ struct Tiling {
   std::uint32_t build_node(std::uint32_t first, std::uint32_t last);
   std::uint32_t halve(std::uint32_t first, std::uint32_t last) const;
 };
-
-template <class Visit>
-void Tiling::for_each_tile_at(const Eigen::Vector3d& place, Visit&& visit) const {
-  std::vector<std::uint32_t> ahead;
-  if (!nodes.empty()) ahead.push_back(0);
-  std::optional<TileIndex> last;
-  while (!ahead.empty()) {
-    const CellNode& node = nodes[ahead.back()];
-    ahead.pop_back();
-    if (!node.box.contains(place)) continue;
-    if (node.left != 0) {
-      ahead.push_back(node.right);
-      ahead.push_back(node.left);
-      continue;
-    }
-    for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
-      if (!cells[cell].box.contains(place)) continue;
-      const TileIndex tile = tile_of_cell(cell);
-      if (last != tile) visit(tile);
-      last = tile;
-    }
-  }
-}
 
 // Lower and upper bound of the squared distance between a point of `a` and a point of `b`.
 double min_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);

@@ -1,14 +1,28 @@
 #include "engine/results/loop_rows.hpp"
 
+#include "engine/halo/distance_bound.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/outbox.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <vector>
 
 namespace lacuna {
 namespace {
+
+// visit(tile) for each that may have a point at this place.
+template <class Visit>
+void for_each_tile_at(const Tiling& tiling, const Eigen::Vector3d& place, Visit&& visit) {
+  std::optional<TileIndex> last;
+  for_each_cell_near(tiling, Eigen::AlignedBox3d(place), 0, 0, 0, [&](std::uint32_t cell) {
+    const TileIndex tile = tiling.tile_of_cell(cell);
+    if (last != tile) visit(tile);
+    last = tile;
+    return true;
+  });
+}
 
 // Sends every point on a loop to the tiles that may have it.
 void send_points(const PlacedLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
@@ -19,7 +33,7 @@ void send_points(const PlacedLoops& loops, std::span<const std::size_t> selected
     const bool is_reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = is_reported ? static_cast<std::int32_t>(next_selected++) : kNotReported;
     loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      tiling.for_each_tile_at(p.point.position(), [&](TileIndex t) {
+      for_each_tile_at(tiling, p.point.position(), [&](TileIndex t) {
         outbox.add(t, {kNoIndex, name, p.probability, p.point});
       });
     });

@@ -41,10 +41,10 @@ LoopMeasures measures_of(const Json& record) {
           .normal = vector(record.at("normal")),
           .planarity = number(record.at("planarity")),
           .mean_probability = number(record.at("mean_probability")),
-          .confidence = number(record.at("confidence")),
-          .persistence = number(record.at("persistence")),
-          .first_scale = number(record.at("first_scale")),
-          .last_scale = number(record.at("last_scale")),
+          .track = {.confidence = number(record.at("confidence")),
+                    .persistence = number(record.at("persistence")),
+                    .first_scale = number(record.at("first_scale")),
+                    .last_scale = number(record.at("last_scale"))},
           .tiles = record.at("tiles").get<std::uint64_t>()};
 }
 

@@ -18,10 +18,10 @@ struct LoopMeasure {
 
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"points", "points", [](const LoopMeasures& loop) { return static_cast<double>(loop.points); }, true},
-    {"confidence", "confidence", [](const LoopMeasures& loop) { return loop.confidence; }},
-    {"persistence", "persist", [](const LoopMeasures& loop) { return loop.persistence; }},
-    {"first_scale", "first_scal", [](const LoopMeasures& loop) { return loop.first_scale; }},
-    {"last_scale", "last_scale", [](const LoopMeasures& loop) { return loop.last_scale; }},
+    {"confidence", "confidence", [](const LoopMeasures& loop) { return loop.track.confidence; }},
+    {"persistence", "persist", [](const LoopMeasures& loop) { return loop.track.persistence; }},
+    {"first_scale", "first_scal", [](const LoopMeasures& loop) { return loop.track.first_scale; }},
+    {"last_scale", "last_scale", [](const LoopMeasures& loop) { return loop.track.last_scale; }},
     {"perimeter", "perimeter", [](const LoopMeasures& loop) { return loop.perimeter; }},
     {"area", "area", [](const LoopMeasures& loop) { return loop.area; }},
     {"diameter", "diameter", [](const LoopMeasures& loop) { return loop.diameter; }},

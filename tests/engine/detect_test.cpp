@@ -138,7 +138,7 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
   CHECK(engine.loop_ids() == in_report_order(plain.loops));
   REQUIRE(engine.loops.size() == plain.confidences.size());
   std::vector<double> confidences;
-  for (const ReportedLoop& loop : engine.loops) confidences.push_back(loop.measures.confidence);
+  for (const ReportedLoop& loop : engine.loops) confidences.push_back(loop.measures.track.confidence);
   std::vector<double> expected = plain.confidences;
   std::sort(confidences.begin(), confidences.end());
   std::sort(expected.begin(), expected.end());

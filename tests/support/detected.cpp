@@ -47,8 +47,9 @@ std::string Detected::bytes() const {
   }
   for (const ReportedLoop& loop : loops) {
     const LoopMeasures& m = loop.measures;
-    for (const double value : {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability, m.confidence,
-                               m.persistence, m.first_scale, m.last_scale})
+    for (const double value :
+         {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability, m.track.confidence,
+          m.track.persistence, m.track.first_scale, m.track.last_scale})
       put(bytes, value);
     put(bytes, m.kind);
     put(bytes, m.points);

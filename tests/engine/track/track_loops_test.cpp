@@ -259,7 +259,7 @@ TEST_CASE(
   }
   REQUIRE(holes.size() == 1);
   CHECK(holes[0].measures.diameter == Approx(80).margin(15));
-  CHECK(holes[0].measures.last_scale >= 8);
+  CHECK(holes[0].measures.track.last_scale >= 8);
   Config every_point;
   every_point.scale.every_point = true;
   CHECK(run_engine(cloud, every_point).summary.levels.size() == 1);
