@@ -7,6 +7,7 @@
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/levels/level.hpp"
+#include "engine/levels/sealed_level.hpp"
 #include "engine/run/job.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/temporary_folder.hpp"
@@ -35,7 +36,8 @@ LevelLoops find_loops(const Level& level, double extent, Totals& totals, Job& jo
   tangential::TangentialBoundary boundary(level.store, job);
   const std::vector<TileConsumer*> consumers = {&boundary};
   const double eps = eps_length(job.config.neighbourhood, extent);
-  totals = evaluate_tiles(level.store, exchange_halo(level.store, job), eps, extent, consumers, job);
+  KeptOutputs kept = find_outputs(level, job);
+  totals = evaluate_tiles(level.store, exchange_halo(level.store, job), eps, extent, kept, consumers, job);
   const FoundLoops found = boundary.find_loops(totals, job);
   return level_loops(level, totals, found, boundary, job);
 }

@@ -142,8 +142,8 @@ struct RunConfig {
   std::int64_t threads = 0;        // 0: one per core
   std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory
   std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
-  std::string workspace;           // folder for what does not fit in memory; empty: inside the output folder
-  bool keep_index = false;         // index.vdb in the workspace: cells and tiles, for OpenVDB's tools
+  std::string workspace;           // folder of a run that can go on later; empty: it cannot
+  std::string scratch;             // folder for temporary files; empty: in the workspace or the output folder
 };
 
 struct Config {

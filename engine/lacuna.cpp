@@ -17,10 +17,10 @@ using Vectors = std::span<const Eigen::Vector3d>;
 Holes find_holes(PointSource& scan, const Config& config) {
   namespace fs = std::filesystem;
   const fs::path parent =
-      config.run.workspace.empty() ? fs::temp_directory_path() : fs::path(config.run.workspace);
-  const TemporaryFolder workspace(parent, "lacuna-");
+      config.run.scratch.empty() ? fs::temp_directory_path() : fs::path(config.run.scratch);
+  const TemporaryFolder scratch(parent, "lacuna-");
   NoProgress silence;
-  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), silence);
+  const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), silence);
 
   Holes holes;
   holes.summary = detection->summary();

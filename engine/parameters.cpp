@@ -195,7 +195,11 @@ std::vector<Parameter> parameters(Config& config) {
       {"run", "tile_points", &run.tile_points, 0, 1e9, "a whole number from 0 (automatic) to 1000000000",
        "Points per tile at most; 0: chosen from threads and memory limit.", kNothing},
       {"run", "workspace", &run.workspace, 0, 0, "the name of a folder",
-       "Folder for what does not fit in memory; empty: inside the output folder.", kNothing},
+       "Folder in which a run keeps what it has done, so that the same command goes on after a stop; empty: "
+       "none.",
+       kNothing},
+      {"run", "scratch", &run.scratch, 0, 0, "the name of a folder",
+       "Folder for temporary files; empty: inside the workspace, else inside the output folder.", kNothing},
   };
   all.insert(all.end(), others.begin(), others.end());
   return all;

@@ -6,6 +6,7 @@
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/levels/level.hpp"
+#include "engine/levels/sealed_level.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
@@ -16,6 +17,7 @@
 #include "engine/summarise.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
+#include "engine/workspace/workspace.hpp"
 
 #include <memory>
 #include <optional>
@@ -46,7 +48,8 @@ FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundar
   const double eps = eps_length(job.config.neighbourhood, extent);
   AppendLists<HaloEdge> halo = exchange_halo(level.store, job);
   consumers.push_back(&boundary);
-  Totals totals = evaluate_tiles(level.store, std::move(halo), eps, extent, consumers, job);
+  KeptOutputs kept = find_outputs(level, job);
+  Totals totals = evaluate_tiles(level.store, std::move(halo), eps, extent, kept, consumers, job);
   FoundLoops found = boundary.find_loops(totals, job);
   LevelLoops loops = level_loops(level, totals, found, boundary, job);
   return {std::move(totals), std::move(found), std::move(loops)};
@@ -70,10 +73,11 @@ void find_loops_above(const Level& first, double extent, Totals totals, std::vec
 }  // namespace
 
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
-                                  const std::filesystem::path& workspace, Progress& progress) {
+                                  const std::filesystem::path& scratch, Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
-  Job job(config, workspace, progress);
+  Job job(config, scratch, progress);
+  open_workspace(scan, job);
 
   // Survey and bucket: where the points are, and the points in tiles on disk.
   Level first = first_level(scan, job);
@@ -92,9 +96,9 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   std::optional<OrientationGraph> orientation;
   std::vector<TileConsumer*> consumers = {&candidates};
   if (config.output.points) consumers.push_back(&points.emplace(summary.counts.points, store, job));
-  if (config.output.vdb) consumers.push_back(&voxels.emplace(job));
+  if (config.output.vdb) consumers.push_back(&voxels.emplace(store, job));
   if (const std::int64_t most = config.output.sample_points; most > 0)
-    consumers.push_back(&sampler.emplace(static_cast<std::uint64_t>(most), job));
+    consumers.push_back(&sampler.emplace(static_cast<std::uint64_t>(most), store, job));
   if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
   FoundLevel found = find_loops(first, extent, *boundary, std::move(consumers), job);
 

@@ -12,9 +12,12 @@
 namespace lacuna {
 
 // Finds the boundary probability of every point and the loops around every hole of `scan`. What does not
-// fit in memory goes to `workspace`, an existing empty folder that must outlive the result. Throws `Error`.
-// The result is the same, bit for bit, for every `config.run`.
+// fit in memory goes to `scratch`, an existing empty folder that must outlive the result. Throws `Error`. The
+// result is the same, bit for bit, for every `config.run`.
+//
+// Where the config names a workspace, an existing folder, what is done is kept there. A later call with the
+// same input and parameters goes on from it (workspace/workspace.hpp).
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
-                                  const std::filesystem::path& workspace, Progress& progress);
+                                  const std::filesystem::path& scratch, Progress& progress);
 
 }  // namespace lacuna

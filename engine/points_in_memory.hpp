@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -23,6 +25,7 @@ class PointsInMemory final : public PointSource {
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return points_.size(); }
   bool has_normals() const override { return !normals_.empty(); }
+  std::vector<std::string> identity() const override;  // by all values
 
  private:
   std::span<const Eigen::Vector3d> points_, normals_;

@@ -23,6 +23,7 @@ constexpr double kListBytes = 12'000, kBeltBytes = 4'500;
 constexpr double kPointAtWork = 390, kCandidateAtWork = 400, kOrientedAtWork = 300;
 constexpr std::uint64_t kProgram = 18 << 20;  // while tiles are evaluated
 constexpr std::uint64_t kSpreadResult = 72;   // of a point that another one represents
+constexpr std::uint64_t kKeptBytes = 80;     // of a point, in the outputs of its tile: on rough surfaces
 constexpr double kLevelAbove = 0.65;          // points of the level above the first one, for one of that
 
 std::uint64_t beyond(std::uint64_t bytes, std::uint64_t budget) {
@@ -116,18 +117,28 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t above =
       size.has_levels
           ? static_cast<std::uint64_t>(
-                kLevelAbove * static_cast<double>(exchanged + size.points * (2 * sizeof(Representative) +
+                kLevelAbove * static_cast<double>(exchanged + size.points * (sizeof(Representative) +
                                                                              2 * stored_point(size))))
           : 0;
+
+  // The workspace also has the stores of levels above, and the outputs.
+  const std::uint64_t kept =
+      job.config.run.workspace.empty()
+          ? 0
+          : size.points * (kKeptBytes + stored_point(size) + (output.points ? result_bytes() : 0) +
+                           (output.vdb ? sizeof(float) : 0) +
+                           (job.config.normals.orient ? sizeof(StoredNormal) + sizeof(OrientationEdge) : 0));
 
   DiskNeeds needs;
   const std::uint64_t input = kept_bytes(size) + thinned + chosen + store;
   needs.last = sample + results + voxels + represented +
                (size.is_thinned && output.points ? beyond(size.rows * kSpreadResult, spills / 4) : 0);
   needs.most = std::max({input,
-                         thinned + store + exchanged + sorted_sample + sample + results + voxels +
-                             voxel_work + orientation + represented + above,
-                         needs.last});
+                         store + exchanged + sorted_sample + sample + results + voxels + voxel_work +
+                             orientation + represented + above,
+                         needs.last}) +
+               kept;
+  needs.last += kept;
   return needs;
 }
 

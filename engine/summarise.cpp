@@ -2,10 +2,14 @@
 
 #include "engine/bucket/strays.hpp"
 
+#include <optional>
+
 namespace lacuna {
 
 Summary summarise(const Level& level, const Job& job) {
-  const auto& [thinned, survey, tile_points, store] = level;
+  const std::optional<ThinnedScan>& thinned = level.thinned;
+  const SurveyedScan& survey = level.survey;
+  const TileStore& store = level.store;
   Summary summary;
   summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
@@ -14,13 +18,13 @@ Summary summarise(const Level& level, const Job& job) {
     summary.resolution = thinned->edge;
     summary.counts.points = thinned->points;
     summary.counts.dropped = thinned->dropped;
-    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->representatives.size();
+    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->left;
     summary.bounds = thinned->bounds;
   }
   summary.strays = find_strays(store);
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
   summary.tiles = store.tiling().tiles.size();
-  summary.tile_points = tile_points;
+  summary.tile_points = level.tile_points;
   summary.threads = job.arena.threads();
   summary.memory_limit = job.memory.limit;
   return summary;

@@ -141,6 +141,38 @@ bool FileScan::reads_slowly() const {
   return reads_slowly_;
 }
 
+std::vector<std::string> FileScan::identity() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::ostringstream line;
+    line.precision(std::numeric_limits<double>::max_digits10);
+    const Digest sample = sample_digest(files_[i], states_[i]);
+    line << std::filesystem::absolute(files_[i]).lexically_normal().string() << ", " << states_[i].size
+         << " bytes, written at " << states_[i].mtime << " ns, sample " << std::hex << sample[0] << sample[1]
+         << std::dec;
+    if (poses_[i])
+      line << ", pose " << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+    lines.push_back(line.str());
+  }
+  return lines;
+}
+
+std::vector<std::uint64_t> FileScan::pass_counts() const {
+  std::vector<std::uint64_t> counts = rows_read_;
+  for (const std::uint64_t left_out :
+       {filtered_out_.origin, filtered_out_.bounds, filtered_out_.classes, filtered_out_.returns})
+    counts.push_back(left_out);
+  return counts;
+}
+
+void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
+  if (counts.size() != rows_read_.size() + 4)
+    fail_inconsistent("the workspace counts another number of files");
+  std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
+  const auto left_out = counts.subspan(rows_read_.size());
+  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3]};
+}
+
 bool FileScan::single_precision() const {
   return std::all_of(layouts_.begin(), layouts_.end(), [](const RowLayout& layout) {
     return std::all_of(kPositionNames.begin(), kPositionNames.end(),

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,6 +44,11 @@ class FileScan : public PointSource {
   std::optional<std::uint64_t> expected_points() const override;
   bool has_normals() const override;   // any file has nx ny nz
   bool reads_slowly() const override;  // any file does
+  // Name, size, time and a sample of each file, and its pose.
+  std::vector<std::string> identity() const override;
+  // Rows that were read of each file, and those that the filters left out.
+  std::vector<std::uint64_t> pass_counts() const override;
+  void set_pass_counts(std::span<const std::uint64_t> counts) override;
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   const std::vector<std::optional<Pose>>& poses() const { return poses_; }  // one per file

@@ -2,10 +2,14 @@
 
 #include "engine/run/error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <sys/stat.h>
 
@@ -44,6 +48,21 @@ FileState file_state(const std::filesystem::path& file) {
   const auto state = look_up(file);
   if (!state) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
   return *state;
+}
+
+Digest sample_digest(const std::filesystem::path& file, const FileState& state) {
+  constexpr std::uint64_t kBlocks = 16, kBlock = 64 << 10;
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> sample;
+  for (std::uint64_t i = 0; i < kBlocks; ++i) {
+    const std::uint64_t last = state.size - std::min(state.size, kBlock);
+    const std::size_t before = sample.size();
+    sample.resize(before + std::min(state.size, kBlock));
+    in.seekg(static_cast<std::streamoff>(last / (kBlocks - 1) * i));
+    in.read(&sample[before], static_cast<std::streamsize>(sample.size() - before));
+  }
+  if (!in) throw Error(file.string() + ": cannot be read: " + std::strerror(errno));
+  return digest_of(std::as_bytes(std::span(sample)));
 }
 
 void check_unchanged(const std::filesystem::path& file, const FileState& before) {

@@ -1,6 +1,8 @@
 // Whether a file is still the one that was read before, with the same content.
 #pragma once
 
+#include "engine/store/sealed_part.hpp"
+
 #include <cstdint>
 #include <filesystem>
 
@@ -16,6 +18,9 @@ struct FileState {
 
 // Throws `Error` if there is no such file.
 FileState file_state(const std::filesystem::path& file);
+
+// The digest of some blocks that are spread over the file, with the first and the last. Throws `Error`.
+Digest sample_digest(const std::filesystem::path& file, const FileState& state);
 
 // Throws `Error`, with what differs, unless the file has the state that it had `before`. Content of the same
 // length written within the clock tick of `before` (milliseconds) is not noticed.

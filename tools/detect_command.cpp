@@ -5,9 +5,11 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
+#include "engine/workspace/workspace.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/results.hpp"
 #include "tools/disk_check.hpp"
+#include "tools/folders.hpp"
 #include "tools/input_files.hpp"
 #include "tools/log_file.hpp"
 #include "tools/overall_progress.hpp"
@@ -19,7 +21,7 @@
 #include "tools/terminal.hpp"
 #include "tools/value_options.hpp"
 #include "tools/visible_text.hpp"
-#include "tools/workspace.hpp"
+#include "tools/workspace_commands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -55,13 +57,45 @@ struct DetectArguments {
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
   fs::path log_file;
-  bool keep_workspace = false;
+  bool restart = false;
   bool overwrite = false;
   ParameterOptions parameters;
 };
 
 void require(const CLI::App& command, const std::string& option) {
   if (command.get_option(option)->count() == 0) throw CLI::RequiredError(option);
+}
+
+// A workspace that this run alone uses.
+struct UsedWorkspace {
+  explicit UsedWorkspace(const fs::path& folder) : folder(folder), alone(this->folder.path()) {}
+  MadeFolder folder;
+  FolderLock alone;
+};
+
+// None where the name is empty. Says what is there of an earlier run, or removes it.
+std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out, bool restart) {
+  if (name.empty()) {
+    if (restart) throw UsageError("--restart needs --workspace");
+    return nullptr;
+  }
+  std::error_code error;
+  if (fs::equivalent(name, out, error))
+    throw UsageError(name + ": is the folder of the results, too; allowed: another one for --workspace");
+  auto used = std::make_unique<UsedWorkspace>(name);
+  const fs::path& folder = used->folder.path();
+  for (const fs::path& left : find_folders(folder, "lacuna-")) fs::remove_all(left, error);
+  if (restart) {
+    for (const fs::path& file : workspace_files(folder)) remove_part(file);
+  } else if (const std::optional<WorkspaceState> state = state_of_workspace(folder)) {
+    spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
+  }
+  return used;
+}
+
+fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
+  if (!run.scratch.empty()) return run.scratch;
+  return run.workspace.empty() ? out : fs::path(run.workspace);
 }
 
 // Empty where every program reads what was written.
@@ -92,16 +126,18 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  const MadeFolder parent(config.run.workspace.empty() ? out : fs::path(config.run.workspace));
-  TemporaryFolder workspace(parent.path(), config.run.workspace.empty() ? kTemporaryPrefix : "lacuna-");
-  if (arguments.keep_workspace) workspace.keep();
+  const std::unique_ptr<UsedWorkspace> workspace =
+      use_workspace(config.run.workspace, out, arguments.restart);
+  if (workspace) watch_workspace(workspace->folder.path());
+  const MadeFolder parent(scratch_parent(config.run, out));
+  const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
   for (const std::string& warning : check_disks(scan, config, parent.path(), out))
     spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress, expected_stages(config));
 
-  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), *progress);
+  const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
@@ -117,13 +153,14 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
                                       scan.length_unit());
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
   summary += readers_note(scan, config.output, written);
-  if (arguments.keep_workspace) summary += "workspace kept: " + visible(workspace.path().string()) + "\n";
+  if (workspace)
+    summary += "kept: " + visible(config.run.workspace) +
+               ", from which the same command goes on; lacuna clean removes it\n";
   return summary;
 }
 
 void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   auto [config, warnings] = arguments.parameters.read();
-  config.run.keep_index = arguments.keep_workspace;
   if (arguments.print_config) {
     std::cout << print_config(config);
     return;
@@ -160,8 +197,8 @@ void add_detect_command(CLI::App& app) {
       ->add_option("--log-file", arguments->log_file,
                    "Append warnings, errors and the times of stages to this file, with the time of each")
       ->type_name("FILE");
-  command->add_flag("--keep-workspace", arguments->keep_workspace,
-                    "Leave the workspace with index.vdb, the cells and tiles as OpenVDB has them");
+  command->add_flag("--restart", arguments->restart,
+                    "Begin anew: without what the workspace has of an earlier run");
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace files that lacuna detect did not write, too, where results need their names");
   command->callback([command, arguments] { run_detect(*command, *arguments); });

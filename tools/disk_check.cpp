@@ -47,9 +47,9 @@ std::vector<std::string> check_disks(const FileScan& scan, const Config& config,
     // The points of the workspace are gone when the results are written.
     const Needs both{std::max(run.certain, results.certain),
                      std::max(run.probable, disk.last + results.probable)};
-    check(workspace, of_workspace, both, kOtherWorkspace, warnings);
+    check(workspace, of_workspace, both, kOtherScratch, warnings);
   } else {
-    check(workspace, of_workspace, run, kOtherWorkspace, warnings);
+    check(workspace, of_workspace, run, kOtherScratch, warnings);
     check(out, of_results, results, "; --out names a folder on another one", warnings);
   }
   return warnings;

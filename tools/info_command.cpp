@@ -9,13 +9,13 @@
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/result_bytes.hpp"
+#include "tools/folders.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
-#include "tools/workspace.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -95,8 +95,8 @@ std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConf
 RunInfo estimate_run(FileScan& scan, const Config& config) {
   RunInfo run;
   NoProgress silence;
-  const MadeFolder parent(config.run.workspace.empty() ? fs::temp_directory_path()
-                                                       : fs::path(config.run.workspace));
+  const MadeFolder parent(config.run.scratch.empty() ? fs::temp_directory_path()
+                                                     : fs::path(config.run.scratch));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   run.estimate = estimate(scan, config, workspace.path(), silence);
   const Summary& summary = run.estimate.summary;
@@ -159,7 +159,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << print_size(run.estimate.memory) << " at the peak\n  workspace     about "
             << print_size(run.estimate.disk.most) << " on disk\n  results       about "
             << print_size(run.results.all()) << " on disk, and more with more holes\n  " << run.points_file
-            << "    " 
+            << "    "
             << (run.points_bytes ? print_size(*run.points_bytes) +
                                        (run.results.points > 0 ? ", in these results" : ", with --points")
                                  : "cannot hold all columns; --points-format ply can")

@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build dpkg-dev
   libopenvdb-dev libtbb-dev libeigen3-dev libnanoflann-dev libspdlog-dev libtomlplusplus-dev
-  libcli11-dev nlohmann-json3-dev libhwy-dev libpugixml-dev libgdal-dev libpng-dev catch2
+  libcli11-dev nlohmann-json3-dev libhwy-dev libxxhash-dev libpugixml-dev libgdal-dev libpng-dev catch2
   libjs-three  # a report's 3D view: put into the program by the build
   # OpenVDB's headers include Boost's, and its CMake module needs these:
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev

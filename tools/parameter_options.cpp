@@ -28,15 +28,17 @@ struct TypeName {
 };
 
 std::string type_name(const Parameter& parameter) {
-  return parameter.key == "workspace" ? "DIR" : std::visit(TypeName{}, parameter.value);
+  return parameter.key == "workspace" || parameter.key == "scratch" ? "DIR"
+                                                                    : std::visit(TypeName{}, parameter.value);
 }
 
 }  // namespace
 
 ParameterOptions::ParameterOptions(CLI::App& command) {
   command
-      .add_option("--config", config_file_,
-                  "Config file (TOML), or the name of one that is installed; options of the command line override it")
+      .add_option(
+          "--config", config_file_,
+          "Config file (TOML), or the name of one that is installed; options of the command line override it")
       ->type_name("CONFIG");
   Config defaults;
   for (const Parameter& parameter : parameters(defaults)) {

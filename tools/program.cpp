@@ -15,6 +15,7 @@
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
+#include "tools/workspace_commands.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -167,6 +168,8 @@ int run(int argc, char** argv) {
   add_detect_command(app);
   add_evaluate_command(app);
   add_info_command(app);
+  add_status_command(app);
+  add_clean_command(app);
   add_report_command(app);
   add_render_command(app);
   add_synth_command(app);

@@ -2,8 +2,8 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
+#include "tools/folders.hpp"
 #include "tools/terminal.hpp"
-#include "tools/workspace.hpp"
 
 #include <atomic>
 #include <csignal>
@@ -52,6 +52,7 @@ struct WatchedResults {
 
 std::mutex watched_mutex;
 std::optional<WatchedResults> watched;
+std::filesystem::path watched_workspace;  // empty: none
 
 std::string completeness(const WatchedResults& results) {
   return "; the results in " + results.folder.string() + " are complete";
@@ -62,7 +63,10 @@ std::string last_line() {
   std::string line = "lacuna: interrupted";
   if (!watched) return line;
   const bool is_complete = watched->are_complete || !(Identity(watched->report) == watched->before);
-  return line + (is_complete ? completeness(*watched) : "; " + watched->folder.string() + " is as it was");
+  if (is_complete) return line + completeness(*watched);
+  line += "; " + watched->folder.string() + " is as it was";
+  if (watched_workspace.empty()) return line;
+  return line + "; the same command goes on from " + watched_workspace.string();
 }
 
 void wait_for_signal(sigset_t signals) {
@@ -98,6 +102,11 @@ void handle_signals() {
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report) {
   const std::lock_guard lock(watched_mutex);
   watched = {.folder = folder, .report = report, .before = Identity(report)};
+}
+
+void watch_workspace(const std::filesystem::path& folder) {
+  const std::lock_guard lock(watched_mutex);
+  watched_workspace = folder;
 }
 
 void note_complete_results() {

@@ -7,7 +7,7 @@
 namespace lacuna::tools {
 
 // From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
-// empty folders that were made for the run (tools/workspace.hpp). They print one line, if stderr takes it at
+// empty folders that were made for the run (tools/folders.hpp). They print one line, if stderr takes it at
 // once, and end the program with exit code 128 + signal. Call before any other thread starts. The signals are
 // blocked in all threads and awaited in one of its own, where, unlike in a signal handler, removing files is
 // safe. Throws `Error` if that thread cannot be started.
@@ -17,6 +17,9 @@ void handle_signals();
 // whether that has happened. From now on the line about a signal says so: "lacuna: interrupted; DIR is as it
 // was".
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report);
+
+// What is done is kept in this folder, and the line about a signal says so.
+void watch_workspace(const std::filesystem::path& folder);
 
 // The results have replaced what was in the folder of watch_results.
 void note_complete_results();

@@ -21,7 +21,7 @@ Candidates::Candidates(const TileStore& store, const Job& job)
       lists_(job.file("candidates"), tiling_.tiles.size(), job.memory.spills / 12),
       dependents_(tiling_.tiles.size()) {}
 
-void Candidates::take(const EvaluatedTile& tile) {
+void Candidates::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<StoredCandidate> candidates;
   for (const LocalIndex p : tile.candidates) {
     const Evaluation& e = tile.evaluations[p];
@@ -29,7 +29,11 @@ void Candidates::take(const EvaluatedTile& tile) {
     const std::vector<Row>& rows = tile.points.rows;
     candidates.push_back({{rows[p], rows[e.gap_near], rows[e.gap_far]}, tile.stored(p), tile.probability(p)});
   }
-  add(tile.index, candidates);
+  output.add("candidates", candidates);
+}
+
+void Candidates::absorb(TileIndex tile, const TileOutput& output) {
+  add(tile, output.read<StoredCandidate>("candidates"));
 }
 
 void Candidates::add(TileIndex tile, std::span<const StoredCandidate> candidates) {

@@ -25,7 +25,8 @@ class Candidates final : public TileConsumer {
  public:
   Candidates(const TileStore& store, const Job& job);
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
 
   std::vector<StoredCandidate> read(TileIndex tile) const { return lists_.read(tile); }
   // Appends candidates of a tile, in ascending row. From any thread.

@@ -1,7 +1,6 @@
 #include "engine/bucket/bucket_scan.hpp"
 
 #include "engine/bucket/cell_index.hpp"
-#include "engine/bucket/index_file.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/set_aside.hpp"
 #include "engine/run/error.hpp"
@@ -147,13 +146,13 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
 }  // namespace
 
 TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, Job& job) {
+                      Precision precision, StoreFiles files, Job& job) {
   std::uint64_t points = 0;
   for (const CountedCell& cell : plan.cells) points += cell.points;
   for (const CountedCell& cell : plan.aside) points += cell.points;
   Phase phase(job, "bucket", 2 * points);
   const std::uint64_t cell_points = job.cell_points(points);
-  TileStore store(job.workspace, plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
+  TileStore store(std::move(files), plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
                   job.memory.spills / 8);
   SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
   Destinations to(plan);
@@ -174,11 +173,7 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
     store.add_duplicates(number, ordered.duplicates);
     phase.advance(raw.size());
   });
-  store.seal();
-  if (job.config.run.keep_index) {
-    to.index.number_by(store.tiling());
-    save_index(to.index, store.tiling(), job.file("index.vdb"));
-  }
+  store.finish();
   return store;
 }
 

@@ -9,8 +9,8 @@
 namespace lacuna {
 
 // Streams the scan and stores every distinct finite point in its tile, in cell order. `bounds`: of all
-// points.
+// points. `files`: empty ones for the store.
 TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, Job& job);
+                      Precision precision, StoreFiles files, Job& job);
 
 }  // namespace lacuna

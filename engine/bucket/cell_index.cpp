@@ -78,14 +78,5 @@ void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::
 }
 
 // A cell of the tiling lies inside one cell of the grid, unless its points were far: then it may span many.
-void CellIndex::number_by(const Tiling& tiling) {
-  auto numbers = grid_->numbers->getUnsafeAccessor();
-  for (std::size_t c = tiling.cells.size(); c-- > 0;) {
-    const CellCoord cell = grid_->cells.cell_of(tiling.cells[c].box.min());
-    const bool is_inside = cell == grid_->cells.cell_of(tiling.cells[c].box.max());
-    if (is_inside && numbers.isValueOn(coord_of(cell)))
-      numbers.setValueOnly(coord_of(cell), static_cast<std::int32_t>(c));
-  }
-}
 
 }  // namespace lacuna

@@ -130,15 +130,43 @@ double length_unit(double extent) {
   return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
 }
 
-void operator+=(Totals& totals, const Totals& more) {
-  totals.points += more.points;
-  totals.neighbours += more.neighbours;
-  totals.candidates += more.candidates;
-  totals.undefined_normals += more.undefined_normals;
-  totals.edge_length += more.edge_length;
-  for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
-    totals.probabilities[bin] += more.probabilities[bin];
-  for (const auto& [bin, count] : more.distances.counts) totals.distances.counts[bin] += count;
+// The sums of a tile as its output has them.
+struct TileSums {
+  std::uint64_t points, neighbours, candidates, undefined_normals;
+  ProbabilityBins probabilities;
+  std::uint64_t edge_length_low;
+  std::int64_t edge_length_high;
+};
+struct DistanceBin {
+  std::uint64_t bin, count;
+};
+
+void emit_sums(const Totals& sums, TileOutput& output) {
+  const TileSums stored{.points = sums.points,
+                        .neighbours = sums.neighbours,
+                        .candidates = sums.candidates,
+                        .undefined_normals = sums.undefined_normals,
+                        .probabilities = sums.probabilities,
+                        .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
+                        .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
+  output.add("sums", std::span(&stored, 1));
+  std::vector<DistanceBin> bins;
+  for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
+  output.add("distances", bins);
+}
+
+void absorb_sums(const TileOutput& output, Totals& totals) {
+  for (const TileSums& sums : output.read<TileSums>("sums")) {
+    totals.points += sums.points;
+    totals.neighbours += sums.neighbours;
+    totals.candidates += sums.candidates;
+    totals.undefined_normals += sums.undefined_normals;
+    totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
+    for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
+      totals.probabilities[bin] += sums.probabilities[bin];
+  }
+  for (const DistanceBin& bin : output.read<DistanceBin>("distances"))
+    totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
 }
 
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
@@ -198,25 +226,37 @@ double Totals::mean_edge_length() const {
 }
 
 Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
-                      std::span<TileConsumer* const> consumers, Job& job) {
+                      KeptOutputs& kept, std::span<TileConsumer* const> consumers, Job& job) {
   const Tiling& tiling = store.tiling();
   Totals totals{.length_unit = length_unit(extent)};
   Phase phase(job, "evaluate", tiling.points());
+  std::mutex mutex;
+  const auto absorb = [&](TileIndex index, const TileOutput& output) {
+    for (TileConsumer* const consumer : consumers) consumer->absorb(index, output);
+    phase.advance(tiling.tiles[index].points);
+    const std::lock_guard lock(mutex);
+    absorb_sums(output, totals);
+  };
+  kept.for_each(job, absorb);
 
-  std::vector<std::uint64_t> needs(tiling.tiles.size());
-  job.arena.for_each(needs.size(), [&](std::size_t t) {
+  std::vector<TileIndex> missing;
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    if (!kept.has(t)) missing.push_back(t);
+  }
+  std::vector<std::uint64_t> needs(missing.size());
+  job.arena.for_each(needs.size(), [&](std::size_t i) {
+    const TileIndex t = missing[i];
     const Tile& tile = tiling.tiles[t];
     std::uint64_t foreign = halo.count(t);
     for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
-    needs[t] =
+    needs[i] =
         job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
-  std::mutex mutex;
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
-    const auto index = static_cast<TileIndex>(t);
-    const Tile& tile = tiling.tiles[t];
-    std::vector<HaloEdge> inbox = halo.read(t);
-    halo.drop(t);
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
+    const TileIndex index = missing[i];
+    const Tile& tile = tiling.tiles[index];
+    std::vector<HaloEdge> inbox = halo.read(index);
+    halo.drop(index);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
     const Neighbourhoods neighbourhoods =
@@ -229,14 +269,15 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
     const Totals sums =
         sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
-    for (TileConsumer* const consumer : consumers)
-      consumer->take({index, tile, points, neighbourhoods, evaluations, values, candidates, is_border});
-    {
-      const std::lock_guard lock(mutex);
-      totals += sums;
-    }
-    phase.advance(points.owned);
+    const EvaluatedTile evaluated{index,       tile,   points,     neighbourhoods,
+                                  evaluations, values, candidates, is_border};
+    TileOutput output;
+    emit_sums(sums, output);
+    for (const TileConsumer* const consumer : consumers) consumer->emit(evaluated, output);
+    kept.add(index, output);
+    absorb(index, output);
   });
+  kept.finish();
   return totals;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/evaluate/kept_outputs.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
@@ -46,8 +47,10 @@ struct Totals {
   double median_distance() const { return distances.median(); }
 };
 
-// Consumes the halo. `eps`: a length, 0: off. `extent`: the largest distance between points.
+// Evaluates the tiles whose output is not kept, and hands the outputs of all to the consumers. Consumes the
+// halo, which may be empty where all are kept. `eps`: a length, 0: off. `extent`: the largest distance
+// between points.
 Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
-                      std::span<TileConsumer* const> consumers, Job& job);
+                      KeptOutputs& kept, std::span<TileConsumer* const> consumers, Job& job);
 
 }  // namespace lacuna

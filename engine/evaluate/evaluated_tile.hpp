@@ -1,8 +1,8 @@
-// What the evaluation of a tile hands on. Each consumer keeps what it needs in lists of its own, and nothing
-// else of the tile stays: the neighbour graph never touches the disk.
+// What the evaluation of a tile hands on, and who takes it.
 #pragma once
 
 #include "engine/criteria/evaluation.hpp"
+#include "engine/evaluate/tile_output.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/tiling.hpp"
@@ -34,33 +34,32 @@ struct EvaluatedTile {
   float probability(LocalIndex p) const { return static_cast<float>(evaluations[p].probability); }
 };
 
+// A consumer takes each tile in two steps. `emit` needs the evaluated tile, `absorb` only what was put out. An
+// earlier run may have put it out. Both are called from several threads at once, for tiles in any order.
+// `absorb` is called once for each tile.
 class TileConsumer {
  public:
   virtual ~TileConsumer() = default;
-  // Called once for each tile, in any order, from several threads at once.
-  virtual void take(const EvaluatedTile& tile) = 0;
+  virtual void emit(const EvaluatedTile& tile, TileOutput& output) const = 0;
+  virtual void absorb(TileIndex tile, const TileOutput& output) = 0;
 };
 
-// Writes record(p) for the owned points that are wanted. They are few and near each other, so runs of rows
-// without any stay unwritten.
-template <class Record, class Make>
-void write_wanted(Column<Record>& column, const EvaluatedTile& tile, std::span<const std::uint8_t> is_wanted,
-                  Make&& record) {
-  constexpr LocalIndex kRun = 64;
-  std::vector<Record> records;
-  const auto write = [&](LocalIndex end) {
-    if (!records.empty()) column.write(value(tile.tile.first_row) + end - records.size(), records);
-    records.clear();
-  };
-  for (LocalIndex begin = 0, end; begin < tile.points.owned; begin = end) {
-    end = std::min(begin + kRun, tile.points.owned);
-    if (std::any_of(is_wanted.begin() + begin, is_wanted.begin() + end, [](bool wanted) { return wanted; })) {
-      for (LocalIndex p = begin; p < end; ++p) records.push_back(record(p));
-    } else {
-      write(begin);
+// Writes records of some of a tile's points, given by ascending index, to their rows. Points near each other
+// are one write: rows between them get zeros.
+template <class Record>
+void write_rows(Column<Record>& column, const Tile& tile, std::span<const LocalIndex> points,
+                std::span<const Record> records) {
+  constexpr LocalIndex kNear = 64;
+  std::vector<Record> run;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    run.push_back(records[i]);
+    if (i + 1 < points.size() && points[i + 1] - points[i] < kNear) {
+      run.resize(run.size() + (points[i + 1] - points[i] - 1));
+      continue;
     }
+    column.write(value(tile.row(points[i])) + 1 - run.size(), run);
+    run.clear();
   }
-  write(tile.points.owned);
 }
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/levels/sealed_level.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
@@ -23,17 +24,20 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
   return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
 }
 
-Level bucket_points(PointSource& scan, Job& job) {
+Level bucket_points(PointSource& scan, std::size_t number, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
   const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
   TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
   require_space(job.workspace, least_store_bytes(plan, survey.precision()));
-  TileStore store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), job);
-  return {{}, std::move(survey), tile_points, std::move(store)};
+  TileStore store =
+      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), level_files(number, job), job);
+  return {
+      .number = number, .survey = std::move(survey), .tile_points = tile_points, .store = std::move(store)};
 }
 
-Level bucket_representatives(ThinnedScan thinned, Job& job) {
-  Level level = bucket_points(*read_representatives(thinned), job);
+Level bucket_representatives(ThinnedScan thinned, std::size_t number, Job& job) {
+  Level level = bucket_points(*read_representatives(thinned), number, job);
+  thinned.representatives.reset();
   level.thinned.emplace(std::move(thinned));
   return level;
 }
@@ -41,7 +45,7 @@ Level bucket_representatives(ThinnedScan thinned, Job& job) {
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
 // has no more at any resolution.
 void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
-  const std::uint64_t left = thinned.representatives.size(), finite = thinned.points - thinned.dropped;
+  const std::uint64_t left = thinned.left, finite = thinned.points - thinned.dropped;
   const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
   if (left > k || finite <= k || thinned.bounds.sizes().isZero(0)) return;
   const Eigen::Vector3d size = thinned.bounds.sizes();
@@ -86,33 +90,51 @@ double edge_above(const LengthBins& distances, double length) {
   return edge;
 }
 
-}  // namespace
-
-Level first_level(PointSource& input, Job& job) {
+Level read_first_level(PointSource& input, Job& job) {
   if (input.reads_slowly()) {
     KeptScan kept(input, job.file("input"));
-    return first_level(kept, job);
+    return read_first_level(kept, job);
   }
   const double edge = first_edge(job.config.scale);
-  if (edge == 0) return bucket_points(input, job);
+  if (edge == 0) return bucket_points(input, 0, job);
   ThinnedScan thinned = thin_scan(input, edge, job);
   refuse_too_coarse(thinned, job.config);
-  return bucket_representatives(std::move(thinned), job);
+  return bucket_representatives(std::move(thinned), 0, job);
 }
 
-std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job) {
+std::optional<Level> thin_level(const Level& below, const Totals& totals, Job& job) {
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
   // Edges are rounded powers.
   for (double edge = edge_above(totals.distances, below.edge() * 1.0001); edge > 0;
        edge = power_above(edge * 1.0001)) {
     ThinnedScan thinned = thin_store(below.store, edge, job);
-    const std::uint64_t left = thinned.representatives.size();
-    if (left < kFewest) break;
-    if (left <= kMostLeft * static_cast<double>(points))
-      return bucket_representatives(std::move(thinned), job);
+    if (thinned.left < kFewest) break;
+    if (thinned.left <= kMostLeft * static_cast<double>(points))
+      return bucket_representatives(std::move(thinned), below.number + 1, job);
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+Level first_level(PointSource& input, Job& job) {
+  if (std::optional<Level> kept = open_level(0, job.made_from, job)) {
+    input.set_pass_counts(kept->input);
+    return *std::move(kept);
+  }
+  Level level = read_first_level(input, job);
+  level.input = input.pass_counts();
+  seal_level(level, job.made_from, job);
+  return level;
+}
+
+std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job) {
+  const std::string made_from = evaluation_of(below, job);
+  if (std::optional<Level> kept = open_level(below.number + 1, made_from, job)) return kept;
+  std::optional<Level> level = thin_level(below, totals, job);
+  if (level) seal_level(*level, made_from, job);
+  return level;
 }
 
 bool has_levels(const Config& config) {

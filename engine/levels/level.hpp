@@ -11,23 +11,30 @@
 #include "engine/survey/survey.hpp"
 #include "engine/thin/thin_scan.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace lacuna {
 
 struct Level {
+  std::size_t number = 0;              // from 0
   std::optional<ThinnedScan> thinned;  // none: the level has every point
   SurveyedScan survey;                 // of the points in the store
-  std::uint64_t tile_points;           // in effect
+  std::uint64_t tile_points = 0;       // in effect
   TileStore store;                     // distinct points
+  std::string made_from;               // and how it is cut into tiles; empty: no workspace is kept
+  std::vector<std::uint64_t> input;    // of the first level: `PointSource::pass_counts`
 
   double edge() const { return thinned ? thinned->edge : 0; }  // of its lattice
 };
 
 // Survey and bucket: all points or, where the config has a resolution, one for each cell of its lattice.
 // Reads the input twice, or once with a resolution. An input that reads slowly is read once, and kept in the
-// workspace meanwhile (engine/store/kept_scan.hpp). Throws `Error`.
+// workspace meanwhile (engine/store/kept_scan.hpp). Where a kept workspace has the level, nothing is read.
+// Throws `Error`.
 Level first_level(PointSource& input, Job& job);
 
 // The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so

@@ -21,16 +21,20 @@ struct StoredVertex {
 // By tile, in ascending owned index.
 using LoopPointLists = AppendLists<StoredVertex>;
 
-// Appends the owned points that are wanted.
-inline void add_loop_points(LoopPointLists& lists, const EvaluatedTile& tile,
-                            std::span<const std::uint8_t> is_wanted) {
+// Puts out the owned points that are wanted.
+inline void emit_loop_points(const EvaluatedTile& tile, std::span<const std::uint8_t> is_wanted,
+                             TileOutput& output) {
   std::vector<StoredVertex> points;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     if (!is_wanted[p]) continue;
     const Eigen::Vector3f surface = tile.evaluations[p].mean_offset.cast<float>();
     points.push_back({p, tile.probability(p), {surface.x(), surface.y(), surface.z()}, tile.stored(p)});
   }
-  lists.append(tile.index, points);
+  output.add("loop points", points);
+}
+
+inline void absorb_loop_points(TileIndex tile, const TileOutput& output, LoopPointLists& lists) {
+  lists.append(tile, output.read<StoredVertex>("loop points"));
 }
 
 }  // namespace lacuna

@@ -4,7 +4,10 @@
 #include "engine/model/ids.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,6 +47,13 @@ class PointSource {
   virtual bool has_normals() const = 0;
   // Whether a pass costs more than to write and read a file of plain numbers: compressed formats.
   virtual bool reads_slowly() const { return false; }
+  // One line for each part of the source, such as a file. Lines are equal only where the points are. Empty:
+  // it cannot be said, so that no workspace is kept.
+  virtual std::vector<std::string> identity() const { return {}; }
+  // Counts of the last pass, such as rows that filters left out. A workspace keeps them for runs that do not
+  // read again.
+  virtual std::vector<std::uint64_t> pass_counts() const { return {}; }
+  virtual void set_pass_counts(std::span<const std::uint64_t>) {}
 };
 
 }  // namespace lacuna

@@ -86,11 +86,10 @@ OrientationGraph::OrientationGraph(const TileStore& store, const Job& job)
       crossings_(job.file("orientation-crossings"), store.tiling().tiles.size(), job.memory.spills / 16),
       normals_(job.file("oriented-normals")) {}
 
-void OrientationGraph::take(const EvaluatedTile& tile) {
+void OrientationGraph::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<StoredNormal> normals;
   for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
-  const std::uint64_t first_row = value(tile.tile.first_row);
-  normals_.write(first_row, normals);
+  output.add("normals", normals);
 
   std::vector<OrientationEdge> edges;
   std::vector<OrientationCrossing> crossings;
@@ -109,8 +108,14 @@ void OrientationGraph::take(const EvaluatedTile& tile) {
       }
     }
   }
-  forests_.append(tile.index, spanning_forest(std::move(edges), first_row, points.owned));
-  crossings_.append(tile.index, crossings);
+  output.add("orientation", spanning_forest(std::move(edges), value(tile.tile.first_row), points.owned));
+  output.add("orientation crossings", crossings);
+}
+
+void OrientationGraph::absorb(TileIndex tile, const TileOutput& output) {
+  normals_.write(value(store_.tiling().tiles[tile].first_row), output.read<StoredNormal>("normals"));
+  forests_.append(tile, output.read<OrientationEdge>("orientation"));
+  crossings_.append(tile, output.read<OrientationCrossing>("orientation crossings"));
 }
 
 RowSet OrientationGraph::opposed_normals(Job& job) {

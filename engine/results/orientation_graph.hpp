@@ -23,7 +23,8 @@ class OrientationGraph final : public TileConsumer {
  public:
   OrientationGraph(const TileStore& store, const Job& job);
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
 
   // All tiles are taken. Rows whose normal has to be turned round. The minimum spanning tree of G is built
   // from the tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries

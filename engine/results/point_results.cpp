@@ -11,28 +11,16 @@ PointResults::PointResults(std::uint64_t ids, const TileStore& store, const Job&
       criteria_(criteria().size()),
       lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {}
 
-void PointResults::take(const EvaluatedTile& tile) {
-  constexpr std::size_t kTogether = 1 << 14;
-  std::vector<Duplicate> results;  // each point of the tile, as a copy of itself, and its copies
-  for (LocalIndex p = 0; p < tile.points.owned; ++p) results.push_back({tile.points.ids[p], p});
-  // There may be more copies than fit in memory.
-  store_.for_each_duplicate(tile.index, [&](const Duplicate& d) {
-    if (results.size() >= kTogether) append(tile, results);
-    results.push_back(d);
-  });
-  append(tile, results);
-}
-
-void PointResults::append(const EvaluatedTile& tile, std::vector<Duplicate>& results) {
-  std::sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+void PointResults::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<std::byte> records;
+  records.reserve(tile.points.owned * record_bytes());
   const auto put = [&](const void* data, std::size_t bytes) {
     const auto* const first = static_cast<const std::byte*>(data);
     records.insert(records.end(), first, first + bytes);
   };
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const auto [id, p] = results[i];
-    StoredResult result{.id = id, .row = tile.points.rows[p], .probability = tile.probability(p)};
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
+    StoredResult result{
+        .id = tile.points.ids[p], .row = tile.points.rows[p], .probability = tile.probability(p)};
     for (int axis = 0; axis < 3; ++axis)
       result.normal[axis] = static_cast<float>(tile.evaluations[p].normal[axis]);
     put(&result, sizeof result);
@@ -40,13 +28,43 @@ void PointResults::append(const EvaluatedTile& tile, std::vector<Duplicate>& res
       const auto criterion = static_cast<float>(value);
       put(&criterion, sizeof criterion);
     }
-    const std::uint64_t block = value(id) / kResultBlock;
-    if (i + 1 == results.size() || value(results[i + 1].id) / kResultBlock != block) {
-      lists_.append(block, records);
-      records.clear();
+  }
+  output.add("results", records);
+}
+
+void PointResults::absorb(TileIndex tile, const TileOutput& output) {
+  constexpr std::size_t kTogether = 1 << 14;
+  const std::span<const std::byte> records = output.read<std::byte>("results");
+  std::vector<Duplicate> copies;  // each point of the tile, as a copy of itself, and its copies
+  const auto add = [&](const Duplicate& copy) {
+    if (copies.size() >= kTogether) append(records, copies);  // there may be more than fit in memory
+    copies.push_back(copy);
+  };
+  for (LocalIndex p = 0; p * record_bytes() < records.size(); ++p) {
+    PointId id;
+    std::memcpy(&id, &records[p * record_bytes() + offsetof(StoredResult, id)], sizeof id);
+    add({id, p});
+  }
+  store_.for_each_duplicate(tile, add);
+  append(records, copies);
+}
+
+void PointResults::append(std::span<const std::byte> records, std::vector<Duplicate>& copies) {
+  std::sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::vector<std::byte> block;  // of ids
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const auto [id, p] = copies[i];
+    const auto record = records.subspan(p * record_bytes(), record_bytes());
+    const std::size_t at = block.size();
+    block.insert(block.end(), record.begin(), record.end());
+    std::memcpy(&block[at + offsetof(StoredResult, id)], &id, sizeof id);
+    const std::uint64_t number = value(id) / kResultBlock;
+    if (i + 1 == copies.size() || value(copies[i + 1].id) / kResultBlock != number) {
+      lists_.append(number, block);
+      block.clear();
     }
   }
-  results.clear();
+  copies.clear();
 }
 
 }  // namespace lacuna

@@ -31,7 +31,8 @@ class PointResults final : public TileConsumer {
   // `ids`: points of the input.
   PointResults(std::uint64_t ids, const TileStore& store, const Job& job);
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
 
   std::size_t blocks() const { return lists_.lists(); }
   // visit(result, criteria), in any order.
@@ -52,7 +53,8 @@ class PointResults final : public TileConsumer {
 
  private:
   std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
-  void append(const EvaluatedTile& tile, std::vector<Duplicate>& results);  // and clears them
+  // The results of the copies of points; clears `copies`. `records`: of all points of the tile.
+  void append(std::span<const std::byte> records, std::vector<Duplicate>& copies);
 
   const TileStore& store_;
   std::size_t criteria_;  // of each point

@@ -110,15 +110,21 @@ void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
 
 }  // namespace
 
-void ProbabilityVoxels::take(const EvaluatedTile& tile) {
+void ProbabilityVoxels::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<float> probabilities(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
-  probabilities_.write(value(tile.tile.first_row), probabilities);
+  output.add("probabilities", probabilities);
 
-  std::map<int, std::uint64_t> exponents;
+  std::map<std::int64_t, std::uint64_t> exponents;
   for (const Evaluation& e : tile.evaluations) {
     if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
   }
+  output.add("exponents", std::vector<DistanceExponent>(exponents.begin(), exponents.end()));
+}
+
+void ProbabilityVoxels::absorb(TileIndex tile, const TileOutput& output) {
+  probabilities_.write(value(tiling_.tiles[tile].first_row), output.read<float>("probabilities"));
+  const std::span<const DistanceExponent> exponents = output.read<DistanceExponent>("exponents");
   const std::lock_guard lock(mutex_);
   for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
 }
@@ -129,7 +135,7 @@ int ProbabilityVoxels::typical_exponent() const {
   for (const auto& [exponent, points] : exponents_) all += points;
   for (const auto& [exponent, points] : exponents_) {
     before += points;
-    if (2 * before >= all) return exponent;
+    if (2 * before >= all) return static_cast<int>(exponent);
   }
   return 0;
 }

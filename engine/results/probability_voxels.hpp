@@ -20,9 +20,11 @@ struct ProbabilityGrid {
 
 class ProbabilityVoxels final : public TileConsumer {
  public:
-  explicit ProbabilityVoxels(const Job& job) : probabilities_(job.file("probabilities")) {}
+  ProbabilityVoxels(const TileStore& store, const Job& job)
+      : tiling_(store.tiling()), probabilities_(job.file("probabilities")) {}
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
 
   // Once every tile was taken. The edge of a voxel is the largest power of two that does not exceed the
   // typical neighbour distance. That is the median, over the points, of the mean distance to the neighbours.
@@ -32,11 +34,21 @@ class ProbabilityVoxels final : public TileConsumer {
   ProbabilityGrid finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const;
 
  private:
+  // An exponent of mean distances to the neighbours, and how many points of a tile have it.
+  struct DistanceExponent {
+    std::int64_t exponent;
+    std::uint64_t points;
+
+    DistanceExponent() = default;
+    DistanceExponent(const std::pair<const std::int64_t, std::uint64_t>& count)
+        : exponent(count.first), points(count.second) {}
+  };
   int typical_exponent() const;
 
+  const Tiling& tiling_;
   Column<float> probabilities_;  // by row
   std::mutex mutex_;
-  std::map<int, std::uint64_t> exponents_;  // of mean distances: how many points have each
+  std::map<std::int64_t, std::uint64_t> exponents_;  // of mean distances: how many points have each
 };
 
 }  // namespace lacuna

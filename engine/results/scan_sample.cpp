@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -35,26 +37,35 @@ std::uint32_t bin_of(double key) {
 
 }  // namespace
 
-ScanSample::ScanSample(std::uint64_t most_points, const Job& job)
-    : most_points_(most_points), candidates_(job.file("sample-keys"), job.memory.spills / 8) {}
+ScanSample::ScanSample(std::uint64_t most_points, const TileStore& store, const Job& job)
+    : store_(store), most_points_(most_points), candidates_(job.file("sample-keys"), job.memory.spills / 8) {}
 
-void ScanSample::take(const EvaluatedTile& tile) {
-  constexpr LocalIndex kTogether = 1 << 14;
-  for (LocalIndex first = 0; first < tile.points.owned; first += kTogether) {
-    take(tile, first, std::min(first + kTogether, tile.points.owned));
-  }
-}
-
-void ScanSample::take(const EvaluatedTile& tile, LocalIndex first, LocalIndex end) {
-  std::vector<KeyedSample> samples;
+void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
+  constexpr std::size_t kTogether = 1 << 14;
+  std::vector<EmittedSample> samples;
   const std::uint32_t last = last_bin_;
-  for (LocalIndex p = first; p < end; ++p) {
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const Evaluation& e = tile.evaluations[p];
     const double key = key_of(tile.points.ids[p], e);
     if (bin_of(key) > last) continue;
     const Eigen::Vector3f normal = e.normal.cast<float>();
-    samples.push_back({key, {tile.stored(p), tile.probability(p), {normal.x(), normal.y(), normal.z()}}});
+    samples.push_back({key, tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
+    if (samples.size() == kTogether) output.add("sample", std::exchange(samples, {}));
   }
+  output.add("sample", samples);
+}
+
+void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
+  std::vector<KeyedSample> samples;
+  const std::span<const EmittedSample> emitted = output.read<EmittedSample>("sample");
+  auto next = emitted.begin();
+  LocalIndex point = 0;
+  const std::uint32_t last = last_bin_;
+  store_.for_each_point(tile, [&](const StoredPoint& p) {
+    if (next == emitted.end() || next->point != point++) return;
+    const auto& [key, probability, normal, place, padding] = *next++;
+    if (bin_of(key) <= last) samples.push_back({key, {p, probability, {normal[0], normal[1], normal[2]}}});
+  });
   const std::lock_guard lock(mutex_);
   for (const KeyedSample& sample : samples) {
     if (bin_of(sample.key) > last_bin_) continue;

@@ -6,6 +6,7 @@
 #include "engine/run/job.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/sorted_runs.hpp"
+#include "engine/store/tile_store.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -36,16 +37,25 @@ struct KeyedSample {
 // that, by its probability. The sample depends on the points alone, not on tiles or threads.
 class ScanSample final : public TileConsumer {
  public:
-  ScanSample(std::uint64_t most_points, const Job& job);
+  ScanSample(std::uint64_t most_points, const TileStore& store, const Job& job);
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
 
   // In ascending id. Once every tile was taken; to be called once.
   Column<StoredSample> finish(Job& job);
 
  private:
-  void take(const EvaluatedTile& tile, LocalIndex first, LocalIndex end);
+  // As a tile puts it out, in ascending point.
+  struct EmittedSample {
+    double key;
+    float probability;
+    float normal[3];
+    LocalIndex point;
+    std::uint32_t padding;
+  };
 
+  const TileStore& store_;
   const std::uint64_t most_points_;
   std::mutex mutex_;
   std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it

@@ -25,7 +25,7 @@ std::string too_small(const std::filesystem::path& folder, const Disk& disk, con
 void require_space(const std::filesystem::path& workspace, std::uint64_t bytes) {
   const std::optional<Disk> disk = disk_of(workspace);
   if (disk && disk->free < bytes)
-    throw Error(too_small(workspace, *disk, "at least " + print_size(bytes)) + kOtherWorkspace);
+    throw Error(too_small(workspace, *disk, "at least " + print_size(bytes)) + kOtherScratch);
 }
 
 std::string print_size(std::uint64_t bytes) {

@@ -18,7 +18,7 @@ std::optional<Disk> disk_of(const std::filesystem::path& folder);
 
 // The line that says that the disk of a folder has too little; `needs`: "at least 3 GiB".
 std::string too_small(const std::filesystem::path& folder, const Disk& disk, const std::string& needs);
-inline constexpr const char* kOtherWorkspace = "; --workspace names a folder on another one";
+inline constexpr const char* kOtherScratch = "; --scratch names a folder on another one";
 
 // Throws `Error` where the disk of the workspace has less.
 void require_space(const std::filesystem::path& workspace, std::uint64_t bytes);

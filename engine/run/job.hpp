@@ -38,11 +38,13 @@ struct Job {
   Memory memory;
   std::vector<PhaseTime> phases;
   bool is_in_phase = false;
+  std::filesystem::path kept;  // the folder of the run's sealed parts; empty: none is kept
+  std::string made_from;       // what they are made from, as text
 
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.
   void trim(double share = 0.5) const;
-  // A file of the workspace.
+  // A temporary file.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
   // Points per tile: as the config has it, or enough tiles for all threads; never fewer or more than memory
   // allows. Throws `Error` where so many points can never fit.

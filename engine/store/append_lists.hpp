@@ -9,7 +9,7 @@
 // Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
 #pragma once
 
-#include "engine/store/scratch_file.hpp"
+#include "engine/store/store_file.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -58,7 +58,7 @@ class AppendBytes {
   void write_out(List& list);
   void relieve();
 
-  ScratchFile file_;
+  StoreFile file_;
   std::uint64_t budget_;
   std::uint64_t buffered_ = 0;
   std::vector<List> lists_;

@@ -1,7 +1,7 @@
 // One record of plain data per row, on disk.
 #pragma once
 
-#include "engine/store/scratch_file.hpp"
+#include "engine/store/store_file.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -20,6 +20,7 @@ class Column {
 
  public:
   explicit Column(std::filesystem::path path) : file_(std::move(path)) {}
+  explicit Column(StoreFile file) : file_(std::move(file)) {}
 
   void write(std::uint64_t row, std::span<const Record> records) {
     file_.write(row * sizeof(Record), std::as_bytes(records));
@@ -41,8 +42,10 @@ class Column {
     return records;
   }
 
+  StoreFile& file() { return file_; }
+
  private:
-  ScratchFile file_;
+  StoreFile file_;
 };
 
 // Records of rows in mostly ascending order, read in runs: for a few here and there.

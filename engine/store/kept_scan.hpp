@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/model/points.hpp"
-#include "engine/store/scratch_file.hpp"
+#include "engine/store/store_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +29,7 @@ class KeptScan final : public PointSource {
   bool next_kept(PointBatch& batch);
 
   PointSource& scan_;
-  ScratchFile positions_, normals_;
+  StoreFile positions_, normals_;
   std::uint64_t next_ = 0;  // point
   std::uint64_t points_ = 0;
   bool is_kept_ = false;  // all of them

@@ -13,10 +13,18 @@ constexpr std::size_t kPart = 4096;
 
 }  // namespace
 
-PointColumn::PointColumn(std::filesystem::path path, Precision precision)
+PointColumn::PointColumn(StoreFile file, Precision precision)
     : column_(precision == Precision::kSingle
-                  ? Columns(std::in_place_type<Column<SinglePoint>>, std::move(path))
-                  : Columns(std::in_place_type<Column<StoredPoint>>, std::move(path))) {}
+                  ? Columns(std::in_place_type<Column<SinglePoint>>, std::move(file))
+                  : Columns(std::in_place_type<Column<StoredPoint>>, std::move(file))) {}
+
+Precision PointColumn::precision() const {
+  return std::holds_alternative<Column<SinglePoint>>(column_) ? Precision::kSingle : Precision::kDouble;
+}
+
+StoreFile& PointColumn::file() {
+  return std::visit([](auto& column) -> StoreFile& { return column.file(); }, column_);
+}
 
 void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) {
   if (auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {

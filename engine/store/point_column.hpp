@@ -5,7 +5,6 @@
 #include "engine/store/column.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <variant>
 #include <vector>
@@ -27,12 +26,15 @@ enum class Precision : std::uint8_t { kSingle, kDouble };
 // Reads and writes may come from several threads.
 class PointColumn {
  public:
-  PointColumn(std::filesystem::path path, Precision precision);
+  PointColumn(StoreFile file, Precision precision);
 
   // Throws `Error` where the precision would lose a digit: a scan that was surveyed has none such.
   void write(std::uint64_t row, std::span<const StoredPoint> points);
   void read(std::uint64_t row, std::span<StoredPoint> points) const;
   std::vector<StoredPoint> read(std::uint64_t row, std::size_t count) const;
+
+  Precision precision() const;
+  StoreFile& file();
 
  private:
   struct SinglePoint {

@@ -1,7 +1,7 @@
 #include "engine/store/scratch.hpp"
 
 #include "engine/run/machine_memory.hpp"
-#include "engine/store/scratch_file.hpp"
+#include "engine/store/store_file.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -35,7 +35,7 @@ std::byte* Scratch::allocate(std::size_t bytes) {
   }
   if (mappings_.empty()) most_mapped_ = resident_memory().mapped + budget_ - in_memory_;
   // The mapping alone keeps the file: it has no name and no descriptor by which anyone could cut it short.
-  std::byte* const address = ScratchFile(folder_ / unique_name()).map(bytes);
+  std::byte* const address = StoreFile(folder_ / unique_name()).map(bytes);
   ::madvise(address, bytes, MADV_RANDOM);  // no read-around: a fault brings in that page only
   mappings_.push_back({address, bytes});
   return address;

@@ -19,14 +19,21 @@ std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
 
 }  // namespace
 
-TileStore::TileStore(const std::filesystem::path& folder, std::vector<Tile> tiles, std::uint64_t most_tiles,
-                     Precision precision, bool with_normals, std::uint64_t duplicate_budget)
+TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
+                     bool with_normals, std::uint64_t duplicate_budget)
     : cells_(tiles.size()),
       has_normals_(with_normals),
-      points_(folder / "points", precision),
-      normals_(folder / "normals"),
-      duplicates_(folder / "duplicates", most_tiles, duplicate_budget) {
+      points_(std::move(files.points), precision),
+      normals_(std::move(files.normals)),
+      duplicates_(std::move(files.duplicates), most_tiles, duplicate_budget) {
   tiling_.tiles = std::move(tiles);
+}
+
+TileStore::TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
+                     std::uint64_t duplicate_budget)
+    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals, duplicate_budget) {
+  tiling_ = std::move(tiling);
+  tiling_.build_tree();
 }
 
 std::vector<StoredPoint> TileStore::points(TileIndex index) const {
@@ -100,7 +107,7 @@ void TileStore::add_tile(std::span<const StoredPoint> points, std::span<const St
   put(index, points, normals, std::move(cells));
 }
 
-void TileStore::seal() {
+void TileStore::finish() {
   std::size_t count = 0;
   for (const std::vector<Cell>& cells : cells_) count += cells.size();
   tiling_.cells.reserve(count);

@@ -31,13 +31,22 @@ struct Duplicate {
   LocalIndex of;
 };
 
+// The files of a store.
+struct StoreFiles {
+  StoreFile points, normals;
+  std::filesystem::path duplicates;  // a temporary file
+};
+
 // Filled and then put in order tile by tile while bucketing, read only from then on. Reads may come from
 // several threads.
 class TileStore {
  public:
   // `tiles`: where raw points go at first; `most_tiles`: with those that are added later.
-  TileStore(const std::filesystem::path& folder, std::vector<Tile> tiles, std::uint64_t most_tiles,
-            Precision precision, bool with_normals, std::uint64_t duplicate_budget);
+  TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
+            bool with_normals, std::uint64_t duplicate_budget);
+  // A store that was finished before. `files`: sealed ones. Duplicates are added by the caller.
+  TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
+            std::uint64_t duplicate_budget);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }
@@ -76,11 +85,16 @@ class TileStore {
   void add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
                 std::vector<Cell> cells);
   // All tiles are put: counts are final.
-  void seal();
+  void finish();
+
+  Precision precision() const { return points_.precision(); }
+  // To be sealed, once the store is finished.
+  StoreFile& points_file() { return points_.file(); }
+  StoreFile& normals_file() { return normals_.file(); }
 
  private:
   Tiling tiling_;
-  std::vector<std::vector<Cell>> cells_;  // of each tile, until it is sealed
+  std::vector<std::vector<Cell>> cells_;  // of each tile, until the store is finished
   bool has_normals_;
   PointColumn points_;
   Column<StoredNormal> normals_;

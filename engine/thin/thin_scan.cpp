@@ -99,10 +99,11 @@ class Thinner {
       waiting[p] = std::move(of_part);
       is_done[p] = 1;
       for (; next < waiting.size() && is_done[next]; ++next) {
-        thinned_.representatives.append(waiting[next]);
+        thinned_.representatives->append(waiting[next]);
         std::vector<Representative>().swap(waiting[next]);
       }
     });
+    thinned_.left = thinned_.representatives->size();
     return std::move(thinned_);
   }
 
@@ -157,8 +158,8 @@ class Representatives final : public PointSource {
   bool next(PointBatch& batch) override {
     constexpr std::uint64_t kTogether = 1 << 16;
     batch = {};
-    const std::uint64_t rest = thinned_.representatives.size() - next_;
-    for (const auto& [point, normal] : thinned_.representatives.read(next_, std::min(rest, kTogether))) {
+    const std::uint64_t rest = thinned_.left - next_;
+    for (const auto& [point, normal] : thinned_.representatives->read(next_, std::min(rest, kTogether))) {
       batch.ids.push_back(point.id);
       batch.positions.push_back(point.position());
       if (thinned_.has_normals) batch.normals.emplace_back(normal.x, normal.y, normal.z);
@@ -166,7 +167,7 @@ class Representatives final : public PointSource {
     next_ += batch.size();
     return batch.size() > 0;
   }
-  std::optional<std::uint64_t> expected_points() const override { return thinned_.representatives.size(); }
+  std::optional<std::uint64_t> expected_points() const override { return thinned_.left; }
   bool has_normals() const override { return thinned_.has_normals; }
 
  private:

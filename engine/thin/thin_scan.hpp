@@ -25,8 +25,10 @@ struct Represented {
 inline constexpr std::uint64_t kRepresentedBlock = 1 << 17;
 
 struct ThinnedScan {
-  Column<Representative> representatives;  // in an order that depends on the points alone
-  double edge = 0;                         // of the lattice's cells
+  // In an order that depends on the points alone. None once they are in a store.
+  std::optional<Column<Representative>> representatives;
+  std::uint64_t left = 0;  // representatives
+  double edge = 0;         // of the lattice's cells
   bool has_normals = false;
   Eigen::AlignedBox3d bounds;  // of all finite points; empty without any
   std::uint64_t points = 0;    // of the scan

@@ -91,13 +91,13 @@ TEST_CASE("the library gives results of points only where they are wanted, and n
   CHECK(find_holes(plane(1).positions, with_points()).points.size() == 1);
 }
 
-TEST_CASE("the library's workspace is in the wanted folder, and gone at the end", "[library]") {
+TEST_CASE("the library's temporary files are in the wanted folder, and gone at the end", "[library]") {
   const ScratchFolder scratch;
   Config config;
-  config.run.workspace = scratch.path().string();
+  config.run.scratch = scratch.path().string();
   CHECK(find_holes(punched_sheet().positions, config).loops.size() == 3);
   CHECK(test::count_entries(scratch.path()) == 0);
-  config.run.workspace = (scratch / "missing").string();
+  config.run.scratch = (scratch / "missing").string();
   CHECK_THROWS_WITH(find_holes(punched_sheet().positions, config), Contains("missing"));
 }
 

@@ -7,6 +7,7 @@
 #include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/skip.hpp"
+#include "tests/support/small_disk.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +15,6 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -29,6 +29,7 @@ using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
+using test::SmallDisk;
 
 template <class T>
 void put(std::string& bytes, T value) {
@@ -214,7 +215,7 @@ TEST_CASE("without permission to read or to write there is one line that names t
   check_failure(test::run_command(as_nobody({"detect", scan, "--out", locked + "/new", "--quiet"})), 1,
                 "locked");
   check_failure(test::run_command(as_nobody(
-                    {"detect", scan, "--out", (root / "other").string(), "--workspace", locked, "--quiet"})),
+                    {"detect", scan, "--out", (root / "other").string(), "--scratch", locked, "--quiet"})),
                 1, "locked");
   CHECK(count_entries(locked) == 0);
   CHECK_FALSE(fs::exists(root / "other"));
@@ -226,25 +227,6 @@ TEST_CASE("without permission to read or to write there is one line that names t
   CHECK_FALSE(fs::exists(root / "other"));
   ::chmod(scan.c_str(), 0644);
 }
-
-// A disk of a few hundred KiB. Not there where the tests may not mount one.
-class SmallDisk {
- public:
-  SmallDisk(fs::path at, const std::string& size) : at_(std::move(at)) {
-    fs::create_directory(at_);
-    mounted_ = ::mount("tmpfs", at_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) ::umount(at_.c_str());
-    fs::remove(at_);
-  }
-  bool mounted() const { return mounted_; }
-  const fs::path& path() const { return at_; }
-
- private:
-  fs::path at_;
-  bool mounted_;
-};
 
 TEST_CASE("a disk that is full, in whatever phase, ends the run with one line and leaves nothing behind") {
   const ScratchFolder scratch;
@@ -262,7 +244,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     const fs::path out = scratch / ("out " + size);
     const ProgramResult result =
         detect_quietly(scan, out,
-                       {"--workspace", disk.path().string(), "--points", "--normals", "--orient-normals",
+                       {"--scratch", disk.path().string(), "--points", "--normals", "--orient-normals",
                         "--tile-points", "500", "--memory-limit", "64MiB"});
     CHECK(count_entries(disk.path()) == 0);
     if (result.exit_code == 0) {
@@ -285,7 +267,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     INFO("results on a disk of " << size);
     const ProgramResult result =
         detect_quietly(scan, disk.path() / "out",
-                       {"--workspace", (scratch / "").string(), "--points", "--tile-points", "500"});
+                       {"--scratch", (scratch / "").string(), "--points", "--tile-points", "500"});
     if (result.exit_code == 0) continue;
     ++failed;
     check_failure(without_warnings(result), 1, disk.path().string());
@@ -303,9 +285,9 @@ TEST_CASE("a disk that cannot hold the points is said once they are counted, bef
     return;
   }
   const fs::path out = scratch / "out";
-  const ProgramResult result = detect_quietly(scan, out, {"--workspace", disk.path().string()});
+  const ProgramResult result = detect_quietly(scan, out, {"--scratch", disk.path().string()});
   check_failure(without_warnings(result), 1,
-                "the run needs at least 1.4 MiB; --workspace names a folder on another one");
+                "the run needs at least 1.4 MiB; --scratch names a folder on another one");
   CHECK_THAT(result.err, Catch::Matchers::Contains("the run needs about "));
   CHECK(count_entries(disk.path()) == 0);
   CHECK_FALSE(fs::exists(out));
@@ -325,7 +307,7 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
       const auto needs = nlohmann::json::parse(run_program(arguments).out);
       const auto bytes = needs.at("workspace_bytes").get<std::uint64_t>();
       INFO((options.empty() ? "default" : options[0]) << ", " << limit << ": " << bytes);
-      std::vector<std::string> more = {"--memory-limit", limit, "--workspace", (scratch / "disk").string()};
+      std::vector<std::string> more = {"--memory-limit", limit, "--scratch", (scratch / "disk").string()};
       more.insert(more.end(), options.begin(), options.end());
       const fs::path out = scratch / "out";
       {

@@ -123,7 +123,7 @@ class Runs {
 void set_other(const Parameter& parameter, const std::string& workspace) {
   if (bool* const* flag = std::get_if<bool*>(&parameter.value)) {
     **flag = !**flag;
-  } else if (parameter.key == "workspace") {
+  } else if (parameter.key == "workspace" || parameter.key == "scratch") {
     parameter.set(workspace);
   } else {
     parameter.set(kOtherValues.at(parameter.key));

@@ -308,19 +308,13 @@ TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it 
   CHECK_THAT(output(doubles, "pcd", {"--local-coordinates"}), Contains("written: ") && !Contains("note:"));
 }
 
-TEST_CASE("a workspace elsewhere is used, and kept with --keep-workspace") {
+TEST_CASE("temporary files go to a folder elsewhere, and are gone at the end") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  const fs::path work = scratch / "work";
-  std::vector<std::string> arguments = {"detect",      scan,         "--out", (scratch / "out").string(),
-                                        "--workspace", work.string()};
-  REQUIRE(run_program(arguments).exit_code == 0);
-  CHECK_FALSE(fs::exists(work));  // made for the run, empty after it
-  arguments.push_back("--keep-workspace");
-  const ProgramResult result = run_program(arguments);
-  CHECK_THAT(result.out, Contains("workspace kept: "));
-  REQUIRE(count_entries(work) == 1);
-  CHECK(fs::file_size(fs::directory_iterator(work)->path() / "index.vdb") > 0);
+  REQUIRE(run_program({"detect", scan, "--out", (scratch / "out").string(), "--scratch",
+                       (scratch / "temporary").string()})
+              .exit_code == 0);
+  CHECK_FALSE(fs::exists(scratch / "temporary"));  // made for the run, empty after it
 }
 
 TEST_CASE("one run at a time writes to a folder, and warns of what a killed one has left there") {
@@ -434,10 +428,10 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
   }
 }
 
-TEST_CASE("a workspace whose name takes a detour leaves none of it behind") {
+TEST_CASE("a folder whose name takes a detour leaves none of it behind") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  CHECK(run_program({"detect", scan, "--out", (scratch / "a/../out").string(), "--workspace",
+  CHECK(run_program({"detect", scan, "--out", (scratch / "a/../out").string(), "--scratch",
                      (scratch / "b/../c/../work").string()})
             .exit_code == 0);
   CHECK(scratch.names() == std::vector<std::string>{"out", "scan.txt"});

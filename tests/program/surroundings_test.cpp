@@ -291,7 +291,8 @@ TEST_CASE("control characters of files and their names never reach the terminal,
                                              "3J_")
                                       .string()) &&
                            Contains("scan\\u000aof.ply\n"));
-  is_clean(run_program({"detect", scan, "--out", (scratch / evil / "out").string(), "--keep-workspace"}));
+  is_clean(run_program({"detect", scan, "--out", (scratch / evil / "out").string(), "--workspace",
+                        (scratch / evil / "w").string()}));
   is_clean(run_program({"info", scan + "none"}));
   is_clean(run_program({"info", scan, "--" + evil}));
   is_clean(run_program({"detect", "--print-config", "--config",

@@ -1,5 +1,7 @@
 #include "tests/support/memory_scan.hpp"
 
+#include "engine/store/sealed_part.hpp"
+
 #include <algorithm>
 
 namespace lacuna {
@@ -14,6 +16,13 @@ bool MemoryScan::next(PointBatch& batch) {
   batch = {PointId{next_}, {}, part(cloud_.positions), part(cloud_.normals)};
   next_ = end;
   return batch.size() > 0;
+}
+
+std::vector<std::string> MemoryScan::identity() const {
+  const auto text_of = [](const std::vector<Eigen::Vector3d>& vectors) {
+    return std::to_string(digest_of(std::as_bytes(std::span(vectors)))[0]);
+  };
+  return {text_of(cloud_.positions), text_of(cloud_.normals)};
 }
 
 }  // namespace lacuna

@@ -4,6 +4,9 @@
 #include "engine/model/points.hpp"
 #include "tests/support/clouds.hpp"
 
+#include <string>
+#include <vector>
+
 namespace lacuna {
 
 class MemoryScan final : public PointSource {
@@ -14,6 +17,7 @@ class MemoryScan final : public PointSource {
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return cloud_.size(); }
   bool has_normals() const override { return !cloud_.normals.empty(); }
+  std::vector<std::string> identity() const override;
 
  private:
   const Cloud& cloud_;

@@ -1,6 +1,7 @@
 #include "tests/support/tiled_scan.hpp"
 
 #include "engine/bucket/split.hpp"
+#include "engine/levels/sealed_level.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <memory>
@@ -12,7 +13,7 @@ namespace {
 TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
   const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
   return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, points, tile_points),
-                     survey.bounds, survey.precision(), job);
+                     survey.bounds, survey.precision(), level_files(0, job), job);
 }
 
 }  // namespace
@@ -28,7 +29,9 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
 
 Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
   const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
-  return evaluate_tiles(store, exchange_halo(store, job), config.neighbourhood.eps, extent, consumers, job);
+  KeptOutputs none(0, store.tiling().tiles.size(), "", job);
+  return evaluate_tiles(store, exchange_halo(store, job), config.neighbourhood.eps, extent, none, consumers,
+                        job);
 }
 
 std::map<PointId, Row> TiledScan::rows() const {

@@ -64,7 +64,7 @@ TEST_CASE("a disk that is too small for the workspace or for the results is a wa
   const std::vector<std::string> warnings = check(workspace - 1, results - 1);
   REQUIRE(warnings.size() == 2);
   CHECK_THAT(warnings[0], Contains("ws: ") && Contains("are free on this disk, and the run needs about ") &&
-                              Contains("--workspace names a folder on another one"));
+                              Contains("--scratch names a folder on another one"));
   CHECK_THAT(warnings[1], Contains("out: ") && Contains("the run needs about 312 KiB; --out names"));
 }
 

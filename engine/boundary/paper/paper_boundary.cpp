@@ -74,23 +74,39 @@ PaperBoundary::PaperBoundary(const TileStore& store, const Job& job)
       strengths_(job.file("strengths")),
       config_(job.config.spanning) {}
 
-void PaperBoundary::take(const EvaluatedTile& tile) {
+void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   const auto strength = [&](LocalIndex p) {
     return Strength{tile.evaluations[p].mean_distance, tile.probability(p)};
   };
-  write_wanted(strengths_, tile, tile.is_border, strength);
+  std::vector<LocalIndex> border;
+  std::vector<Strength> strengths;
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
+    if (!tile.is_border[p]) continue;
+    border.push_back(p);
+    strengths.push_back(strength(p));
+  }
+  output.add("border", border);
+  output.add("strengths", strengths);
   const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
-  inside_.append(tile.index, edges.inside);
+  output.add("edges", edges.inside);
   std::vector<StoredCrossing> undecided;
   for (const Crossing& c : edges.crossings)
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
-  undecided_.append(tile.index, undecided);
+  output.add("undecided crossings", undecided);
 
   // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign
   // neighbours.
   std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
   for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
-  add_loop_points(loop_points_, tile, is_end);
+  emit_loop_points(tile, is_end, output);
+}
+
+void PaperBoundary::absorb(TileIndex tile, const TileOutput& output) {
+  write_rows<Strength>(strengths_, tiling_.tiles[tile], output.read<LocalIndex>("border"),
+                       output.read<Strength>("strengths"));
+  inside_.append(tile, output.read<TileEdge>("edges"));
+  undecided_.append(tile, output.read<StoredCrossing>("undecided crossings"));
+  absorb_loop_points(tile, output, loop_points_);
 }
 
 // With Pi and r of both ends.

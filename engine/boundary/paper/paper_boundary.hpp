@@ -32,7 +32,8 @@ class PaperBoundary final : public BoundaryMethod {
  public:
   PaperBoundary(const TileStore& store, const Job& job);
 
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // The coherent ones.
   RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RowSet&, Job&) const override {

@@ -3,7 +3,7 @@
 #include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/chains.hpp"
 #include "engine/boundary/tangential/curves.hpp"
-#include "engine/boundary/tangential/take_stars.hpp"
+#include "engine/boundary/tangential/emit_stars.hpp"
 #include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
@@ -40,8 +40,13 @@ TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
       curve_budget_(job.memory.global / 8 / job.arena.threads()),
       config_(job.config.tangential) {}
 
-void TangentialBoundary::take(const EvaluatedTile& tile) {
-  add_loop_points(loop_points_, tile, take_stars(tile, tiling_, config_, stars_));
+void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
+  emit_loop_points(tile, emit_stars(tile, config_, output), output);
+}
+
+void TangentialBoundary::absorb(TileIndex tile, const TileOutput& output) {
+  absorb_stars(tile, tiling_, output, stars_);
+  absorb_loop_points(tile, output, loop_points_);
 }
 
 // Returns the wedges of a tile, in ascending row.

@@ -16,7 +16,8 @@ class TangentialBoundary final : public BoundaryMethod {
   TangentialBoundary(const TileStore& store, const Job& job);
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
-  void take(const EvaluatedTile& tile) override;
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
+  void absorb(TileIndex tile, const TileOutput& output) override;
   // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges anyway.
   FoundLoops find_loops(const Totals& totals, Job& job) override;
   // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes

@@ -82,17 +82,17 @@ TEST_CASE("several threads may append to a column: each piece stays together") {
 TEST_CASE("a file of the store has no name, never opens one that exists, and is freed with its owner") {
   const ScratchFolder folder;
   const std::string there = folder.write("there", "precious");
-  CHECK_THROWS_WITH(ScratchFile(there), Catch::Matchers::Contains("there: cannot create: File exists"));
+  CHECK_THROWS_WITH(StoreFile(there), Catch::Matchers::Contains("there: cannot create: File exists"));
   CHECK(test::read_file(there) == "precious");
   {
-    ScratchFile file(folder / "file");
-    ScratchFile moved = std::move(file);
+    StoreFile file(folder / "file");
+    StoreFile moved = std::move(file);
     moved.write(0, std::as_bytes(std::span("bytes")));
     CHECK(test::has_open(getpid(), "file"));
     CHECK(folder.names() == std::vector<std::string>{"there"});
   }
   CHECK_FALSE(test::has_open(getpid(), "file"));
-  CHECK_THROWS_AS(ScratchFile(folder / "no/such/folder"), Error);
+  CHECK_THROWS_AS(StoreFile(folder / "no/such/folder"), Error);
 }
 
 TEST_CASE("a column whose file was cut short is an error to read behind the cut, and to write anywhere") {

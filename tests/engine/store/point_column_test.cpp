@@ -38,7 +38,7 @@ SurveyedScan surveyed(const PointBatch& batch) {
 TEST_CASE("points come back from disk as they were, whatever the precision and the parts they are read in") {
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const test::ScratchFolder folder;
-    PointColumn column(folder / "points", precision);
+    PointColumn column(StoreFile(folder / "points"), precision);
     const std::vector<StoredPoint> points = drawn_points(20'000, precision == Precision::kSingle);
     Random random(5);
     std::size_t wrong = 0;
@@ -59,7 +59,7 @@ TEST_CASE("points come back from disk as they were, whatever the precision and t
 
 TEST_CASE("what single precision would lose is not written in it") {
   const test::ScratchFolder folder;
-  PointColumn column(folder / "points", Precision::kSingle);
+  PointColumn column(StoreFile(folder / "points"), Precision::kSingle);
   const StoredPoint good{0.5, -3, 1e30f, PointId{7}};
   CHECK_NOTHROW(column.write(0, std::vector{good}));
   for (const StoredPoint& bad :

@@ -47,6 +47,10 @@ TEST_CASE("a column is filled in many runs at once, whatever the memory and the 
   }
 }
 
+StoreFiles files(const ScratchFolder& folder) {
+  return {StoreFile(folder / "points"), StoreFile(folder / "normals"), folder / "duplicates"};
+}
+
 // Two tiles of 3000 and 5000 points.
 std::vector<Tile> two_tiles() {
   return {{.first_row = Row{0}, .raw = 3000}, {.first_row = Row{3008}, .raw = 5000}};
@@ -58,7 +62,7 @@ StoredPoint numbered(std::uint64_t id) {
 
 TEST_CASE("points that come from several threads are in their tile once each, with their normals") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), 2, Precision::kSingle, true, 1 << 16);
+  TileStore store(files(folder), two_tiles(), 2, Precision::kSingle, true, 1 << 16);
   TileStore::Filler filler(store, 4000);
   std::vector<std::thread> threads;
   for (std::uint64_t first = 0; first < 8000; first += 1000) {
@@ -133,7 +137,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
     tiles.push_back({.first_row = Row{aligned_row(first)}, .raw = points.back().size() + 1});
   }
   tiles.pop_back();
-  TileStore store(folder / "", tiles, 4, Precision::kDouble, false, 1 << 16);
+  TileStore store(files(folder), tiles, 4, Precision::kDouble, false, 1 << 16);
   for (const TileIndex tile : {2, 0, 1}) {
     store.put(tile, points[tile], {}, cells[tile]);
     const Duplicate copy{PointId{tile}, LocalIndex{5}};
@@ -141,7 +145,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
   }
   CHECK(store.next_tile() == 3);
   store.add_tile(points[3], {}, cells[3]);
-  store.seal();
+  store.finish();
 
   const Tiling& tiling = store.tiling();
   REQUIRE(tiling.check());
@@ -190,7 +194,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
   const ScratchFolder folder;
-  TileStore store(folder / "", two_tiles(), 2, Precision::kDouble, false, 1 << 16);
+  TileStore store(files(folder), two_tiles(), 2, Precision::kDouble, false, 1 << 16);
   TileStore::Filler filler(store, 4000);
   const std::vector<StoredPoint> points(3000, numbered(1));
   filler.append(0, points, {});
@@ -201,7 +205,7 @@ TEST_CASE("a tile that gets more or fewer points than were counted is an error")
 TEST_CASE("a tile whose points were cut off on disk is an error, in either precision") {
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const ScratchFolder folder;
-    TileStore store(folder / "", two_tiles(), 2, precision, false, 1 << 16);
+    TileStore store(files(folder), two_tiles(), 2, precision, false, 1 << 16);
     TileStore::Filler filler(store, 4000);
     filler.append(0, std::vector<StoredPoint>(3000, numbered(1)), {});
     filler.append(1, std::vector<StoredPoint>(5000, numbered(2)), {});

@@ -32,7 +32,7 @@ struct Thinned {
   }
 
   std::vector<Representative> representatives() const {
-    return thinned->representatives.read(0, thinned->representatives.size());
+    return thinned->representatives->read(0, thinned->representatives->size());
   }
 
   test::ScratchFolder folder;
@@ -130,7 +130,7 @@ TEST_CASE("the points of a store have the same representatives as the scan, unde
     const ThinnedScan of_store = thin_store(tiled_scan.store, 0.05, tiled_scan.job);
     const std::vector<Representative> expected = thin.representatives(),
                                       found =
-                                          of_store.representatives.read(0, of_store.representatives.size());
+                                          of_store.representatives->read(0, of_store.representatives->size());
     REQUIRE(found.size() == expected.size());
     CHECK(std::equal(found.begin(), found.end(), expected.begin(), same));
     CHECK(of_store.points == cloud.size());

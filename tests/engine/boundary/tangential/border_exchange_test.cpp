@@ -1,7 +1,7 @@
 // The exchange between tiles: wedges are those of a single tile, and close to curves.
 #include "engine/boundary/tangential/border_exchange.hpp"
 
-#include "engine/boundary/tangential/take_stars.hpp"
+#include "engine/boundary/tangential/emit_stars.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -35,8 +35,11 @@ struct Found {
 // The stars of all tiles, before the exchange.
 struct StarTaker final : TileConsumer {
   explicit StarTaker(const TiledScan& scan) : scan(scan), stars(scan.store, scan.job) {}
-  void take(const EvaluatedTile& tile) override {
-    take_stars(tile, scan.store.tiling(), scan.config.tangential, stars);
+  void emit(const EvaluatedTile& tile, TileOutput& output) const override {
+    emit_stars(tile, scan.config.tangential, output);
+  }
+  void absorb(TileIndex tile, const TileOutput& output) override {
+    absorb_stars(tile, scan.store.tiling(), output, stars);
   }
 
   const TiledScan& scan;

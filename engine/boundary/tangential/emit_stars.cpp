@@ -1,4 +1,4 @@
-#include "engine/boundary/tangential/take_stars.hpp"
+#include "engine/boundary/tangential/emit_stars.hpp"
 
 #include "engine/boundary/tangential/active_points.hpp"
 
@@ -63,16 +63,17 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
 }
 
 // Wedges where all triangles are decided; else the star stays open. Returns which points have any of these.
-std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& found,
-                                    const TangentialConfig& config, StarLists& lists) {
+std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars& found,
+                                      const TangentialConfig& config, TileOutput& output) {
   const std::vector<Row>& rows = tile.points.rows;
   TileRadii radii(tile, found, config);
   std::vector<std::uint8_t> is_vertex(tile.points.owned);
+  std::vector<LocalIndex> active;
   std::vector<Wedge> wedges;
   OpenStars open;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const PointState state = found.states[p];
-    if (found.is_active[p]) lists.active.insert(rows[p]);
+    if (found.is_active[p]) active.push_back(p);
     if (!is_measured(state)) continue;
     const auto star = found.stars[p];
     const auto consistencies = found.stars.consistencies_of(p);
@@ -99,14 +100,16 @@ std::vector<std::uint8_t> add_stars(const EvaluatedTile& tile, const TileStars& 
                  wedges);
     }
   }
-  lists.append_open(tile.index, std::move(open));
-  lists.wedges.append(tile.index, wedges);
+  output.add("active", active);
+  output.add("open stars", open.stars);
+  output.add("open vertices", open.vertices);
+  output.add("wedges", wedges);
   return is_vertex;
 }
 
 // The belt, and the sites and samplings that its stars need, here and in other tiles.
-void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& tiling,
-              const TangentialConfig& config, StarLists& lists) {
+void emit_belt(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config,
+               TileOutput& output) {
   const auto is_around = with_neighbours(tile, [&](LocalIndex p) { return is_in_belt(found.states[p]); });
   std::vector<LocalIndex> around;
   for (LocalIndex p = 0; p < tile.points.size(); ++p) {
@@ -136,31 +139,51 @@ void add_belt(const EvaluatedTile& tile, const TileStars& found, const Tiling& t
                     .is_border = found.states[p] == PointState::kBorder});
     for (const LocalIndex q : tile.neighbourhoods[p]) neighbours.push_back(place[q]);
   }
-  lists.belt.append(tile.index, belt);
-  lists.belt_rows.append(tile.index, rows);
-  lists.belt_neighbours.append(tile.index, neighbours);
-  lists.around[tile.index] = tiling.tiles_of(rows);
+  output.add("belt", belt);
+  output.add("belt rows", rows);
+  output.add("belt neighbours", neighbours);
 
-  const std::span<const std::uint8_t> owned = std::span(is_around).first(tile.points.owned);
-  write_wanted(lists.sites, tile, owned, [&](LocalIndex p) {
-    return site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]);
-  });
-  write_wanted(lists.samples, tile, owned, [&](LocalIndex p) {
-    return StarSample{found.samplings[p], smallest_radii(found.stars[p].link, config),
-                      tile.evaluations[p].surface_share};
-  });
+  std::vector<LocalIndex> owned;
+  std::vector<Site> sites;
+  std::vector<StarSample> samples;
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
+    if (!is_around[p]) continue;
+    owned.push_back(p);
+    sites.push_back(site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]));
+    samples.push_back(
+        {found.samplings[p], smallest_radii(found.stars[p].link, config), tile.evaluations[p].surface_share});
+  }
+  output.add("sampled", owned);
+  output.add("sites", sites);
+  output.add("samples", samples);
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> take_stars(const EvaluatedTile& tile, const Tiling& tiling,
-                                     const TangentialConfig& config, StarLists& lists) {
+std::vector<std::uint8_t> emit_stars(const EvaluatedTile& tile, const TangentialConfig& config,
+                                     TileOutput& output) {
   const TileStars found =
       find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates, tile.is_border, config);
-  std::vector<std::uint8_t> is_vertex = add_stars(tile, found, config, lists);
-  add_belt(tile, found, tiling, config, lists);
+  std::vector<std::uint8_t> is_vertex = emit_wedges(tile, found, config, output);
+  emit_belt(tile, found, config, output);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) is_vertex[p] |= is_in_belt(found.states[p]);
   return is_vertex;
+}
+
+void absorb_stars(TileIndex index, const Tiling& tiling, const TileOutput& output, StarLists& lists) {
+  const Tile& tile = tiling.tiles[index];
+  for (const LocalIndex p : output.read<LocalIndex>("active")) lists.active.insert(tile.row(p));
+  lists.open_stars.append(index, output.read<OpenStar>("open stars"));
+  lists.open_vertices.append(index, output.read<OpenLinkVertex>("open vertices"));
+  lists.wedges.append(index, output.read<Wedge>("wedges"));
+  lists.belt.append(index, output.read<BeltPoint>("belt"));
+  const std::span<const Row> rows = output.read<Row>("belt rows");
+  lists.belt_rows.append(index, rows);
+  lists.around[index] = tiling.tiles_of(rows);
+  lists.belt_neighbours.append(index, output.read<LocalIndex>("belt neighbours"));
+  const std::span<const LocalIndex> sampled = output.read<LocalIndex>("sampled");
+  write_rows<Site>(lists.sites, tile, sampled, output.read<Site>("sites"));
+  write_rows<StarSample>(lists.samples, tile, sampled, output.read<StarSample>("samples"));
 }
 
 }  // namespace lacuna::tangential

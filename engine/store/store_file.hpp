@@ -1,4 +1,4 @@
-// A file of the workspace without a name: positioned reads and writes, every one checked.
+// A file of the workspace: positioned reads and writes, every one checked.
 #pragma once
 
 #include <atomic>
@@ -9,17 +9,24 @@
 
 namespace lacuna {
 
-// Created empty, and its name removed at once: nobody else can open it, and the system frees it with the
-// process, however that ends. Reads and writes may come from several threads.
+// Reads and writes may come from several threads.
 //
 // Throws `Error` when the disk is full or the file is shorter than what was written. It names the path at
 // which the file was created, and the place in it. So it never returns zeros in place of what was written.
-class ScratchFile {
+class StoreFile {
  public:
-  explicit ScratchFile(std::filesystem::path path);  // `path` must not exist
-  ~ScratchFile();
-  ScratchFile(ScratchFile&& other) noexcept;
-  ScratchFile& operator=(ScratchFile&&) = delete;
+  enum class Name {
+    kRemoved,  // at once: nobody else can open it, and the system frees it with the process, however that
+               // ends
+    kKept,     // until it is sealed or closed
+  };
+  // Creates an empty file. `path` must not exist.
+  explicit StoreFile(std::filesystem::path path, Name name = Name::kRemoved);
+  // Opens a sealed file, to be read only. Throws `Error`.
+  static StoreFile open_sealed(std::filesystem::path path);
+  ~StoreFile();  // removes a file with a name that was not sealed
+  StoreFile(StoreFile&& other) noexcept;
+  StoreFile& operator=(StoreFile&&) = delete;
 
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   // Writes behind all that was appended before; returns the offset. A file is appended to or written at
@@ -31,12 +38,20 @@ class ScratchFile {
   const std::filesystem::path& path() const { return path_; }  // where it was created
   // Reserves and maps `bytes` bytes of zeros, writable. The mapping outlives the file.
   std::byte* map(std::size_t bytes) const;
+  // Lets the system begin to bring what was written to the disk, so that sealing takes less time.
+  void start_sync() const;
+  // Brings all bytes of a file with a name to the disk, and then renames it. From then on it is only read.
+  // A file of the new name is replaced.
+  void seal(const std::filesystem::path& path);
 
  private:
+  StoreFile(std::filesystem::path path, int descriptor, std::uint64_t size)
+      : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
   void check_length() const;
 
   std::filesystem::path path_;
   int descriptor_;
+  bool has_own_name_ = false;                // to be removed
   std::atomic<std::uint64_t> size_ = 0;      // of writes that are done
   std::atomic<std::uint64_t> appended_ = 0;  // with those that are not
 };

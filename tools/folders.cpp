@@ -1,4 +1,4 @@
-#include "tools/workspace.hpp"
+#include "tools/folders.hpp"
 
 #include "engine/run/error.hpp"
 

@@ -1,10 +1,11 @@
-#include "engine/store/scratch_file.hpp"
+#include "engine/store/store_file.hpp"
 
 #include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <string>
@@ -32,26 +33,42 @@ std::string at_byte(std::uint64_t offset) {
 
 }  // namespace
 
-ScratchFile::ScratchFile(std::filesystem::path path) : path_(std::move(path)) {
+StoreFile::StoreFile(std::filesystem::path path, Name name)
+    : path_(std::move(path)), has_own_name_(name == Name::kKept) {
   static std::mutex one_at_a_time;  // several threads may use the same name
   const std::lock_guard lock(one_at_a_time);
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor_ < 0) fail_with(errno, path_, "create");
-  ::unlink(path_.c_str());
+  if (name == Name::kRemoved) ::unlink(path_.c_str());
 }
 
-ScratchFile::ScratchFile(ScratchFile&& other) noexcept
+StoreFile StoreFile::open_sealed(std::filesystem::path path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+  if (descriptor < 0) fail_with(errno, path, "open");
+  struct stat status {};
+  const bool is_known = ::fstat(descriptor, &status) == 0;
+  if (!is_known || !S_ISREG(status.st_mode)) {
+    const int error = is_known ? EINVAL : errno;
+    ::close(descriptor);
+    fail_with(error, path, "open");
+  }
+  return {std::move(path), descriptor, static_cast<std::uint64_t>(status.st_size)};
+}
+
+StoreFile::StoreFile(StoreFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      has_own_name_(std::exchange(other.has_own_name_, false)),
       size_(other.size_.load()),
       appended_(other.appended_.load()) {}
 
-ScratchFile::~ScratchFile() {
+StoreFile::~StoreFile() {
+  if (has_own_name_) ::unlink(path_.c_str());
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 // Before each write, too: one beyond the new end would turn what was cut off into zeros.
-void ScratchFile::check_length() const {
+void StoreFile::check_length() const {
   const std::uint64_t written = size_;
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail_with(errno, path_, "read the length");
@@ -61,7 +78,7 @@ void ScratchFile::check_length() const {
                     std::to_string(written) + " bytes are left");
 }
 
-void ScratchFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+void StoreFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
   check_length();
   while (!bytes.empty()) {
@@ -75,13 +92,13 @@ void ScratchFile::write(std::uint64_t offset, std::span<const std::byte> bytes) 
   for (std::uint64_t size = size_; size < offset && !size_.compare_exchange_weak(size, offset);) continue;
 }
 
-std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
+std::uint64_t StoreFile::append(std::span<const std::byte> bytes) {
   const std::uint64_t offset = appended_.fetch_add(bytes.size());
   write(offset, bytes);
   return offset;
 }
 
-void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
+void StoreFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   assert(bytes.empty() || offset + bytes.size() <= size_);
   while (!bytes.empty()) {
     const ssize_t got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -96,7 +113,24 @@ void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   }
 }
 
-std::byte* ScratchFile::map(std::size_t bytes) const {
+void StoreFile::start_sync() const {
+  ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // some file systems cannot
+}
+
+void StoreFile::seal(const std::filesystem::path& path) {
+  check_length();
+  if (::fsync(descriptor_) != 0) fail_with(errno, path_, "bring to the disk");
+  if (::rename(path_.c_str(), path.c_str()) != 0)
+    fail_with(errno, path_, "rename to " + path.filename().string());
+  has_own_name_ = false;
+  path_ = path;
+  const int folder = ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);  // some file systems cannot
+  ::close(folder);
+}
+
+std::byte* StoreFile::map(std::size_t bytes) const {
   // posix_fallocate rather than a sparse file: a full disk is an error here, not a SIGBUS later.
   int error;
   do error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));

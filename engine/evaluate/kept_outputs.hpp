@@ -1,0 +1,55 @@
+// The outputs of a level's tiles in a workspace that is kept.
+//
+// Outputs gather in a part, which is sealed from time to time. So a run that is stopped loses the tiles of
+// the last seconds.
+#pragma once
+
+#include "engine/evaluate/tile_output.hpp"
+#include "engine/model/tiling.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/sealed_part.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+class KeptOutputs {
+ public:
+  // Finds the sealed outputs that are whole and made from this. Where no workspace is kept there are none.
+  // `level`: its number.
+  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Job& job);
+
+  bool has(TileIndex tile) const { return has_[tile] != 0; }
+  std::size_t count() const;  // tiles
+  // visit(tile, output), from several threads at once.
+  void for_each(const Job& job, const std::function<void(TileIndex, const TileOutput&)>& visit) const;
+
+  // From any thread.
+  void add(TileIndex tile, const TileOutput& output);
+  // Seals the last outputs.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void seal();
+
+  std::filesystem::path prefix_;  // of the parts; empty: none is kept
+  Digest made_from_;
+  std::vector<PartReader> parts_;
+  std::vector<std::uint8_t> has_;  // by tile
+  std::mutex mutex_;
+  std::size_t next_ = 0;  // number of the next part
+  std::optional<PartWriter> writer_;
+  Clock::time_point begun_;
+};
+
+}  // namespace lacuna

@@ -1,0 +1,253 @@
+#include "engine/levels/sealed_level.hpp"
+
+#include "engine/store/sealed_part.hpp"
+#include "engine/workspace/workspace.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StoredBox {
+  double min[3], max[3];
+
+  StoredBox() = default;
+  explicit StoredBox(const Eigen::AlignedBox3d& box) {
+    for (int axis = 0; axis < 3; ++axis) min[axis] = box.min()[axis], max[axis] = box.max()[axis];
+  }
+  Eigen::AlignedBox3d box() const { return {Eigen::Vector3d(min), Eigen::Vector3d(max)}; }
+};
+
+struct StoredCell {
+  StoredBox box;
+  std::uint64_t first_row, points;
+};
+
+struct StoredLevel {
+  StoredBox bounds;
+  double middle[3], grid_origin[3];
+  std::int64_t grid_finest, grid_shift;
+  std::uint64_t points, dropped, ids, is_single;
+  std::uint64_t tile_points, has_normals;
+  std::uint64_t points_bytes, normals_bytes;
+  Digest points_digest, normals_digest;
+};
+
+struct StoredThinning {
+  double edge;
+  StoredBox bounds;
+  std::uint64_t points, dropped, left, has_normals, lists;  // of represented points; 0: none
+};
+
+fs::path part_of(std::size_t number, const Job& job) {
+  return job.kept / ("level-" + std::to_string(number));
+}
+fs::path points_of(std::size_t number, const Job& job) {
+  return part_of(number, job).string() + ".points";
+}
+fs::path normals_of(std::size_t number, const Job& job) {
+  return part_of(number, job).string() + ".normals";
+}
+
+StoredLevel stored(const Level& level) {
+  const SurveyedScan& survey = level.survey;
+  StoredLevel stored{.bounds = StoredBox(survey.bounds),
+                     .grid_finest = survey.grid.finest,
+                     .grid_shift = survey.grid.shift,
+                     .points = survey.points,
+                     .dropped = survey.dropped,
+                     .ids = survey.ids,
+                     .is_single = survey.is_single,
+                     .tile_points = level.tile_points,
+                     .has_normals = level.store.has_normals()};
+  for (int axis = 0; axis < 3; ++axis) {
+    stored.middle[axis] = survey.middle[axis];
+    stored.grid_origin[axis] = survey.grid.origin[static_cast<std::size_t>(axis)];
+  }
+  return stored;
+}
+
+SurveyedScan survey_of(const StoredLevel& stored) {
+  return {.grid = {.finest = static_cast<int>(stored.grid_finest),
+                   .shift = static_cast<int>(stored.grid_shift),
+                   .origin = {stored.grid_origin[0], stored.grid_origin[1], stored.grid_origin[2]}},
+          .cells = {},
+          .bounds = stored.bounds.box(),
+          .middle = Eigen::Vector3d(stored.middle),
+          .points = stored.points,
+          .dropped = stored.dropped,
+          .ids = stored.ids,
+          .is_single = stored.is_single != 0};
+}
+
+Tiling tiling_of(const PartReader& part) {
+  Tiling tiling;
+  tiling.tiles = part.records<Tile>("tiles", 0);
+  for (const StoredCell& cell : part.records<StoredCell>("cells", 0))
+    tiling.cells.push_back({cell.box.box(), Row{cell.first_row}, cell.points});
+  tiling.build_tree();
+  return tiling;
+}
+
+// for_each(visit): the records, of which some thousands are in memory at a time.
+template <class Record, class ForEach>
+void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key, ForEach&& for_each) {
+  constexpr std::size_t kTogether = 1 << 14;
+  std::vector<Record> block;
+  const auto write = [&] {
+    part.add(stream, key, std::span<const Record>(block));
+    block.clear();
+  };
+  for_each([&](const Record& record) {
+    block.push_back(record);
+    if (block.size() == kTogether) write();
+  });
+  if (!block.empty()) write();
+}
+
+void add_thinning(const ThinnedScan& thinned, PartWriter& part) {
+  const StoredThinning stored{.edge = thinned.edge,
+                              .bounds = StoredBox(thinned.bounds),
+                              .points = thinned.points,
+                              .dropped = thinned.dropped,
+                              .left = thinned.left,
+                              .has_normals = thinned.has_normals,
+                              .lists = thinned.represented ? thinned.represented->lists() : 0};
+  part.add("thinning", 0, std::span<const StoredThinning>(&stored, 1));
+  for (std::uint64_t list = 0; list < stored.lists; ++list) {
+    add_in_blocks<Represented>(part, "represented", list,
+                               [&](auto&& visit) { thinned.represented->for_each(list, visit); });
+  }
+}
+
+std::optional<ThinnedScan> thinning_of(const PartReader& part, const Job& job) {
+  const std::vector<StoredThinning> stored = part.records<StoredThinning>("thinning", 0);
+  if (stored.empty()) return std::nullopt;
+  const StoredThinning& s = stored.front();
+  ThinnedScan thinned{.representatives = {},
+                      .left = s.left,
+                      .edge = s.edge,
+                      .has_normals = s.has_normals != 0,
+                      .bounds = s.bounds.box(),
+                      .points = s.points,
+                      .dropped = s.dropped,
+                      .represented = {}};
+  if (s.lists > 0) {
+    thinned.represented.emplace(job.file("represented"), s.lists, job.memory.spills / 8);
+    for (std::uint64_t list = 0; list < s.lists; ++list) {
+      part.for_each<Represented>("represented", list, [&](std::span<const Represented> represented) {
+        thinned.represented->append(list, represented);
+      });
+    }
+  }
+  return thinned;
+}
+
+// A file that is as it was sealed.
+std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, const Digest& digest) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) return std::nullopt;
+  StoreFile file = StoreFile::open_sealed(path);
+  if (file.size() != bytes || digest_of(file) != digest) return std::nullopt;
+  return file;
+}
+
+bool fits(const Tiling& tiling, const Job& job) {
+  return std::all_of(tiling.tiles.begin(), tiling.tiles.end(),
+                     [&](const Tile& tile) { return job.tile_bytes(tile.points) <= job.memory.tiles; });
+}
+
+std::string text_of(const Digest& digest) {
+  return std::to_string(digest[0]) + " " + std::to_string(digest[1]);
+}
+
+}  // namespace
+
+StoreFiles level_files(std::size_t number, const Job& job) {
+  const fs::path duplicates = job.file("duplicates");
+  if (job.kept.empty()) return {StoreFile(job.file("points")), StoreFile(job.file("normals")), duplicates};
+  const auto create = [](const fs::path& path) {
+    return StoreFile(path.string() + kUnsealed, StoreFile::Name::kKept);
+  };
+  return {create(points_of(number, job)), create(normals_of(number, job)), duplicates};
+}
+
+void seal_level(Level& level, const std::string& made_from, const Job& job) {
+  if (job.kept.empty()) return;
+  StoredLevel record = stored(level);
+  StoreFile &points = level.store.points_file(), &normals = level.store.normals_file();
+  points.start_sync();
+  normals.start_sync();
+  record.points_bytes = points.size();
+  record.normals_bytes = normals.size();
+  record.points_digest = digest_of(points);
+  record.normals_digest = digest_of(normals);
+  points.seal(points_of(level.number, job));
+  normals.seal(normals_of(level.number, job));
+
+  PartWriter part(part_of(level.number, job));
+  part.add("level", 0, std::span<const StoredLevel>(&record, 1));
+  const Tiling& tiling = level.store.tiling();
+  part.add("tiles", 0, std::span<const Tile>(tiling.tiles));
+  std::vector<StoredCell> cells;
+  for (const Cell& cell : tiling.cells)
+    cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
+  part.add("cells", 0, std::span<const StoredCell>(cells));
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    add_in_blocks<Duplicate>(part, "duplicates", t,
+                             [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });
+  }
+  part.add("input", 0, std::span<const std::uint64_t>(level.input));
+  if (level.thinned) add_thinning(*level.thinned, part);
+  level.made_from = text_of(part.seal(digest_of(made_from)));
+}
+
+std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Job& job) {
+  if (job.kept.empty()) return std::nullopt;
+  const std::optional<PartReader> part = PartReader::open(part_of(number, job), digest_of(made_from));
+  if (!part) return std::nullopt;
+  const std::vector<StoredLevel> records = part->records<StoredLevel>("level", 0);
+  if (records.size() != 1) return std::nullopt;
+  const StoredLevel& record = records.front();
+  Tiling tiling = tiling_of(*part);
+  if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
+  std::optional<StoreFile> points =
+      open_file(points_of(number, job), record.points_bytes, record.points_digest);
+  std::optional<StoreFile> normals =
+      open_file(normals_of(number, job), record.normals_bytes, record.normals_digest);
+  if (!points || !normals) return std::nullopt;
+  TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
+                  survey_of(record).precision(), record.has_normals != 0, job.memory.spills / 8);
+  for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
+    part->for_each<Duplicate>(
+        "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
+  return Level{.number = number,
+               .thinned = thinning_of(*part, job),
+               .survey = survey_of(record),
+               .tile_points = record.tile_points,
+               .store = std::move(store),
+               .made_from = text_of(part->checksum()),
+               .input = part->records<std::uint64_t>("input", 0)};
+}
+
+std::string evaluation_of(const Level& level, const Job& job) {
+  return level.made_from + "\n" + evaluation_parameters(job.config);
+}
+
+KeptOutputs find_outputs(const Level& level, const Job& job) {
+  // Levels above the first one have no outputs but those of their loops.
+  const std::string wanted = level.number == 0 ? output_parameters(job.config) : "";
+  return KeptOutputs(level.number, level.store.tiling().tiles.size(), evaluation_of(level, job) + wanted,
+                     job);
+}
+
+}  // namespace lacuna

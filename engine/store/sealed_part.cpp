@@ -1,0 +1,238 @@
+#include "engine/store/sealed_part.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <system_error>
+
+#define XXH_INLINE_ALL  // no library to link
+#include <xxhash.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBlock = 1 << 20;  // bytes read or written together
+constexpr std::array<char, 8> kMagic = {'l', 'a', 'c', 'u', 'n', 'a', '0', '1'};
+
+struct Entry {
+  std::array<char, 24> stream;
+  std::uint64_t key, offset, bytes;
+};
+
+// The last bytes of a part.
+struct Trailer {
+  std::uint64_t entries;  // their table ends where the trailer begins
+  Digest made_from;
+  Digest checksum;  // of all bytes before, and of the two fields before
+  std::array<char, 8> magic;
+};
+
+class Hash {
+ public:
+  Hash() : state_(XXH3_createState()) { XXH3_128bits_reset(state_.get()); }
+  void add(std::span<const std::byte> bytes) {
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
+  }
+  Digest digest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return {hash.low64, hash.high64};
+  }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
+
+void add_range(const StoreFile& file, std::uint64_t end, Hash& hash) {
+  std::vector<std::byte> block(std::min<std::uint64_t>(kBlock, end));
+  for (std::uint64_t at = 0; at < end;) {
+    const auto part = std::span(block).first(std::min<std::uint64_t>(block.size(), end - at));
+    file.read(at, part);
+    hash.add(part);
+    at += part.size();
+  }
+}
+
+void add_fields(const Trailer& trailer, Hash& hash) {
+  hash.add(std::as_bytes(std::span(&trailer.entries, 1)));
+  hash.add(std::as_bytes(std::span(trailer.made_from)));
+}
+
+std::optional<StoreFile> open_regular(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) return std::nullopt;
+  return StoreFile::open_sealed(path);
+}
+
+std::optional<Trailer> trailer_of(const StoreFile& file) {
+  Trailer trailer;
+  if (file.size() < sizeof trailer) return std::nullopt;
+  file.read(file.size() - sizeof trailer, std::as_writable_bytes(std::span(&trailer, 1)));
+  if (trailer.magic != kMagic) return std::nullopt;
+  return trailer;
+}
+
+}  // namespace
+
+Digest digest_of(std::span<const std::byte> bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.digest();
+}
+
+Digest digest_of(std::string_view text) {
+  return digest_of(std::as_bytes(std::span(text)));
+}
+
+Digest digest_of(const StoreFile& file) {
+  Hash hash;
+  add_range(file, file.size(), hash);
+  return hash.digest();
+}
+
+struct PartWriter::State {
+  explicit State(fs::path path)
+      : path(std::move(path)), file(this->path.string() + ".partial", StoreFile::Name::kKept) {}
+
+  void write(std::span<const std::byte> bytes) {
+    if (block.size() + bytes.size() > kBlock) flush();
+    if (bytes.size() < kBlock) {
+      block.insert(block.end(), bytes.begin(), bytes.end());
+    } else {
+      hash.add(bytes);
+      file.append(bytes);
+    }
+    size += bytes.size();
+  }
+  void flush() {
+    hash.add(block);
+    file.append(block);
+    file.start_sync();
+    block.clear();
+  }
+
+  fs::path path;
+  StoreFile file;
+  Hash hash;
+  std::vector<std::byte> block;
+  std::uint64_t size = 0;
+  std::vector<Entry> table;
+};
+
+PartWriter::PartWriter(fs::path path) : state_(std::make_unique<State>(std::move(path))) {}
+PartWriter::PartWriter(PartWriter&&) noexcept = default;
+PartWriter::~PartWriter() = default;
+
+void PartWriter::add(std::string_view stream, std::uint64_t key, std::span<const std::byte> bytes) {
+  Entry entry{{}, key, state_->size, bytes.size()};
+  assert(stream.size() < entry.stream.size());
+  stream.copy(entry.stream.data(), entry.stream.size() - 1);
+  state_->table.push_back(entry);
+  state_->write(bytes);
+}
+
+std::uint64_t PartWriter::bytes() const {
+  return state_->size;
+}
+
+Digest PartWriter::seal(const Digest& made_from) {
+  State& s = *state_;
+  s.write(std::as_bytes(std::span(s.table)));
+  s.flush();
+  Trailer trailer{.entries = s.table.size(), .made_from = made_from, .checksum = {}, .magic = kMagic};
+  add_fields(trailer, s.hash);
+  trailer.checksum = s.hash.digest();
+  s.file.append(std::as_bytes(std::span(&trailer, 1)));
+  s.file.seal(s.path);
+  return trailer.checksum;
+}
+
+bool PartReader::is_part(const fs::path& path) {
+  const std::optional<StoreFile> file = open_regular(path);
+  return file && trailer_of(*file);
+}
+
+std::optional<PartReader> PartReader::open(const fs::path& path, const Digest& made_from) {
+  std::optional<StoreFile> file = open_regular(path);
+  if (!file) return std::nullopt;
+  PartReader part(*std::move(file));
+  const std::optional<Trailer> found = trailer_of(part.file_);
+  if (!found || found->made_from != made_from) return std::nullopt;
+  const Trailer& trailer = *found;
+  const std::uint64_t end = part.file_.size() - sizeof trailer;
+  if (trailer.entries > end / sizeof(Entry)) return std::nullopt;
+  Hash hash;
+  add_range(part.file_, end, hash);
+  add_fields(trailer, hash);
+  if (hash.digest() != trailer.checksum) return std::nullopt;
+
+  part.checksum_ = trailer.checksum;
+  part.read_table(trailer.entries, end);
+  return part;
+}
+
+std::optional<PartReader> PartReader::open_unchecked(const fs::path& path) {
+  std::optional<StoreFile> file = open_regular(path);
+  if (!file) return std::nullopt;
+  PartReader part(*std::move(file));
+  const std::optional<Trailer> trailer = trailer_of(part.file_);
+  if (!trailer) return std::nullopt;
+  const std::uint64_t end = part.file_.size() - sizeof *trailer;
+  if (trailer->entries > end / sizeof(Entry)) return std::nullopt;
+  part.read_table(trailer->entries, end);
+  return part;
+}
+
+// `end`: of the table. An entry outside of the streams is left out.
+void PartReader::read_table(std::uint64_t entries, std::uint64_t end) {
+  std::vector<Entry> table(entries);
+  const std::uint64_t begin = end - entries * sizeof(Entry);
+  file_.read(begin, std::as_writable_bytes(std::span(table)));
+  for (Entry& entry : table) {
+    entry.stream.back() = 0;
+    if (entry.offset <= begin && entry.bytes <= begin - entry.offset)
+      entries_[entry.key][entry.stream.data()].push_back({entry.offset, entry.bytes});
+  }
+}
+
+std::vector<std::uint64_t> PartReader::keys() const {
+  std::vector<std::uint64_t> keys;
+  for (const auto& [key, streams] : entries_) keys.push_back(key);
+  return keys;
+}
+
+std::vector<std::string> PartReader::streams(std::uint64_t key) const {
+  std::vector<std::string> names;
+  const auto at = entries_.find(key);
+  if (at == entries_.end()) return names;
+  for (const auto& [name, extents] : at->second) names.push_back(name);
+  return names;
+}
+
+std::uint64_t PartReader::bytes(std::uint64_t key) const {
+  std::uint64_t bytes = 0;
+  for (const std::string& stream : streams(key)) {
+    for (const Extent& extent : extents(stream, key)) bytes += extent.bytes;
+  }
+  return bytes;
+}
+
+std::span<const PartReader::Extent> PartReader::extents(std::string_view stream, std::uint64_t key) const {
+  const auto at_key = entries_.find(key);
+  if (at_key == entries_.end()) return {};
+  const auto at = at_key->second.find(stream);
+  if (at == at_key->second.end()) return {};
+  return at->second;
+}
+
+void PartReader::fail_record_size(std::string_view stream) const {
+  throw Error(file_.path().string() + ": the stream " + std::string(stream) + " is not of whole records");
+}
+
+}  // namespace lacuna

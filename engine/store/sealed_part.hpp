@@ -1,0 +1,112 @@
+// A sealed part: what a step of a run has found, as a file of a workspace that outlives the process.
+//
+// A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the
+// entries follows, and then the part's length, its checksum and the fingerprint of what it was made from. So
+// a part proves by itself that it is whole and what it is of. That a file has the name of a part proves
+// nothing. Its name is complete only once all of it is on the disk.
+#pragma once
+
+#include "engine/store/store_file.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+
+// XXH3 of 128 bits (Collet): of what a part was made from, and of its bytes.
+using Digest = std::array<std::uint64_t, 2>;
+Digest digest_of(std::span<const std::byte> bytes);
+Digest digest_of(std::string_view text);
+Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
+
+// Writes entries in any order, from one thread at a time. Without `seal` nothing remains.
+class PartWriter {
+ public:
+  explicit PartWriter(std::filesystem::path path);  // the final one
+  ~PartWriter();
+  PartWriter(PartWriter&&) noexcept;
+
+  // Several entries of one stream and key are read as one, in their order. Streams: up to 23 characters.
+  void add(std::string_view stream, std::uint64_t key, std::span<const std::byte> bytes);
+  template <class Record>
+  void add(std::string_view stream, std::uint64_t key, std::span<const Record> records) {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    add(stream, key, std::as_bytes(records));
+  }
+  std::uint64_t bytes() const;
+  Digest seal(const Digest& made_from);  // returns the checksum
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Reads may come from several threads.
+class PartReader {
+ public:
+  // Whether the file ends as parts do. It may be damaged elsewhere.
+  static bool is_part(const std::filesystem::path& path);
+  // None where there is no such part, or where it is of something else, or is not whole. Reads all of it
+  // once.
+  static std::optional<PartReader> open(const std::filesystem::path& path, const Digest& made_from);
+
+  const Digest& checksum() const { return checksum_; }
+  // By its table alone: bytes may be damaged.
+  static std::optional<PartReader> open_unchecked(const std::filesystem::path& path);
+
+  std::vector<std::uint64_t> keys() const;  // ascending
+  std::vector<std::string> streams(std::uint64_t key) const;
+  std::uint64_t bytes(std::uint64_t key) const;  // in all streams
+  // Empty where there is no entry. Throws `Error` where the bytes are no whole number of records.
+  template <class Record>
+  std::vector<Record> records(std::string_view stream, std::uint64_t key) const;
+  // visit(records) for one entry after the other.
+  template <class Record, class Visit>
+  void for_each(std::string_view stream, std::uint64_t key, Visit&& visit) const;
+
+ private:
+  struct Extent {
+    std::uint64_t offset, bytes;
+  };
+  explicit PartReader(StoreFile file) : file_(std::move(file)) {}
+  void read_table(std::uint64_t entries, std::uint64_t end);
+  std::span<const Extent> extents(std::string_view stream, std::uint64_t key) const;
+  [[noreturn]] void fail_record_size(std::string_view stream) const;
+
+  StoreFile file_;
+  Digest checksum_{};
+  std::map<std::uint64_t, std::map<std::string, std::vector<Extent>, std::less<>>> entries_;  // by key
+};
+
+template <class Record, class Visit>
+void PartReader::for_each(std::string_view stream, std::uint64_t key, Visit&& visit) const {
+  static_assert(std::is_trivially_copyable_v<Record>);
+  std::vector<Record> records;
+  for (const Extent& extent : extents(stream, key)) {
+    if (extent.bytes % sizeof(Record) != 0) fail_record_size(stream);
+    records.resize(extent.bytes / sizeof(Record));
+    file_.read(extent.offset, std::as_writable_bytes(std::span(records)));
+    visit(std::span<const Record>(records));
+  }
+}
+
+template <class Record>
+std::vector<Record> PartReader::records(std::string_view stream, std::uint64_t key) const {
+  std::vector<Record> all;
+  for_each<Record>(stream, key,
+                   [&](std::span<const Record> some) { all.insert(all.end(), some.begin(), some.end()); });
+  return all;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,170 @@
+// A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
+#include "engine/workspace/workspace.hpp"
+
+#include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using test::ScratchFolder;
+
+Cloud scan() {
+  return plane(60).punched({18, 20}, 5).jittered(0.3, 5).with_duplicates(200, 1).with_outliers(3, 2, 1);
+}
+
+// Several tiles at the lower levels.
+Config small_tiles(Config config = {}) {
+  config.run.tile_points = 400;
+  config.run.threads = 2;
+  return config;
+}
+
+std::string bytes_of(const Cloud& cloud, Config config, const fs::path& workspace) {
+  config.run.workspace = workspace.string();
+  return run_engine(cloud, config).bytes();
+}
+
+std::vector<Config> all_configs() {
+  std::vector<Config> configs(4);
+  configs[1].loops.method = LoopMethod::kPaper;
+  configs[2].normals.orient = configs[2].output.vdb = true;
+  configs[3].scale.min_hole = 8;  // a first level of representatives
+  for (Config& config : configs) config = small_tiles(config);
+  return configs;
+}
+
+void copy_files(const fs::path& from, const fs::path& to) {
+  fs::remove_all(to);
+  fs::copy(from, to, fs::copy_options::recursive);
+}
+
+TEST_CASE("a run with a workspace, and one that goes on from all of it, give the result of one without") {
+  for (const Config& config : all_configs()) {
+    const ScratchFolder folder;
+    const std::string expected = run_engine(scan(), config).bytes();
+    CHECK(bytes_of(scan(), config, folder.path()) == expected);
+    CHECK(bytes_of(scan(), config, folder.path()) == expected);
+    const auto state = state_of_workspace(folder.path());
+    REQUIRE(state);
+    CHECK(state->levels.size() == (config.loops.method == LoopMethod::kPaper ? 1 : state->levels.size()));
+    for (const LevelState& level : state->levels) {
+      CHECK(level.tiles > 0);
+      CHECK(level.evaluated == level.tiles);
+    }
+  }
+}
+
+TEST_CASE("a run goes on from whatever parts there are, whole, damaged or cut") {
+  Random random(3);
+  for (const Config& config : all_configs()) {
+    const ScratchFolder folder;
+    const fs::path all = folder / "all", some = folder / "some";
+    fs::create_directory(all);
+    const std::string expected = bytes_of(scan(), config, all);
+    for (int round = 0; round < 12; ++round) {
+      copy_files(all, some);
+      for (const fs::path& file : workspace_files(some)) {
+        const auto size = static_cast<std::int64_t>(fs::file_size(file));
+        const std::int64_t what = random.whole(0, 5);
+        if (what == 0) {
+          fs::remove(file);
+        } else if (what == 1) {
+          fs::resize_file(file, static_cast<std::uintmax_t>(random.whole(0, size)));
+        } else if (what == 2 && size > 0) {
+          std::string content = test::read_file(file);
+          content[static_cast<std::size_t>(random.whole(0, size - 1))] ^= 4;
+          folder.write("damaged", content);
+          fs::rename(folder / "damaged", file);
+        }
+      }
+      fs::remove(some / "run");  // as its end may be what was damaged
+      fs::copy_file(all / "run", some / "run");
+      INFO("round " << round);
+      CHECK(bytes_of(scan(), config, some) == expected);
+    }
+  }
+}
+
+TEST_CASE("parts that are swapped are made again") {
+  const ScratchFolder folder;
+  const Config config = small_tiles();
+  const std::string expected = bytes_of(scan(), config, folder.path());
+  fs::rename(folder / "tiles-0-0", folder / "other");
+  fs::rename(folder / "tiles-1-0", folder / "tiles-0-0");
+  fs::rename(folder / "other", folder / "tiles-1-0");
+  CHECK(bytes_of(scan(), config, folder.path()) == expected);
+}
+
+TEST_CASE("later steps take other parameters, and the parts before them are used again") {
+  const ScratchFolder folder;
+  bytes_of(scan(), small_tiles(), folder.path());
+  const auto written = fs::last_write_time(folder / "level-0");
+  Config selected = small_tiles();
+  selected.selection.min_confidence = 0.9;
+  const auto evaluated = fs::last_write_time(folder / "tiles-0-0");
+  CHECK(bytes_of(scan(), selected, folder.path()) == run_engine(scan(), selected).bytes());
+  CHECK(fs::last_write_time(folder / "tiles-0-0") == evaluated);
+  Config threshold = small_tiles();
+  threshold.coherence.threshold = 0.4;
+  threshold.output.vdb = true;
+  CHECK(bytes_of(scan(), threshold, folder.path()) == run_engine(scan(), threshold).bytes());
+  CHECK(fs::last_write_time(folder / "level-0") == written);
+  Config run = small_tiles();
+  run.run.threads = 1;
+  run.run.tile_points = 900;
+  run.run.memory_limit = 100 << 20;
+  CHECK(bytes_of(scan(), run, folder.path()) == run_engine(scan(), run).bytes());
+  CHECK(fs::last_write_time(folder / "level-0") == written);
+}
+
+TEST_CASE("another input, and parameters that the parts depend on, are an error that says what differs") {
+  const ScratchFolder folder;
+  bytes_of(scan(), small_tiles(), folder.path());
+  Config config = small_tiles();
+  config.neighbourhood.k = 20;
+  CHECK_THROWS_WITH(bytes_of(scan(), config, folder.path()),
+                    Contains("\"k = 15\" there, \"k = 20\" here") && Contains("--restart"));
+  CHECK_THROWS_WITH(bytes_of(scan().translated({1, 0, 0}), small_tiles(), folder.path()),
+                    Contains("the workspace of another run: \"input: "));
+}
+
+TEST_CASE("a folder with others' files of the names of parts is refused, and they stay") {
+  const ScratchFolder folder;
+  folder.write("level-0", "notes on level 0");
+  CHECK_THROWS_WITH(bytes_of(scan(), small_tiles(), folder.path()),
+                    Contains("level-0: is not of a workspace"));
+  CHECK(test::read_file(folder / "level-0") == "notes on level 0");
+  CHECK(folder.names() == std::vector<std::string>{"level-0"});
+  CHECK_FALSE(state_of_workspace(folder.path()));
+  CHECK(workspace_files(folder.path()).empty());
+}
+
+TEST_CASE("other files in a workspace stay, and what was not finished goes") {
+  const ScratchFolder folder;
+  folder.write("notes.txt", "x");
+  bytes_of(scan(), small_tiles(), folder.path());
+  folder.write("tiles-0-7.partial", "x");
+  folder.write("level-3.points.partial", "x");
+  folder.write("other.partial", "x");
+  bytes_of(scan(), small_tiles(), folder.path());
+  CHECK(fs::exists(folder / "notes.txt"));
+  CHECK(fs::exists(folder / "other.partial"));
+  CHECK_FALSE(fs::exists(folder / "tiles-0-7.partial"));
+  CHECK_FALSE(fs::exists(folder / "level-3.points.partial"));
+}
+
+}  // namespace
+}  // namespace lacuna

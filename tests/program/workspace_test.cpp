@@ -1,0 +1,161 @@
+// detect --workspace: a run that is stopped, however, goes on to the results of an undisturbed one.
+#include "tests/support/clouds.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/sheet.hpp"
+#include "tests/support/skip.hpp"
+#include "tests/support/small_disk.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using test::check_failure;
+using test::count_entries;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+struct Run {
+  ScratchFolder folder;
+  std::string scan = folder.write("scan.txt", test::sheet(300));
+  fs::path workspace = folder / "workspace";
+
+  std::vector<std::string> arguments(const fs::path& out, std::vector<std::string> more = {}) const {
+    std::vector<std::string> all = {"detect",        scan,        "--out",    out.string(),
+                                    "--tile-points", "600",       "--points", "--quiet",
+                                    "--overwrite",   "--threads", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::vector<std::string> kept(std::vector<std::string> more = {}) const {
+    more.insert(more.end(), {"--workspace", workspace.string()});
+    return arguments(folder / "out", more);
+  }
+  void is_as_without(const fs::path& without) const {
+    for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"}) {
+      INFO(name);
+      CHECK((test::read_file(folder / "out" / name) == test::read_file(without / name)));
+    }
+  }
+};
+
+TEST_CASE("a run that is killed at any moment goes on to the same results") {
+  const Run run;
+  const fs::path without = run.folder / "without";
+  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
+  std::size_t killed = 0;
+  for (std::size_t entries = 1; entries < 40; entries += 4) {
+    const auto has_entries = [&] {
+      return fs::exists(run.workspace) && count_entries(run.workspace) >= entries;
+    };
+    const ProgramResult stopped = test::run_program_until(run.kept(), SIGKILL, has_entries);
+    killed += stopped.exit_code == 128 + SIGKILL;
+    if (entries % 3 != 0) continue;  // others are killed once more before they end
+    const ProgramResult done = run_program(run.kept());
+    INFO(done.err);
+    REQUIRE(done.exit_code == 0);
+    run.is_as_without(without);
+    fs::remove_all(run.workspace);
+  }
+  CHECK(killed > 5);
+  REQUIRE(run_program(run.kept()).exit_code == 0);
+  run.is_as_without(without);
+}
+
+TEST_CASE("a signal says how to go on, and what is done stays") {
+  const Run run;
+  const auto has_level = [&] { return fs::exists(run.workspace / "level-0"); };
+  const ProgramResult stopped = test::run_program_until(run.kept(), SIGTERM, has_level);
+  REQUIRE(stopped.exit_code == 128 + SIGTERM);
+  CHECK_THAT(stopped.err, EndsWith("; the same command goes on from " + run.workspace.string() + "\n"));
+  CHECK(fs::exists(run.workspace / "level-0"));
+  CHECK_FALSE(fs::exists(run.folder / "out"));
+  CHECK_THAT(run_program({"status", run.workspace.string()}).out,
+             Contains("level 0: ") && Contains(" tiles evaluated"));
+}
+
+TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {
+  const Run run;
+  const fs::path without = run.folder / "without";
+  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
+  std::size_t failed = 0;
+  for (const char* size : {"64k", "1m", "3m", "6m", "9m", "12m", "15m", "20m", "25m", "30m"}) {
+    const test::SmallDisk disk(run.folder / "disk", size);
+    if (!disk.mounted()) {
+      test::skip("cannot mount a small disk");
+      return;
+    }
+    INFO(size);
+    const fs::path small = disk.path() / "workspace";
+    const std::vector<std::string> arguments = run.arguments(
+        run.folder / "out", {"--workspace", small.string(), "--scratch", run.folder.path().string()});
+    const ProgramResult result = run_program(arguments);
+    if (result.exit_code == 0) continue;
+    ++failed;
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, Contains("lacuna: error: ") &&
+                               (Contains("No space left on device") || Contains("the run needs at least")));
+    if (!fs::exists(small)) continue;
+    fs::copy(small, run.workspace);
+    REQUIRE(run_program(run.kept()).exit_code == 0);
+    run.is_as_without(without);
+    fs::remove_all(run.workspace);
+  }
+  CHECK(failed >= 4);
+}
+
+TEST_CASE("another input is refused, and --restart begins anew") {
+  const Run run;
+  REQUIRE(run_program(run.kept()).exit_code == 0);
+  run.folder.write("scan.txt", test::sheet(299));
+  check_failure(run_program(run.kept()), 1, "the workspace of another run: \"input: ");
+  REQUIRE(run_program(run.kept({"--restart"})).exit_code == 0);
+  const fs::path without = run.folder / "without";
+  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
+  run.is_as_without(without);
+}
+
+TEST_CASE("clean removes a workspace, but no file of others") {
+  const Run run;
+  REQUIRE(run_program(run.kept()).exit_code == 0);
+  run.folder.write("workspace/notes.txt", "x");
+  const ProgramResult cleaned = run_program({"clean", run.workspace.string()});
+  CHECK(cleaned.exit_code == 0);
+  CHECK_THAT(cleaned.out, Contains("where other files stay"));
+  CHECK(count_entries(run.workspace) == 1);
+  check_failure(run_program({"clean", run.workspace.string()}), 1, "not the workspace of a run");
+  check_failure(run_program({"status", run.workspace.string()}), 1, "not the workspace of a run");
+  fs::remove(run.workspace / "notes.txt");
+  REQUIRE(run_program(run.kept()).exit_code == 0);
+  CHECK(run_program({"clean", run.workspace.string()}).exit_code == 0);
+  CHECK_FALSE(fs::exists(run.workspace));
+}
+
+TEST_CASE("a workspace is a folder of its own, and of one run at a time") {
+  const Run run;
+  const std::string out = (run.folder / "out").string();
+  fs::create_directory(out);
+  check_failure(run_program(run.arguments(out, {"--workspace", out})), 2,
+                "is the folder of the results, too");
+  check_failure(run_program(run.arguments(out, {"--restart"})), 2, "--restart needs --workspace");
+  fs::create_directory(run.workspace);
+  const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
+  REQUIRE(::flock(other, LOCK_EX) == 0);
+  check_failure(run_program(run.kept()), 1, "workspace");
+  ::close(other);
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,31 @@
+// A disk that is soon full.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include <sys/mount.h>
+
+namespace lacuna::test {
+
+// A disk of a few hundred KiB. Not there where the tests may not mount one.
+class SmallDisk {
+ public:
+  SmallDisk(std::filesystem::path at, const std::string& size) : at_(std::move(at)) {
+    std::filesystem::create_directory(at_);
+    mounted_ = ::mount("tmpfs", at_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) ::umount(at_.c_str());
+    std::filesystem::remove(at_);
+  }
+  bool mounted() const { return mounted_; }
+  const std::filesystem::path& path() const { return at_; }
+
+ private:
+  std::filesystem::path at_;
+  bool mounted_;
+};
+
+}  // namespace lacuna::test
