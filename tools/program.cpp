@@ -3,6 +3,7 @@
 #include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "engine/unknown_key.hpp"
+#include "tools/compare_command.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
@@ -167,6 +168,7 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   add_detect_command(app);
   add_evaluate_command(app);
+  add_compare_command(app);
   add_info_command(app);
   add_status_command(app);
   add_clean_command(app);

@@ -11,9 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// More would be lost with the process, fewer would be many files.
+// With more, a stop would lose more; with less, there would be too many files. A part may take longer in a
+// run that has taken long.
 constexpr std::uint64_t kPartBytes = std::uint64_t{256} << 20;
-constexpr std::chrono::seconds kPartAge{20};
+constexpr std::chrono::seconds kLeastAge{10};
+constexpr int kPartsOfRun = 64;
 
 fs::path part_path(const fs::path& prefix, std::size_t number) {
   return prefix.string() + std::to_string(number);
@@ -86,7 +88,9 @@ void KeptOutputs::add(TileIndex tile, const TileOutput& output) {
   }
   for (const auto& [stream, bytes] : output.streams())
     writer_->add(stream, tile, std::span<const std::byte>(bytes));
-  if (writer_->bytes() >= kPartBytes || Clock::now() - begun_ >= kPartAge) seal();
+  const Clock::time_point now = Clock::now();
+  const Clock::duration most_age = std::max<Clock::duration>(kLeastAge, (now - start_) / kPartsOfRun);
+  if (writer_->bytes() >= kPartBytes || now - begun_ >= most_age) seal();
 }
 
 void KeptOutputs::finish() {

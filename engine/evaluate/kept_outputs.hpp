@@ -49,7 +49,8 @@ class KeptOutputs {
   std::mutex mutex_;
   std::size_t next_ = 0;  // number of the next part
   std::optional<PartWriter> writer_;
-  Clock::time_point begun_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point begun_;  // when the open part was
 };
 
 }  // namespace lacuna

@@ -1,0 +1,141 @@
+#include "tools/compare_command.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/report/scene.hpp"
+#include "tools/accuracy/compare_loops.hpp"
+#include "tools/measures_text.hpp"
+#include "tools/summary.hpp"
+#include "tools/visible_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace lacuna::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace accuracy;
+using nlohmann::ordered_json;
+
+struct CompareArguments {
+  fs::path before, after;
+  double tolerance = 0;
+  bool json = false;
+};
+
+struct ReadResult {
+  std::vector<ComparedLoop> loops;
+  double spacing = 0;  // median distance of neighbours
+  double extent = 0;
+  std::string unit;
+};
+
+ReadResult read(const fs::path& folder) {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max() / 8;
+  const io::Scene scene = io::read_scene(folder, {.positions = kAll, .loops = kAll});
+  ReadResult result{
+      .loops = {},
+      .spacing = scene.holes.at("median_distance").get<double>(),
+      .extent = scene.bounds.isEmpty() ? 0 : scene.bounds.diagonal().norm(),
+      .unit = scene.holes.at("unit").is_string() ? scene.holes.at("unit").get<std::string>() : ""};
+  for (std::size_t i = 0; i < scene.loops.measures.size(); ++i) {
+    ComparedLoop& loop = result.loops.emplace_back();
+    loop.measures = scene.loops.measures[i];
+    for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
+      loop.points.push_back(scene.origin + scene.loops.vertices[v].cast<double>());
+  }
+  return result;
+}
+
+std::string name_of_loop(const std::optional<std::size_t>& loop) {
+  return loop ? "loop " + std::to_string(*loop) : "-";
+}
+
+void print_text(const CompareArguments& arguments, const ReadResult& before, const ReadResult& after,
+                double tolerance, std::vector<LoopChange> changes) {
+  std::map<Change, std::size_t> counts;
+  for (const LoopChange& change : changes) ++counts[change.change];
+  std::cout << visible(arguments.before.string()) << " and " << visible(arguments.after.string()) << ": "
+            << print_count(counts[Change::kClosed]) << " closed, " << print_count(counts[Change::kNew])
+            << " new, " << print_count(counts[Change::kChanged]) << " changed, "
+            << print_count(counts[Change::kSame]) << " same; curves of one hole are at most "
+            << print_length(tolerance, after.unit) << " apart\n";
+  const auto loop_of = [&](const LoopChange& c) -> const LoopMeasures& {
+    return c.after ? after.loops[*c.after].measures : before.loops[*c.before].measures;
+  };
+  std::erase_if(changes, [](const LoopChange& c) { return c.change == Change::kSame; });
+  if (changes.empty()) return;
+  std::stable_sort(changes.begin(), changes.end(), [&](const LoopChange& a, const LoopChange& b) {
+    return loop_of(a).area > loop_of(b).area;
+  });
+  std::vector<std::vector<std::string>> rows = {
+      {"change", "before", "after", "area before", "after", "centre"}};
+  for (const LoopChange& c : changes) {
+    const auto area = [&](const std::optional<std::size_t>& loop, const ReadResult& result) {
+      return loop ? print_area(result.loops[*loop].measures.area, result.unit) : "-";
+    };
+    rows.push_back({std::string(name_of(c.change)), name_of_loop(c.before), name_of_loop(c.after),
+                    area(c.before, before), area(c.after, after),
+                    print_place(loop_of(c).centroid, after.extent)});
+  }
+  std::cout << "\n" << print_table(rows);
+}
+
+void print_json(double tolerance, const std::vector<LoopChange>& changes) {
+  ordered_json json{{"tolerance", tolerance}, {"changes", ordered_json::array()}};
+  const auto index = [](const std::optional<std::size_t>& loop) {
+    return loop ? ordered_json(*loop) : ordered_json();
+  };
+  for (const LoopChange& c : changes)
+    json["changes"].push_back(
+        {{"change", name_of(c.change)}, {"before", index(c.before)}, {"after", index(c.after)}});
+  std::cout << json.dump(2) << "\n";
+}
+
+void run_compare(const CompareArguments& arguments) {
+  if (!(arguments.tolerance >= 0 && std::isfinite(arguments.tolerance)))
+    throw CLI::ValidationError("--tolerance", "must be a length of 0 (automatic) or more");
+  const ReadResult before = read(arguments.before), after = read(arguments.after);
+  constexpr double kDistances = 2;
+  const double tolerance =
+      arguments.tolerance > 0 ? arguments.tolerance : kDistances * std::max(before.spacing, after.spacing);
+  std::vector<LoopChange> changes = compare_loops(before.loops, after.loops, tolerance);
+  if (arguments.json) {
+    print_json(tolerance, changes);
+  } else {
+    print_text(arguments, before, after, tolerance, std::move(changes));
+  }
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Say which holes of two results are closed, new, changed or the same");
+  const auto arguments = std::make_shared<CompareArguments>();
+  command->add_option("BEFORE", arguments->before, "Output folder of lacuna detect")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("AFTER", arguments->after, "Output folder of a later run on the same place")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "How far apart the curves of one hole may be, in units of the scan; 0: twice the larger "
+                   "median distance of neighbours")
+      ->type_name("LENGTH");
+  command->add_flag("--json", arguments->json, "For programs");
+  command->callback([arguments] { run_compare(*arguments); });
+}
+
+}  // namespace lacuna::tools
