@@ -3,6 +3,7 @@
 #include "engine/run/rounds.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -29,7 +30,7 @@ void Candidates::emit(const EvaluatedTile& tile, TileOutput& output) const {
     const std::vector<Row>& rows = tile.points.rows;
     candidates.push_back({{rows[p], rows[e.gap_near], rows[e.gap_far]}, tile.stored(p), tile.probability(p)});
   }
-  output.add("candidates", candidates);
+  output.add("candidates", std::move(candidates));
 }
 
 void Candidates::absorb(TileIndex tile, const TileOutput& output) {

@@ -142,17 +142,18 @@ struct DistanceBin {
 };
 
 void emit_sums(const Totals& sums, TileOutput& output) {
-  const TileSums stored{.points = sums.points,
-                        .neighbours = sums.neighbours,
-                        .candidates = sums.candidates,
-                        .undefined_normals = sums.undefined_normals,
-                        .probabilities = sums.probabilities,
-                        .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
-                        .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
-  output.add("sums", std::span(&stored, 1));
+  std::vector<TileSums> stored(1);
+  stored.front() = {.points = sums.points,
+                    .neighbours = sums.neighbours,
+                    .candidates = sums.candidates,
+                    .undefined_normals = sums.undefined_normals,
+                    .probabilities = sums.probabilities,
+                    .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
+                    .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
+  output.add("sums", std::move(stored));
   std::vector<DistanceBin> bins;
   for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
-  output.add("distances", bins);
+  output.add("distances", std::move(bins));
 }
 
 void absorb_sums(const TileOutput& output, Totals& totals) {

@@ -67,14 +67,13 @@ void KeptOutputs::for_each(const Job& job,
     for (const std::uint64_t tile : part.keys()) {
       if (std::exchange(is_listed[tile], std::uint8_t{1}) != 0) continue;
       places.push_back({&part, tile});
-      needs.push_back(part.bytes(tile));
+      needs.push_back(part.size(tile));
     }
   }
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
     const auto& [part, tile] = places[i];
     TileOutput output;
-    for (const std::string& stream : part->streams(tile))
-      output.add(stream, part->records<std::byte>(stream, tile));
+    for (const std::string& stream : part->streams(tile)) output.add(stream, part->bytes(stream, tile));
     visit(static_cast<TileIndex>(tile), output);
   });
 }
@@ -86,8 +85,8 @@ void KeptOutputs::add(TileIndex tile, const TileOutput& output) {
     writer_.emplace(part_path(prefix_, next_++));
     begun_ = Clock::now();
   }
-  for (const auto& [stream, bytes] : output.streams())
-    writer_->add(stream, tile, std::span<const std::byte>(bytes));
+  output.for_each_stream(
+      [&](std::string_view stream, std::span<const std::byte> bytes) { writer_->add(stream, tile, bytes); });
   const Clock::time_point now = Clock::now();
   const Clock::duration most_age = std::max<Clock::duration>(kLeastAge, (now - start_) / kPartsOfRun);
   if (writer_->bytes() >= kPartBytes || now - begun_ >= most_age) seal();

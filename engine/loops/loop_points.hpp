@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -30,7 +31,7 @@ inline void emit_loop_points(const EvaluatedTile& tile, std::span<const std::uin
     const Eigen::Vector3f surface = tile.evaluations[p].mean_offset.cast<float>();
     points.push_back({p, tile.probability(p), {surface.x(), surface.y(), surface.z()}, tile.stored(p)});
   }
-  output.add("loop points", points);
+  output.add("loop points", std::move(points));
 }
 
 inline void absorb_loop_points(TileIndex tile, const TileOutput& output, LoopPointLists& lists) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -89,7 +90,7 @@ OrientationGraph::OrientationGraph(const TileStore& store, const Job& job)
 void OrientationGraph::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<StoredNormal> normals;
   for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
-  output.add("normals", normals);
+  output.add("normals", std::move(normals));
 
   std::vector<OrientationEdge> edges;
   std::vector<OrientationCrossing> crossings;
@@ -109,7 +110,7 @@ void OrientationGraph::emit(const EvaluatedTile& tile, TileOutput& output) const
     }
   }
   output.add("orientation", spanning_forest(std::move(edges), value(tile.tile.first_row), points.owned));
-  output.add("orientation crossings", crossings);
+  output.add("orientation crossings", std::move(crossings));
 }
 
 void OrientationGraph::absorb(TileIndex tile, const TileOutput& output) {

@@ -3,6 +3,7 @@
 #include "engine/criteria/criteria.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lacuna {
 
@@ -29,7 +30,7 @@ void PointResults::emit(const EvaluatedTile& tile, TileOutput& output) const {
       put(&criterion, sizeof criterion);
     }
   }
-  output.add("results", records);
+  output.add("results", std::move(records));
 }
 
 void PointResults::absorb(TileIndex tile, const TileOutput& output) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -113,7 +114,7 @@ void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
 void ProbabilityVoxels::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<float> probabilities(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
-  output.add("probabilities", probabilities);
+  output.add("probabilities", std::move(probabilities));
 
   std::map<std::int64_t, std::uint64_t> exponents;
   for (const Evaluation& e : tile.evaluations) {

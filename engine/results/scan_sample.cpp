@@ -41,7 +41,6 @@ ScanSample::ScanSample(std::uint64_t most_points, const TileStore& store, const 
     : store_(store), most_points_(most_points), candidates_(job.file("sample-keys"), job.memory.spills / 8) {}
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  constexpr std::size_t kTogether = 1 << 14;
   std::vector<EmittedSample> samples;
   const std::uint32_t last = last_bin_;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
@@ -50,9 +49,8 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
     if (bin_of(key) > last) continue;
     const Eigen::Vector3f normal = e.normal.cast<float>();
     samples.push_back({key, tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
-    if (samples.size() == kTogether) output.add("sample", std::exchange(samples, {}));
   }
-  output.add("sample", samples);
+  output.add("sample", std::move(samples));
 }
 
 void ScanSample::absorb(TileIndex tile, const TileOutput& output) {

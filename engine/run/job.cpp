@@ -25,9 +25,9 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Stored point, position, id, row, tree, evaluation, edges; and k neighbours in two lists.
-std::uint64_t bytes_per_tile_point(std::int64_t k) {
-  return 420 + 12 * static_cast<std::uint64_t>(k);
+// Stored point, position, id, row, tree, evaluation, edges, outputs; k neighbours in two lists.
+std::uint64_t bytes_per_tile_point(const Config& config) {
+  return 420 + 12 * static_cast<std::uint64_t>(config.neighbourhood.k) + (config.normals.orient ? 80 : 0);
 }
 
 // Points that a tile may have. With fewer, the tables with entries for every tile do not fit in memory. With
@@ -36,11 +36,12 @@ struct TileSizes {
   std::uint64_t least, most;
 };
 
-TileSizes tile_sizes(const Memory& memory, std::uint64_t points, std::int64_t k) {
+TileSizes tile_sizes(const Memory& memory, std::uint64_t points, const Config& config) {
   constexpr std::uint64_t kTables = 1 << 10;  // bytes for each tile, in all tables that exist at a time
-  const std::uint64_t neighbours = 2 * static_cast<std::uint64_t>(k);  // of a point, on average at most
+  const std::uint64_t neighbours =
+      2 * static_cast<std::uint64_t>(config.neighbourhood.k);  // of a point, on average at most
   return {.least = points / (memory.spills / kTables) + 1,
-          .most = std::min((memory.tiles - kTileBytes) / bytes_per_tile_point(k),
+          .most = std::min((memory.tiles - kTileBytes) / bytes_per_tile_point(config),
                            std::numeric_limits<std::uint32_t>::max() / neighbours)};
 }
 
@@ -77,18 +78,17 @@ Job::Job(const Config& config, std::filesystem::path workspace, Progress& progre
 }
 
 std::uint64_t Job::tile_bytes(std::uint64_t points) const {
-  return points * bytes_per_tile_point(config.neighbourhood.k) + kTileBytes;
+  return points * bytes_per_tile_point(config) + kTileBytes;
 }
 
 std::uint64_t Job::tile_points(std::uint64_t points) const {
   constexpr std::uint64_t kLeast = 4096;        // smaller ones are mostly border
   constexpr std::uint64_t kMost = 256 << 10;    // larger ones gain little
   constexpr std::uint64_t kTilesPerThread = 2;  // so that the last tiles do not leave threads idle
-  const std::int64_t k = config.neighbourhood.k;
-  TileSizes sizes = tile_sizes(memory, points, k);
+  TileSizes sizes = tile_sizes(memory, points, config);
   if (sizes.least > sizes.most) {
     std::uint64_t limit = memory.limit / kMiB * kMiB;
-    while (sizes.least > sizes.most) sizes = tile_sizes(Memory::share(limit += kMiB), points, k);
+    while (sizes.least > sizes.most) sizes = tile_sizes(Memory::share(limit += kMiB), points, config);
     throw Error("the memory limit of " + std::to_string(memory.limit / kMiB) + " MiB is too small for " +
                 std::to_string(points) + " points; allowed: " + std::to_string(limit / kMiB) + "MiB or more");
   }

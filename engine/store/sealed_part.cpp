@@ -215,7 +215,17 @@ std::vector<std::string> PartReader::streams(std::uint64_t key) const {
   return names;
 }
 
-std::uint64_t PartReader::bytes(std::uint64_t key) const {
+PartReader::AlignedBytes PartReader::bytes(std::string_view stream, std::uint64_t key) const {
+  AlignedBytes bytes;
+  for (const Extent& extent : extents(stream, key)) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + extent.bytes);
+    file_.read(extent.offset, std::span(bytes).subspan(before));
+  }
+  return bytes;
+}
+
+std::uint64_t PartReader::size(std::uint64_t key) const {
   std::uint64_t bytes = 0;
   for (const std::string& stream : streams(key)) {
     for (const Extent& extent : extents(stream, key)) bytes += extent.bytes;

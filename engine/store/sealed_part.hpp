@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include <oneapi/tbb/cache_aligned_allocator.h>
+
 namespace lacuna {
 
 // XXH3 of 128 bits (Collet): of what a part was made from, and of its bytes.
@@ -67,7 +69,10 @@ class PartReader {
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
-  std::uint64_t bytes(std::uint64_t key) const;  // in all streams
+  std::uint64_t size(std::uint64_t key) const;  // bytes in all streams
+  // Aligned for any record.
+  using AlignedBytes = std::vector<std::byte, tbb::cache_aligned_allocator<std::byte>>;
+  AlignedBytes bytes(std::string_view stream, std::uint64_t key) const;
   // Empty where there is no entry. Throws `Error` where the bytes are no whole number of records.
   template <class Record>
   std::vector<Record> records(std::string_view stream, std::uint64_t key) const;

@@ -85,14 +85,14 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
     border.push_back(p);
     strengths.push_back(strength(p));
   }
-  output.add("border", border);
-  output.add("strengths", strengths);
+  output.add("border", std::move(border));
+  output.add("strengths", std::move(strengths));
   const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
-  output.add("edges", edges.inside);
+  output.add("edges", std::move(edges.inside));
   std::vector<StoredCrossing> undecided;
   for (const Crossing& c : edges.crossings)
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
-  output.add("undecided crossings", undecided);
+  output.add("undecided crossings", std::move(undecided));
 
   // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign
   // neighbours.

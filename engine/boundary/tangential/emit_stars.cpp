@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace lacuna::tangential {
 namespace {
@@ -100,10 +101,10 @@ std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars
                  wedges);
     }
   }
-  output.add("active", active);
-  output.add("open stars", open.stars);
-  output.add("open vertices", open.vertices);
-  output.add("wedges", wedges);
+  output.add("active", std::move(active));
+  output.add("open stars", std::move(open.stars));
+  output.add("open vertices", std::move(open.vertices));
+  output.add("wedges", std::move(wedges));
   return is_vertex;
 }
 
@@ -139,9 +140,9 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, const Tangenti
                     .is_border = found.states[p] == PointState::kBorder});
     for (const LocalIndex q : tile.neighbourhoods[p]) neighbours.push_back(place[q]);
   }
-  output.add("belt", belt);
-  output.add("belt rows", rows);
-  output.add("belt neighbours", neighbours);
+  output.add("belt", std::move(belt));
+  output.add("belt rows", std::move(rows));
+  output.add("belt neighbours", std::move(neighbours));
 
   std::vector<LocalIndex> owned;
   std::vector<Site> sites;
@@ -153,9 +154,9 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, const Tangenti
     samples.push_back(
         {found.samplings[p], smallest_radii(found.stars[p].link, config), tile.evaluations[p].surface_share});
   }
-  output.add("sampled", owned);
-  output.add("sites", sites);
-  output.add("samples", samples);
+  output.add("sampled", std::move(owned));
+  output.add("sites", std::move(sites));
+  output.add("samples", std::move(samples));
 }
 
 }  // namespace

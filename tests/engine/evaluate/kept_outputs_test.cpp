@@ -39,7 +39,7 @@ struct Kept {
     KeptOutputs kept(3, 6, made_from, job);
     for (const auto& [tile, number] : numbers) {
       TileOutput output;
-      output.add("number", std::span(&number, 1));
+      output.add("number", std::vector{number});
       kept.add(tile, output);
     }
     kept.finish();

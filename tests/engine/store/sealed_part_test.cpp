@@ -61,7 +61,7 @@ TEST_CASE("a part gives back its entries by stream and key, in their order") {
     CHECK(part->records<std::uint64_t>("b", 7).empty());
     CHECK(part->records<std::uint64_t>("c", 7).empty());
     CHECK(part->records<std::uint64_t>("a", 8).empty());
-    CHECK(part->bytes(7) == (count + 2) * sizeof(std::uint64_t));
+    CHECK(part->size(7) == (count + 2) * sizeof(std::uint64_t));
     CHECK(folder.names() == std::vector<std::string>{"part"});
   }
 }
