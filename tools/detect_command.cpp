@@ -84,7 +84,7 @@ std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::
     throw UsageError(name + ": is the folder of the results, too; allowed: another one for --workspace");
   auto used = std::make_unique<UsedWorkspace>(name);
   const fs::path& folder = used->folder.path();
-  for (const fs::path& left : find_folders(folder, "lacuna-")) fs::remove_all(left, error);
+  for (const fs::path& left : find_folders(folder, "lacuna-")) fs::remove(left, error);  // if it is empty
   if (restart) {
     for (const fs::path& file : workspace_files(folder)) remove_part(file);
   } else if (const std::optional<WorkspaceState> state = state_of_workspace(folder)) {

@@ -48,7 +48,7 @@ bool is_of_evaluation(const Parameter& p) {
 }
 
 bool is_of_outputs(const Parameter& p) {
-  const std::set<std::string_view> keys = {"points", "vdb", "sample_points", "orient"};
+  const std::set<std::string_view> keys = {"points", "vdb", "sample_points", "orient_normals"};
   return keys.contains(p.key);
 }
 

@@ -130,6 +130,17 @@ TEST_CASE("later steps take other parameters, and the parts before them are used
   CHECK(fs::last_write_time(folder / "level-0") == written);
 }
 
+TEST_CASE("outputs that an earlier run did not want are found by the next one") {
+  const ScratchFolder folder;
+  bytes_of(scan(), small_tiles(), folder.path());
+  std::vector<Config> configs(3, small_tiles());
+  configs[0].normals.orient = true;
+  configs[1].output.vdb = true;
+  configs[2].output.sample_points = 0;
+  for (const Config& config : configs)
+    CHECK(bytes_of(scan(), config, folder.path()) == run_engine(scan(), config).bytes());
+}
+
 TEST_CASE("another input, and parameters that the parts depend on, are an error that says what differs") {
   const ScratchFolder folder;
   bytes_of(scan(), small_tiles(), folder.path());
