@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -154,10 +153,8 @@ std::optional<ThinnedScan> thinning_of(const PartReader& part, const Job& job) {
 
 // A file that is as it was sealed.
 std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, const Digest& digest) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(path, error))) return std::nullopt;
-  StoreFile file = StoreFile::open_sealed(path);
-  if (file.size() != bytes || digest_of(file) != digest) return std::nullopt;
+  std::optional<StoreFile> file = StoreFile::open_sealed(path);
+  if (file && (file->size() != bytes || digest_of(*file) != digest)) return std::nullopt;
   return file;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <system_error>
 
 #define XXH_INLINE_ALL  // no library to link
 #include <xxhash.h>
@@ -64,12 +63,6 @@ void add_fields(const Trailer& trailer, Hash& hash) {
   hash.add(std::as_bytes(std::span(trailer.made_from)));
 }
 
-std::optional<StoreFile> open_regular(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(path, error))) return std::nullopt;
-  return StoreFile::open_sealed(path);
-}
-
 std::optional<Trailer> trailer_of(const StoreFile& file) {
   Trailer trailer;
   if (file.size() < sizeof trailer) return std::nullopt;
@@ -98,7 +91,7 @@ Digest digest_of(const StoreFile& file) {
 
 struct PartWriter::State {
   explicit State(fs::path path)
-      : path(std::move(path)), file(this->path.string() + ".partial", StoreFile::Name::kKept) {}
+      : path(std::move(path)), file(this->path.string() + kUnsealed, StoreFile::Name::kKept) {}
 
   void write(std::span<const std::byte> bytes) {
     if (block.size() + bytes.size() > kBlock) flush();
@@ -154,51 +147,41 @@ Digest PartWriter::seal(const Digest& made_from) {
 }
 
 bool PartReader::is_part(const fs::path& path) {
-  const std::optional<StoreFile> file = open_regular(path);
+  const std::optional<StoreFile> file = StoreFile::open_sealed(path);
   return file && trailer_of(*file);
 }
 
 std::optional<PartReader> PartReader::open(const fs::path& path, const Digest& made_from) {
-  std::optional<StoreFile> file = open_regular(path);
-  if (!file) return std::nullopt;
-  PartReader part(*std::move(file));
-  const std::optional<Trailer> found = trailer_of(part.file_);
-  if (!found || found->made_from != made_from) return std::nullopt;
-  const Trailer& trailer = *found;
-  const std::uint64_t end = part.file_.size() - sizeof trailer;
-  if (trailer.entries > end / sizeof(Entry)) return std::nullopt;
+  std::optional<PartReader> part = open_unchecked(path);
+  if (!part) return std::nullopt;
+  const Trailer trailer = *trailer_of(part->file_);
+  if (trailer.made_from != made_from) return std::nullopt;
   Hash hash;
-  add_range(part.file_, end, hash);
+  add_range(part->file_, part->file_.size() - sizeof trailer, hash);
   add_fields(trailer, hash);
   if (hash.digest() != trailer.checksum) return std::nullopt;
-
-  part.checksum_ = trailer.checksum;
-  part.read_table(trailer.entries, end);
   return part;
 }
 
+// An entry outside of the streams is left out.
 std::optional<PartReader> PartReader::open_unchecked(const fs::path& path) {
-  std::optional<StoreFile> file = open_regular(path);
+  std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (!file) return std::nullopt;
-  PartReader part(*std::move(file));
-  const std::optional<Trailer> trailer = trailer_of(part.file_);
+  const std::optional<Trailer> trailer = trailer_of(*file);
   if (!trailer) return std::nullopt;
-  const std::uint64_t end = part.file_.size() - sizeof *trailer;
+  const std::uint64_t end = file->size() - sizeof *trailer;
   if (trailer->entries > end / sizeof(Entry)) return std::nullopt;
-  part.read_table(trailer->entries, end);
-  return part;
-}
-
-// `end`: of the table. An entry outside of the streams is left out.
-void PartReader::read_table(std::uint64_t entries, std::uint64_t end) {
-  std::vector<Entry> table(entries);
-  const std::uint64_t begin = end - entries * sizeof(Entry);
-  file_.read(begin, std::as_writable_bytes(std::span(table)));
+  PartReader part(*std::move(file));
+  part.checksum_ = trailer->checksum;
+  std::vector<Entry> table(trailer->entries);
+  const std::uint64_t begin = end - table.size() * sizeof(Entry);
+  part.file_.read(begin, std::as_writable_bytes(std::span(table)));
   for (Entry& entry : table) {
     entry.stream.back() = 0;
     if (entry.offset <= begin && entry.bytes <= begin - entry.offset)
-      entries_[entry.key][entry.stream.data()].push_back({entry.offset, entry.bytes});
+      part.entries_[entry.key][entry.stream.data()].push_back({entry.offset, entry.bytes});
   }
+  return part;
 }
 
 std::vector<std::uint64_t> PartReader::keys() const {

@@ -85,7 +85,6 @@ class PartReader {
     std::uint64_t offset, bytes;
   };
   explicit PartReader(StoreFile file) : file_(std::move(file)) {}
-  void read_table(std::uint64_t entries, std::uint64_t end);
   std::span<const Extent> extents(std::string_view stream, std::uint64_t key) const;
   [[noreturn]] void fail_record_size(std::string_view stream) const;
 

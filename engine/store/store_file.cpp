@@ -9,6 +9,7 @@
 #include <cstring>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -42,17 +43,18 @@ StoreFile::StoreFile(std::filesystem::path path, Name name)
   if (name == Name::kRemoved) ::unlink(path_.c_str());
 }
 
-StoreFile StoreFile::open_sealed(std::filesystem::path path) {
+std::optional<StoreFile> StoreFile::open_sealed(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return std::nullopt;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
   if (descriptor < 0) fail_with(errno, path, "open");
   struct stat status {};
-  const bool is_known = ::fstat(descriptor, &status) == 0;
-  if (!is_known || !S_ISREG(status.st_mode)) {
-    const int error = is_known ? EINVAL : errno;
+  if (::fstat(descriptor, &status) != 0) {
+    const int reason = errno;
     ::close(descriptor);
-    fail_with(error, path, "open");
+    fail_with(reason, path, "read the length");
   }
-  return {std::move(path), descriptor, static_cast<std::uint64_t>(status.st_size)};
+  return StoreFile(path, descriptor, static_cast<std::uint64_t>(status.st_size));
 }
 
 StoreFile::StoreFile(StoreFile&& other) noexcept

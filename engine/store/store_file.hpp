@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 
 namespace lacuna {
+
+inline constexpr const char* kUnsealed = ".partial";  // how names of files end before they are sealed
 
 // Reads and writes may come from several threads.
 //
@@ -22,8 +25,8 @@ class StoreFile {
   };
   // Creates an empty file. `path` must not exist.
   explicit StoreFile(std::filesystem::path path, Name name = Name::kRemoved);
-  // Opens a sealed file, to be read only. Throws `Error`.
-  static StoreFile open_sealed(std::filesystem::path path);
+  // Opens a sealed file, to be read only. None where there is no regular file. Throws `Error`.
+  static std::optional<StoreFile> open_sealed(const std::filesystem::path& path);
   ~StoreFile();  // removes a file with a name that was not sealed
   StoreFile(StoreFile&& other) noexcept;
   StoreFile& operator=(StoreFile&&) = delete;

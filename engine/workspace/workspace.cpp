@@ -52,9 +52,9 @@ bool is_of_outputs(const Parameter& p) {
   return keys.contains(p.key);
 }
 
-Lines made_from(const PointSource& scan, const Config& config) {
+Lines made_from(const Lines& identity, const Config& config) {
   Lines lines = {"lacuna " LACUNA_VERSION};
-  for (const std::string& part : scan.identity()) lines.push_back("input: " + part);
+  for (const std::string& part : identity) lines.push_back("input: " + part);
   for (const std::string& line : parameter_lines(config, is_of_input)) lines.push_back(line);
   return lines;
 }
@@ -162,9 +162,10 @@ void remove_part(const fs::path& file) {
 void open_workspace(const PointSource& scan, Job& job) {
   const fs::path folder = job.config.run.workspace;
   if (folder.empty()) return;
-  if (scan.identity().empty())
+  const Lines identity = scan.identity();
+  if (identity.empty())
     throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
-  const Lines now = made_from(scan, job.config);
+  const Lines now = made_from(identity, job.config);
   const std::optional<Lines> before = lines_of(folder);
   if (before && *before != now) {
     throw Error(folder.string() + ": the workspace of another run: \"" + first_other(*before, now) +

@@ -17,8 +17,6 @@
 
 namespace lacuna {
 
-inline constexpr const char* kUnsealed = ".partial";  // how names of unfinished files end
-
 // Opens the workspace that the config names, for this input, and sets `kept` and `made_from` of the job. What
 // a stopped run has left unfinished is removed. Throws `Error` where the folder is no workspace, or that of
 // another input or of other parameters, with the first difference.

@@ -46,8 +46,9 @@ std::vector<LoopChange> compare_loops(std::span<const ComparedLoop> before,
   std::vector<Eigen::Vector3d> positions;
   const std::vector<io::LoopIds> first = place(before, positions), second = place(after, positions);
   const MatchRule rule{.tolerance = tolerance, .min_vertices = 0};
+  const std::vector<std::uint64_t> same_places = stand_ins(positions);
   const auto matches = [&](std::span<const io::LoopIds> loops, std::span<const io::LoopIds> others) {
-    const std::vector<TrueLoop> truth = loops_through(others, stand_ins(positions));
+    const std::vector<TrueLoop> truth = loops_through(others, same_places);
     return match_loops(loops, truth, positions, rule).loops;
   };
   std::vector<LoopChange> changes;
