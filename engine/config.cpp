@@ -132,10 +132,15 @@ void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_li
 }  // namespace
 
 std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
+  return read_config_text(read_text(file), file, config);
+}
+
+std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
+                                          Config& config) {
   Config changed = config;
   std::vector<std::string> keys;
   const std::vector<Parameter> all = parameters(changed);
-  const toml::table root = parse_toml(file, read_text(file));
+  const toml::table root = parse_toml(file, text);
   const auto fail = [&file](const toml::source_region& place, const std::string& reason) {
     throw Error(file.string() + ":" + std::to_string(place.begin.line) + ": " + reason);
   };
