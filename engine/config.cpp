@@ -102,17 +102,28 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
   }
 }
 
-void check_bounds(const std::vector<double>& bounds) {
+// Min along each axis, then max along each.
+void check_box(const std::string& name, std::span<const double> box) {
+  const std::size_t axes = box.size() / 2;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (box[axis] > box[axes + axis])
+      throw Error(name + " are empty: min " + std::string(1, "xyz"[axis]) + " = " + print_number(box[axis]) +
+                  " is above max " + "xyz"[axis] + " = " + print_number(box[axes + axis]) +
+                  "; all of min come before all of max");
+  }
+}
+
+void check_boxes(const InputConfig& input) {
+  const std::vector<double>& bounds = input.bounds;
   if (!bounds.empty() && bounds.size() != 4 && bounds.size() != 6)
     throw Error("bounds has " + std::to_string(bounds.size()) +
                 " numbers; allowed: 4 (min x y, max x y) or 6 (min x y z, max x y z), divided by commas");
-  const std::size_t axes = bounds.size() / 2;
-  for (std::size_t axis = 0; axis < axes; ++axis) {
-    if (bounds[axis] > bounds[axes + axis])
-      throw Error("bounds are empty: min " + std::string(1, "xyz"[axis]) + " = " +
-                  print_number(bounds[axis]) + " is above max " + "xyz"[axis] + " = " +
-                  print_number(bounds[axes + axis]) + "; all of min come before all of max");
-  }
+  check_box("bounds", bounds);
+  const std::span<const double> boxes = input.leave_out;
+  if (boxes.size() % 6 != 0)
+    throw Error("leave_out has " + std::to_string(boxes.size()) +
+                " numbers; allowed: 6 for each box (min x y z, max x y z), divided by commas");
+  for (std::size_t at = 0; at < boxes.size(); at += 6) check_box("boxes of leave_out", boxes.subspan(at, 6));
 }
 
 // A report is put together in memory, and GDAL has memory of its own. Measured beyond the rest: 21 and 30
@@ -205,7 +216,7 @@ void check_config(const Config& config) {
         parameter.value);
   }
 
-  check_bounds(config.input.bounds);
+  check_boxes(config.input);
   const NeighbourhoodConfig& neighbourhood = config.neighbourhood;
   if (neighbourhood.eps > 0 && neighbourhood.eps_fraction > 0) {
     throw Error("eps and eps_fraction are both set; allowed: at most one of them above 0");

@@ -113,6 +113,7 @@ std::string_view name_of(LengthUnit unit);  // as in the config file
 struct InputConfig {
   std::string columns;         // names of a text file's columns, space separated; empty: from its header line
   std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
+  std::vector<double> leave_out;      // boxes, of min x y z max x y z each; points in them take no part
   std::vector<std::int64_t> classes;  // of property classification; empty: all
   Returns returns = Returns::kAll;
   bool drop_origin = false;  // without points at 0 0 0 or at the scanner

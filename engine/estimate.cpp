@@ -120,7 +120,7 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   const Counts& counts = estimate.summary.counts;
   RunSize size{.rows = counts.points,
                .points = tiling.points(),
-               .tile_points = level.tile_points,
+               .tile_points = level.guide.tile_points,
                .precision = level.survey.precision(),
                .is_thinned = level.thinned.has_value(),
                .has_levels = has_levels(config),

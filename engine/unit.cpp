@@ -4,12 +4,10 @@
 #include "engine/levels/evaluate_level.hpp"
 #include "engine/levels/sealed_level.hpp"
 #include "engine/run/error.hpp"
-#include "engine/store/sealed_part.hpp"
 #include "engine/workspace/workspace.hpp"
 
 #include <algorithm>
 #include <charconv>
-#include <span>
 
 namespace lacuna {
 namespace {
@@ -23,24 +21,12 @@ constexpr std::uint64_t kTilesOfTask = 8;  // so that tasks take about equally l
 // With fewer points, to start a task takes longer than what it does.
 constexpr std::uint64_t kFewestOfTask = 100'000;
 
-// The number of tasks, as a part of its own.
-fs::path tasks_path(const fs::path& workspace) {
-  return workspace / "plan";
-}
-
-void write_tasks(const fs::path& workspace, std::uint64_t tasks) {
-  PartWriter part(tasks_path(workspace));
-  part.add("tasks", 0, std::span<const std::uint64_t>(&tasks, 1));
-  part.seal(digest_of("plan"));
-}
-
-std::size_t read_tasks(const fs::path& workspace) {
-  const std::optional<PartReader> part = PartReader::open(tasks_path(workspace), digest_of("plan"));
-  const std::vector<std::uint64_t> tasks =
-      part ? part->records<std::uint64_t>("tasks", 0) : std::vector<std::uint64_t>{};
-  if (tasks.size() != 1 || tasks[0] == 0)
-    throw Error(workspace.string() + ": has no plan; allowed: a workspace of lacuna plan");
-  return tasks[0];
+std::size_t tasks_of_plan(const fs::path& workspace) {
+  const std::string text = read_note(workspace, WorkspaceNote::kTasks).value_or("");
+  std::size_t tasks = 0;
+  std::from_chars(text.data(), text.data() + text.size(), tasks);
+  if (tasks == 0) throw Error(workspace.string() + ": has no plan; allowed: a workspace of lacuna plan");
+  return tasks;
 }
 
 std::optional<Level> make_level(std::size_t number, PointSource& scan, Job& job) {
@@ -68,7 +54,7 @@ std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks
     config.run.tile_points =
         static_cast<std::int64_t>(std::min(job.tile_points(points), points / tasks / kTilesOfTask + 1));
   open_workspace(scan, job);
-  write_tasks(job.kept, tasks);
+  write_note(job.kept, WorkspaceNote::kTasks, std::to_string(tasks));
 
   std::vector<Step> steps;
   const std::size_t levels = has_levels(config) ? kMostLevels : 1;
@@ -87,7 +73,7 @@ std::optional<Step> step_of_name(std::string_view name, const fs::path& workspac
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), step.level);
   if (error != std::errc() || end != name.data() + name.size() || step.level >= kMostLevels)
     return std::nullopt;
-  if (step.evaluates) step.tasks = read_tasks(workspace);
+  if (step.evaluates) step.tasks = tasks_of_plan(workspace);
   return step;
 }
 

@@ -8,13 +8,10 @@
 #include <functional>
 #include <limits>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 namespace lacuna::io {
 namespace {
-
-constexpr std::string_view kPose = " pose=";
 
 // The first of those that are not empty, where the others are the same. Empty where two differ.
 template <class Same>
@@ -29,6 +26,10 @@ std::string common(const std::vector<std::string>& names, const Same& is_same) {
 }
 
 }  // namespace
+
+std::filesystem::path full_name(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal();
+}
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
@@ -145,13 +146,15 @@ bool FileScan::reads_slowly() const {
 }
 
 std::vector<std::string> FileScan::identity() const {
-  std::vector<std::string> lines = names();
+  std::vector<std::string> lines;
+  const std::vector<std::string> names = this->names();
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::ostringstream line;
     const Digest sample = sample_digest(files_[i], states_[i]);
-    line << ", " << states_[i].size << " bytes, written at " << states_[i].mtime << " ns, sample " << std::hex
-         << sample[0] << sample[1];
-    lines[i] += line.str();
+    line << names[3 * i + 1] << ", " << states_[i].size << " bytes, written at " << states_[i].mtime
+         << " ns, sample " << std::hex << sample[0] << sample[1];
+    if (poses_[i]) line << ", pose " << names[3 * i + 2];
+    lines.push_back(line.str());
   }
   return lines;
 }
@@ -159,36 +162,37 @@ std::vector<std::string> FileScan::identity() const {
 std::vector<std::string> FileScan::names() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    std::ostringstream name;
-    name << std::filesystem::absolute(files_[i]).lexically_normal().string();
-    if (poses_[i] || name.str().find(kPose) != std::string::npos) name << kPose;
-    if (poses_[i]) name << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
-    names.push_back(name.str());
+    std::ostringstream pose;
+    if (poses_[i]) pose << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+    names.insert(names.end(), {files_[i].string(), full_name(files_[i]).string(), pose.str()});
   }
   return names;
 }
 
-ScanInput parse_name(const std::string& name) {
-  const std::size_t at = name.rfind(kPose);
-  if (at == name.npos) return name;
-  const std::string pose = name.substr(at + kPose.size());
-  return {name.substr(0, at), pose.empty() ? std::nullopt : std::optional(parse_pose(pose))};
+std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
+  std::vector<ScanInput> inputs;
+  if (names.size() % 3 != 0) fail_inconsistent("an input of a workspace has no name");
+  for (; !names.empty(); names = names.subspan(3)) {
+    const std::string& file = full_name(names[0]) == names[1] ? names[0] : names[1];
+    inputs.emplace_back(file, names[2].empty() ? std::nullopt : std::optional(parse_pose(names[2])));
+  }
+  return inputs;
 }
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {
   std::vector<std::uint64_t> counts = rows_read_;
-  for (const std::uint64_t left_out :
-       {filtered_out_.origin, filtered_out_.bounds, filtered_out_.classes, filtered_out_.returns})
+  for (const std::uint64_t left_out : {filtered_out_.origin, filtered_out_.bounds, filtered_out_.boxes,
+                                       filtered_out_.classes, filtered_out_.returns})
     counts.push_back(left_out);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != rows_read_.size() + 4)
+  if (counts.size() != rows_read_.size() + 5)
     fail_inconsistent("the workspace counts another number of files");
   std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
   const auto left_out = counts.subspan(rows_read_.size());
-  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3]};
+  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3], left_out[4]};
 }
 
 bool FileScan::single_precision() const {

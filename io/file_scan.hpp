@@ -28,7 +28,9 @@ struct ScanInput {
   std::optional<Pose> pose;  // of its coordinates in the registered scan
 };
 
-ScanInput parse_name(const std::string& name);  // of `FileScan::names`
+std::filesystem::path full_name(const std::filesystem::path& file);  // absolute, without dots
+// The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
+std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
@@ -48,7 +50,7 @@ class FileScan : public PointSource {
   bool reads_slowly() const override;  // any file does
   // Name, size, time and a sample of each file, and its pose.
   std::vector<std::string> identity() const override;
-  // "FILE", absolute, or "FILE pose=NUMBERS", as `parse_name` reads them.
+  // Three of each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;
   // Rows that were read of each file, and those that the filters left out.
   std::vector<std::uint64_t> pass_counts() const override;

@@ -12,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-std::optional<Eigen::AlignedBox3d> box_of(const std::vector<double>& bounds) {
+std::optional<Eigen::AlignedBox3d> box_of(std::span<const double> bounds) {
   if (bounds.empty()) return std::nullopt;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const bool is_flat = bounds.size() == 4;
@@ -40,13 +40,16 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
   const auto column = [&](const char* name, const char* option) {
     return Values{.property = find_property(file, reader.layout(), name, option), .values = {}};
   };
+  for (std::size_t at = 0; at < config.leave_out.size(); at += 6)
+    boxes_.push_back(*box_of(std::span(config.leave_out).subspan(at, 6)));
   if (config.drop_origin) no_return_places_ = reader.no_return_places();
   if (!chosen_classes_.empty()) class_ = column("classification", "--classes");
   if (chosen_returns_ == Returns::kFirst || chosen_returns_ == Returns::kLast)
     return_number_ = column("return_number", "--returns");
   if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
     number_of_returns_ = column("number_of_returns", "--returns");
-  is_active_ = config.drop_origin || bounds_ || class_ || return_number_ || number_of_returns_;
+  is_active_ =
+      config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ || number_of_returns_;
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
@@ -69,6 +72,7 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
            << " " << max.y() << " " << max.z();
     }
   }
+  if (!config.leave_out.empty()) add("--leave-out", filtered.boxes);
   if (!config.classes.empty()) {
     add("--classes", filtered.classes);
     const char* between = ", the classes here are ";
@@ -109,6 +113,8 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
     before.bounds.extend(position);
     if (!bounds_->contains(position)) return &filtered.bounds;
   }
+  if (std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& box) { return box.contains(position); }))
+    return &filtered.boxes;
   if (class_ && before.kept == 0) {  // afterwards nobody needs to know
     const double found = class_->values[row];
     if (before.classes.size() < kMostClasses || before.classes.contains(found)) ++before.classes[found];

@@ -21,10 +21,11 @@ namespace lacuna::io {
 struct FilteredOut {
   std::uint64_t origin = 0;
   std::uint64_t bounds = 0;
+  std::uint64_t boxes = 0;
   std::uint64_t classes = 0;
   std::uint64_t returns = 0;
 
-  std::uint64_t total() const { return origin + bounds + classes + returns; }
+  std::uint64_t total() const { return origin + bounds + boxes + classes + returns; }
 };
 
 // What the filters found, for the error where they leave no row.
@@ -63,6 +64,7 @@ class RowFilter {
   std::size_t stride_;
   std::vector<Eigen::Vector3d> no_return_places_;
   std::optional<Eigen::AlignedBox3d> bounds_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // whose points are left out
   std::vector<std::int64_t> chosen_classes_;
   Returns chosen_returns_;
   std::optional<Values> class_, return_number_, number_of_returns_;

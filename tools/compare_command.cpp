@@ -33,17 +33,30 @@ struct CompareArguments {
   bool json = false;
 };
 
-struct ReadResult {
-  std::vector<ComparedLoop> loops;
-  double spacing = 0;  // median distance of neighbours
-  double extent = 0;
-  std::string unit;
-};
+std::string name_of_loop(const std::optional<std::size_t>& loop) {
+  return loop ? "loop " + std::to_string(*loop) : "-";
+}
 
-ReadResult read(const fs::path& folder) {
+void run_compare(const CompareArguments& arguments) {
+  if (!(arguments.tolerance >= 0 && std::isfinite(arguments.tolerance)))
+    throw CLI::ValidationError("--tolerance", "must be a length of 0 (automatic) or more");
+  const Comparison comparison(read_result(arguments.before), read_result(arguments.after),
+                              arguments.tolerance);
+  if (arguments.json) {
+    std::cout << comparison.json().dump(2) << "\n";
+  } else {
+    std::cout << visible(arguments.before.string()) << " and " << visible(arguments.after.string()) << ": "
+              << comparison.print_counts() << "\n"
+              << comparison.print_table();
+  }
+}
+
+}  // namespace
+
+ComparedResult read_result(const fs::path& folder) {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max() / 8;
   const io::Scene scene = io::read_scene(folder, {.positions = kAll, .loops = kAll});
-  ReadResult result{
+  ComparedResult result{
       .loops = {},
       .spacing = scene.holes.at("median_distance").get<double>(),
       .extent = scene.bounds.isEmpty() ? 0 : scene.bounds.diagonal().norm(),
@@ -57,41 +70,45 @@ ReadResult read(const fs::path& folder) {
   return result;
 }
 
-std::string name_of_loop(const std::optional<std::size_t>& loop) {
-  return loop ? "loop " + std::to_string(*loop) : "-";
+Comparison::Comparison(ComparedResult first, ComparedResult second, double length)
+    : before(std::move(first)), after(std::move(second)), tolerance(length) {
+  constexpr double kDistances = 2;
+  if (tolerance == 0) tolerance = kDistances * std::max(before.spacing, after.spacing);
+  changes = compare_loops(before.loops, after.loops, tolerance);
 }
 
-void print_text(const CompareArguments& arguments, const ReadResult& before, const ReadResult& after,
-                double tolerance, std::vector<LoopChange> changes) {
+std::string Comparison::print_counts() const {
   std::map<Change, std::size_t> counts;
   for (const LoopChange& change : changes) ++counts[change.change];
-  std::cout << visible(arguments.before.string()) << " and " << visible(arguments.after.string()) << ": "
-            << print_count(counts[Change::kClosed]) << " closed, " << print_count(counts[Change::kNew])
-            << " new, " << print_count(counts[Change::kChanged]) << " changed, "
-            << print_count(counts[Change::kSame]) << " same; curves of one hole are at most "
-            << print_length(tolerance, after.unit) << " apart\n";
+  return print_count(counts[Change::kClosed]) + " closed, " + print_count(counts[Change::kNew]) + " new, " +
+         print_count(counts[Change::kChanged]) + " changed, " + print_count(counts[Change::kSame]) +
+         " same; curves of one hole are at most " + print_length(tolerance, after.unit) + " apart";
+}
+
+std::string Comparison::print_table() const {
   const auto loop_of = [&](const LoopChange& c) -> const LoopMeasures& {
     return c.after ? after.loops[*c.after].measures : before.loops[*c.before].measures;
   };
-  std::erase_if(changes, [](const LoopChange& c) { return c.change == Change::kSame; });
-  if (changes.empty()) return;
-  std::stable_sort(changes.begin(), changes.end(), [&](const LoopChange& a, const LoopChange& b) {
+  std::vector<LoopChange> shown = changes;
+  std::erase_if(shown, [](const LoopChange& c) { return c.change == Change::kSame; });
+  if (shown.empty()) return "";
+  std::stable_sort(shown.begin(), shown.end(), [&](const LoopChange& a, const LoopChange& b) {
     return loop_of(a).area > loop_of(b).area;
   });
   std::vector<std::vector<std::string>> rows = {
       {"change", "before", "after", "area before", "after", "centre"}};
-  for (const LoopChange& c : changes) {
-    const auto area = [&](const std::optional<std::size_t>& loop, const ReadResult& result) {
+  for (const LoopChange& c : shown) {
+    const auto area = [&](const std::optional<std::size_t>& loop, const ComparedResult& result) {
       return loop ? print_area(result.loops[*loop].measures.area, result.unit) : "-";
     };
     rows.push_back({std::string(name_of(c.change)), name_of_loop(c.before), name_of_loop(c.after),
                     area(c.before, before), area(c.after, after),
                     print_place(loop_of(c).centroid, after.extent)});
   }
-  std::cout << "\n" << print_table(rows);
+  return "\n" + tools::print_table(rows);
 }
 
-void print_json(double tolerance, const std::vector<LoopChange>& changes) {
+ordered_json Comparison::json() const {
   ordered_json json{{"tolerance", tolerance}, {"changes", ordered_json::array()}};
   const auto index = [](const std::optional<std::size_t>& loop) {
     return loop ? ordered_json(*loop) : ordered_json();
@@ -99,25 +116,8 @@ void print_json(double tolerance, const std::vector<LoopChange>& changes) {
   for (const LoopChange& c : changes)
     json["changes"].push_back(
         {{"change", name_of(c.change)}, {"before", index(c.before)}, {"after", index(c.after)}});
-  std::cout << json.dump(2) << "\n";
+  return json;
 }
-
-void run_compare(const CompareArguments& arguments) {
-  if (!(arguments.tolerance >= 0 && std::isfinite(arguments.tolerance)))
-    throw CLI::ValidationError("--tolerance", "must be a length of 0 (automatic) or more");
-  const ReadResult before = read(arguments.before), after = read(arguments.after);
-  constexpr double kDistances = 2;
-  const double tolerance =
-      arguments.tolerance > 0 ? arguments.tolerance : kDistances * std::max(before.spacing, after.spacing);
-  std::vector<LoopChange> changes = compare_loops(before.loops, after.loops, tolerance);
-  if (arguments.json) {
-    print_json(tolerance, changes);
-  } else {
-    print_text(arguments, before, after, tolerance, std::move(changes));
-  }
-}
-
-}  // namespace
 
 void add_compare_command(CLI::App& app) {
   CLI::App* command =

@@ -69,9 +69,9 @@ struct UsedWorkspace {
 };
 
 // None where the name is empty. Says what is there of an earlier run, or removes it.
-std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out, bool restart) {
+std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out, WorkspaceUse use) {
   if (name.empty()) {
-    if (restart) throw UsageError("--restart needs --workspace");
+    if (use == WorkspaceUse::kRestart) throw UsageError("--restart needs --workspace");
     return nullptr;
   }
   std::error_code error;
@@ -80,8 +80,11 @@ std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::
   auto used = std::make_unique<UsedWorkspace>(name);
   const fs::path& folder = used->folder.path();
   for (const fs::path& left : find_folders(folder, "lacuna-")) fs::remove(left, error);  // if it is empty
-  if (restart) {
+  if (use == WorkspaceUse::kRestart) {
+    end_update(folder);
     for (const fs::path& file : workspace_files(folder)) remove_part(file);
+  } else if (use == WorkspaceUse::kUpdate) {
+    begin_update(folder);
   } else if (const std::optional<WorkspaceState> state = state_of_workspace(folder)) {
     spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
   }
@@ -131,7 +134,7 @@ ResultArguments::ResultArguments(CLI::App& command) : RunArguments(command) {
 }
 
 std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config,
-                      const ResultArguments& arguments, bool restart) {
+                      const ResultArguments& arguments, WorkspaceUse use) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
@@ -146,7 +149,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out, restart);
+  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out, use);
   if (workspace) watch_workspace(workspace->folder.path());
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
@@ -161,6 +164,10 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
   note_complete_results();
+  if (workspace) {
+    write_note(workspace->folder.path(), WorkspaceNote::kResults, fs::absolute(out).string());
+    end_update(workspace->folder.path());
+  }
   progress->end();
   for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
     spdlog::warn("{}", warning);
@@ -191,8 +198,8 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   if (arguments.run.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   const ReadOptions options{.columns = config.input.columns,
                             .memory = Memory::share(config.run.memory_limit).reading};
-  const std::string summary =
-      detect_to(expand_inputs(arguments.scans, options), config, arguments.run, arguments.restart);
+  const std::string summary = detect_to(expand_inputs(arguments.scans, options), config, arguments.run,
+                                        arguments.restart ? WorkspaceUse::kRestart : WorkspaceUse::kGoOn);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

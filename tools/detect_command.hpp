@@ -34,9 +34,15 @@ struct ResultArguments : RunArguments {
   bool overwrite = false;
 };
 
-// Finds the holes and writes the results; returns their summary. `restart`: without what the workspace has.
+enum class WorkspaceUse {
+  kGoOn,
+  kRestart,  // without what it has
+  kUpdate,   // with the tiles of its run that have not changed
+};
+
+// Finds the holes and writes the results; returns their summary.
 std::string detect_to(const std::vector<io::ScanInput>& inputs, const Config& config,
-                      const ResultArguments& arguments, bool restart = false);
+                      const ResultArguments& arguments, WorkspaceUse use = WorkspaceUse::kGoOn);
 
 // It runs when parsed. Throws `Error` when the job fails, `CLI::Error` for wrong usage.
 void add_detect_command(CLI::App& app);

@@ -51,6 +51,8 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
     option->group(std::string(parameter.section));
     option->type_name(type_name(parameter));
     option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    if (parameter.key == "leave_out")  // one box each
+      option->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
     if (!is_flag) option->default_str(parameter.print());
     given.option = option;
   }

@@ -16,6 +16,7 @@
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
 #include "tools/unit_commands.hpp"
+#include "tools/update_command.hpp"
 #include "tools/visible_text.hpp"
 #include "tools/workspace_commands.hpp"
 
@@ -176,6 +177,7 @@ int run(int argc, char** argv) {
   add_plan_command(app);
   add_work_command(app);
   add_finish_command(app);
+  add_update_command(app);
   add_report_command(app);
   add_render_command(app);
   add_synth_command(app);

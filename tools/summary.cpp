@@ -175,6 +175,7 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   add(counts.dropped - filtered.total(), "not finite, dropped");
   add(filtered.origin, "without return");
   add(filtered.bounds, "outside of the bounds");
+  add(filtered.boxes, "in boxes that are left out");
   add(filtered.classes, "of other classes");
   add(filtered.returns, "of other returns");
   return text;

@@ -32,12 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<ScanInput> inputs_of(const StoredRun& run) {
-  std::vector<ScanInput> inputs;
-  for (const std::string& name : run.inputs) inputs.push_back(parse_name(name));
-  return inputs;
-}
-
 // Rows as headers declare them; of text files, as many as their size allows for short lines.
 std::uint64_t about_points(const FileScan& scan) {
   constexpr std::uint64_t kBytesOfLine = 24;
@@ -118,7 +112,7 @@ void run_work(const WorkArguments& arguments) {
   if (!step) throw CLI::ValidationError("--step", "allowed: a step of lacuna plan, such as evaluate-0");
   if (arguments.task >= step->tasks)
     throw CLI::ValidationError("--task", "allowed: 0 to " + std::to_string(step->tasks - 1));
-  FileScan scan(inputs_of(stored), config.input, Memory::share(config.run.memory_limit).reading);
+  FileScan scan(inputs_of(stored.names), config.input, Memory::share(config.run.memory_limit).reading);
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const TemporaryFolder scratch(parent, "lacuna-");
@@ -141,7 +135,7 @@ void run_finish(const CLI::App& command, const FinishArguments& arguments) {
   Config config = arguments.run.start(stored.config);
   if (command.get_option("--out")->count() == 0) throw CLI::RequiredError("--out");
   config.run.workspace = arguments.workspace.string();
-  const std::string summary = detect_to(inputs_of(stored), config, arguments.run);
+  const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

@@ -45,6 +45,7 @@ void print_status(const fs::path& folder) {
 void clean(const fs::path& folder) {
   const WorkspaceState state = state_of(folder);
   const FolderLock alone(folder);
+  end_update(folder);
   for (const fs::path& file : workspace_files(folder)) remove_part(file);
   std::error_code error;
   const bool is_gone = fs::remove(folder, error);  // unless it has other files

@@ -19,6 +19,12 @@ struct StoredCandidate {
   StoredPoint point;
   float probability;
 };
+template <class Visit>
+void for_each_row(StoredCandidate& record, Visit&& visit) {
+  visit(record.candidate.row);
+  visit(record.candidate.gap_near);
+  visit(record.candidate.gap_far);
+}
 
 // The candidates that have gap neighbours, by tile in ascending row.
 class Candidates final : public TileConsumer {

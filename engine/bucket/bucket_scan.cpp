@@ -151,13 +151,12 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
   for (const CountedCell& cell : plan.cells) points += cell.points;
   for (const CountedCell& cell : plan.aside) points += cell.points;
   Phase phase(job, "bucket", 2 * points);
-  const std::uint64_t cell_points = job.cell_points(points);
   TileStore store(std::move(files), plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
                   job.memory.spills / 8);
   SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
   Destinations to(plan);
   fill(store, aside, scan, to, job, phase);
-  aside.store(store, cell_points);
+  aside.store(store, plan.cell_points);
 
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : plan.tiles) needs.push_back(tile.raw * 120);
@@ -167,7 +166,7 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
     const std::vector<StoredPoint> raw = store.raw_points(number);
     const std::vector<StoredNormal> normals = store.raw_normals(number);
     OrderedTile ordered = order_tile(raw, cells_of(raw, to.index, tile), tile.last_cell - tile.first_cell,
-                                     plan.grid, cell_points);
+                                     plan.grid, plan.cell_points);
     store.put(number, pick(raw, ordered.order), store.has_normals() ? pick(normals, ordered.order) : normals,
               std::move(ordered.cells));
     store.add_duplicates(number, ordered.duplicates);

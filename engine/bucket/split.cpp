@@ -16,22 +16,59 @@ constexpr std::uint32_t kFewCells = 4;
 
 class Splitter {
  public:
-  explicit Splitter(TilePlan& plan) : plan_(plan) {}
+  Splitter(TilePlan& plan, std::span<const Cut> guide) : plan_(plan), guide_(guide) {}
 
-  // `in_tile`: a tile holds these cells already.
-  void split(std::uint32_t first, std::uint32_t last, bool in_tile) {
-    const Part part = bound(first, last);
-    if (!in_tile && part.points <= plan_.tile_points) {
-      plan_.tiles.push_back({.first_cell = first, .last_cell = last, .raw = part.points});
-      in_tile = true;
-    }
-    if (in_tile && last - first <= kFewCells) return;
-    const std::uint32_t middle = halve(part);
-    split(first, middle, in_tile);
-    split(middle, last, in_tile);
-  }
+  void split() { split(0, static_cast<std::uint32_t>(plan_.cells.size()), false, !guide_.empty()); }
 
  private:
+  // `in_tile`: a tile holds these cells already. `is_guided`: the next cut of the guide is theirs.
+  void split(std::uint32_t first, std::uint32_t last, bool in_tile, bool is_guided) {
+    const Cut cut = is_guided ? guide_[next_cut_++] : Cut{};
+    if (cut.axis >= 0) {
+      plan_.cuts.push_back(cut);
+      const std::uint32_t middle = halve_at(cut, first, last);
+      split(first, middle, false, true);
+      split(middle, last, false, true);
+      return;
+    }
+    const Part part = bound(first, last);
+    if (!in_tile && part.points <= plan_.tile_points * (is_guided ? 2 : 1)) {
+      plan_.tiles.push_back({.first_cell = first, .last_cell = last, .raw = part.points});
+      plan_.cuts.push_back({});
+      in_tile = true;
+    }
+    if (in_tile && last - first <= kFewCells) {
+      std::sort(plan_.cells.begin() + first, plan_.cells.begin() + last,
+                [](const CountedCell& a, const CountedCell& b) { return a.coord < b.coord; });
+      return;
+    }
+    const std::size_t axis = longest_axis(part);
+    const std::uint32_t middle = halve(part, axis);
+    if (!in_tile) {
+      const auto begin = plan_.cells.begin();
+      plan_.cuts.push_back({static_cast<std::int32_t>(axis),
+                            std::max_element(begin + first, begin + middle, Across{axis})->coord});
+    }
+    split(first, middle, in_tile, false);
+    split(middle, last, in_tile, false);
+  }
+
+  struct Across {
+    std::size_t axis;
+    bool operator()(const CountedCell& a, const CountedCell& b) const { return (*this)(a.coord, b.coord); }
+    bool operator()(const CellCoord& a, const CellCoord& b) const {
+      return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+    }
+  };
+
+  std::uint32_t halve_at(const Cut& cut, std::uint32_t first, std::uint32_t last) {
+    const Across across{static_cast<std::size_t>(cut.axis)};
+    const auto begin = plan_.cells.begin();
+    const auto middle = std::partition(
+        begin + first, begin + last, [&](const CountedCell& cell) { return !across(cut.last, cell.coord); });
+    return static_cast<std::uint32_t>(middle - begin);
+  }
+
   struct Part {
     CellCoord low{}, high{};  // tight bounds of its cells
     std::uint32_t first = 0, last = 0;
@@ -39,8 +76,9 @@ class Splitter {
   };
 
   Part bound(std::uint32_t first, std::uint32_t last) const {
-    Part part{
-        .low = plan_.cells[first].coord, .high = plan_.cells[first].coord, .first = first, .last = last};
+    Part part{.first = first, .last = last};
+    if (first == last) return part;
+    part.low = part.high = plan_.cells[first].coord;
     for (std::uint32_t i = first; i < last; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         part.low[axis] = std::min(part.low[axis], plan_.cells[i].coord[axis]);
@@ -51,22 +89,28 @@ class Splitter {
     return part;
   }
 
+  static std::int64_t side(const Part& part, std::size_t axis) {
+    return std::int64_t{part.high[axis]} - part.low[axis];
+  }
+  static std::size_t longest_axis(const Part& part) {
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+      if (side(part, axis) > side(part, longest)) longest = axis;
+    }
+    return longest;
+  }
+
   // Divides the cells across the longest side, half of the points before and half behind; returns the
   // first cell of the second half.
-  std::uint32_t halve(const Part& node) {
-    const auto side = [&](int axis) { return std::int64_t{node.high[axis]} - node.low[axis]; };
-    int longest = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-      if (side(axis) > side(longest)) longest = axis;
-    }
+  std::uint32_t halve(const Part& node, std::size_t longest) {
     // A histogram across finds the slab of cells that holds the half-way point; only that is ordered.
     const auto begin = plan_.cells.begin() + node.first, end = plan_.cells.begin() + node.last;
     const auto most_slabs = std::max<std::uint64_t>(node.last - node.first, 2);
-    const auto width = std::bit_width(static_cast<std::uint64_t>(side(longest)) / most_slabs);
+    const auto width = std::bit_width(static_cast<std::uint64_t>(side(node, longest)) / most_slabs);
     const auto slab_of = [&](const CountedCell& cell) {
       return static_cast<std::size_t>((std::int64_t{cell.coord[longest]} - node.low[longest]) >> width);
     };
-    slabs_.assign(static_cast<std::size_t>(side(longest) >> width) + 1, 0);
+    slabs_.assign(static_cast<std::size_t>(side(node, longest) >> width) + 1, 0);
     for (auto cell = begin; cell != end; ++cell) slabs_[slab_of(*cell)] += cell->points;
     std::uint64_t before = 0;
     std::size_t half_way = 0;
@@ -76,15 +120,11 @@ class Splitter {
     const auto slab_end =
         std::partition(slab_begin, end, [&](const auto& cell) { return slab_of(cell) == half_way; });
 
-    const auto across = [&](const CountedCell& a, const CountedCell& b) {
-      if (a.coord[longest] != b.coord[longest]) return a.coord[longest] < b.coord[longest];
-      return a.coord < b.coord;
-    };
     // The half-way point lies in [first, last): halved until that is one cell.
     auto first = slab_begin, last = slab_end;
     while (last - first > 1) {
       const auto middle = first + (last - first) / 2;
-      std::nth_element(first, middle, last, across);
+      std::nth_element(first, middle, last, Across{longest});
       const std::uint64_t points =
           std::accumulate(first, middle, before,
                           [](std::uint64_t sum, const CountedCell& cell) { return sum + cell.points; });
@@ -100,6 +140,8 @@ class Splitter {
   }
 
   TilePlan& plan_;
+  std::span<const Cut> guide_;
+  std::size_t next_cut_ = 0;
   std::vector<std::uint64_t> slabs_;  // points of each
 };
 
@@ -123,7 +165,7 @@ std::uint64_t TilePlan::most_tiles() const {
 }
 
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
-                     std::uint64_t tile_points) {
+                     std::uint64_t tile_points, const TileGuide* guide) {
   TilePlan plan{.grid = grid, .cells = std::move(cells), .points = points, .tile_points = tile_points};
   const auto begin = plan.cells.begin(), end = plan.cells.end();
   const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
@@ -132,7 +174,8 @@ TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::
   plan.heavy = static_cast<std::size_t>(far - heavy);
   plan.aside.assign(heavy, end);
   plan.cells.erase(heavy, end);
-  if (!plan.cells.empty()) Splitter(plan).split(0, static_cast<std::uint32_t>(plan.cells.size()), false);
+  if (!plan.cells.empty())
+    Splitter(plan, guide != nullptr ? std::span<const Cut>(guide->cuts) : std::span<const Cut>()).split();
   std::uint64_t row = 0;
   for (Tile& tile : plan.tiles) {
     tile.first_row = Row{row};

@@ -8,6 +8,7 @@
 #include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -99,6 +100,23 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
     points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
   }
   return points;
+}
+
+// Rows as parts have them: those of other tiles do not matter.
+TileContent content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals,
+                       const Tiling& tiling, double eps, double unit) {
+  std::vector<Row> foreign(points.rows.begin() + points.owned, points.rows.end());
+  for (Row& row : foreign) row = to_stored_row(row, tiling);
+  const std::array<double, 2> lengths = {eps, unit};
+  Hash hash;
+  hash.add(std::as_bytes(std::span(points.positions)));
+  hash.add(std::as_bytes(std::span(points.ids)));
+  hash.add(std::as_bytes(std::span(foreign)));
+  hash.add(std::as_bytes(std::span(points.linked.offsets)));
+  hash.add(std::as_bytes(std::span(points.linked.indices)));
+  hash.add(std::as_bytes(normals));
+  hash.add(std::as_bytes(std::span(lengths)));
+  return hash.digest();
 }
 
 LACUNA_VECTORISED
@@ -230,9 +248,11 @@ double Totals::mean_edge_length() const {
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
 }
 
-void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
-                    double eps, double extent, std::span<TileConsumer* const> consumers, Job& job,
-                    const std::function<void(TileIndex, const TileOutput&)>& take) {
+void evaluate_tiles(
+    const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo, double eps,
+    double extent, std::span<TileConsumer* const> consumers, Job& job,
+    const std::function<void(TileIndex, const TileOutput&)>& take,
+    const std::function<std::optional<TileOutput>(TileIndex, const TileContent&)>& find_known) {
   const Tiling& tiling = store.tiling();
   std::vector<std::uint64_t> needs(tiles.size());
   job.arena.for_each(needs.size(), [&](std::size_t i) {
@@ -249,11 +269,17 @@ void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, Ap
     halo.drop(index);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
+    const std::vector<Eigen::Vector3d> normals = store.normals(index);
+    TileContent content{};
+    if (!job.kept.empty()) {
+      content = content_of(points, normals, tiling, eps, length_unit(extent));
+      if (const std::optional<TileOutput> known = find_known(index, content)) return take(index, *known);
+    }
     const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
     std::vector<double> values(job.config.output.points ? points.owned * criteria().size() : 0);
-    const std::vector<Evaluation> evaluations = evaluate(points, neighbourhoods, store.normals(index),
-                                                         job.config.normals, job.config.criteria, values);
+    const std::vector<Evaluation> evaluations =
+        evaluate(points, neighbourhoods, normals, job.config.normals, job.config.criteria, values);
 
     std::vector<LocalIndex> candidates;
     const Totals sums =
@@ -262,6 +288,7 @@ void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, Ap
     const EvaluatedTile evaluated{index,       tile,   points,     neighbourhoods,
                                   evaluations, values, candidates, is_border};
     TileOutput output;
+    output.set_content(content);
     emit_sums(sums, output);
     for (const TileConsumer* const consumer : consumers) consumer->emit(evaluated, output);
     take(index, output);

@@ -6,11 +6,13 @@
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
+#include "engine/store/sealed_part.hpp"
 #include "engine/store/tile_store.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 
 namespace lacuna {
@@ -53,9 +55,12 @@ struct Totals {
 };
 
 // Evaluates these tiles: take(tile, output), from several threads at once. Consumes the halo. `eps`: a
-// length, 0: off. `extent`: the largest distance between points of the scan.
-void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
-                    double eps, double extent, std::span<TileConsumer* const> consumers, Job& job,
-                    const std::function<void(TileIndex, const TileOutput&)>& take);
+// length, 0: off. `extent`: the largest distance between points of the scan. `find_known`: an output of the
+// tile, if one with this content is known; only where a workspace is kept.
+void evaluate_tiles(
+    const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo, double eps,
+    double extent, std::span<TileConsumer* const> consumers, Job& job,
+    const std::function<void(TileIndex, const TileOutput&)>& take,
+    const std::function<std::optional<TileOutput>(TileIndex, const TileContent&)>& find_known);
 
 }  // namespace lacuna

@@ -18,22 +18,55 @@ constexpr int kPartsOfRun = 64;
 
 }  // namespace
 
-KeptOutputs::KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Job& job)
-    : made_from_(digest_of(made_from)), has_(tiles), least_age_(job.is_unit ? kLeastAgeOfUnit : kLeastAge) {
+KeptOutputs::KeptOutputs(std::size_t level, const Tiling& tiling, const std::string& made_from,
+                         const std::string& earlier, const Job& job)
+    : level_(level),
+      tiling_(tiling),
+      made_from_(digest_of(made_from)),
+      has_(tiling.tiles.size()),
+      earlier_of_(tiling.tiles.size()),
+      least_age_(job.is_unit ? kLeastAgeOfUnit : kLeastAge) {
   if (job.kept.empty()) return;
   prefix_ = tiles_prefix(job.kept, level);
-  for (const fs::path& file : workspace_files(job.kept)) {
-    if (!file.string().starts_with(prefix_.string()) || file.has_extension()) continue;
-    // A unit needs to know only which tiles there are.
-    std::optional<PartReader> part = PartReader::open(
-        file, made_from_, job.is_unit ? PartReader::Check::kTable : PartReader::Check::kWhole);
-    if (part) {
+  // A unit needs to know only which tiles there are.
+  const auto check = job.is_unit ? PartReader::Check::kTable : PartReader::Check::kWhole;
+  for (const fs::path& file : files_of(job.kept)) {
+    if (std::optional<PartReader> part = PartReader::open(file, made_from_, check)) {
       for (const std::uint64_t tile : part->keys()) has_.at(tile) = 1;
       parts_.push_back(*std::move(part));
     } else if (!job.is_unit) {
       remove_part(file);
     }
   }
+  if (!earlier.empty()) find_earlier_parts(job.earlier, digest_of(earlier));
+}
+
+// The parts of the level in a folder.
+std::vector<fs::path> KeptOutputs::files_of(const fs::path& folder) const {
+  const std::string prefix = tiles_prefix(folder, level_).string();
+  std::vector<fs::path> files = workspace_files(folder);
+  std::erase_if(files, [&](const fs::path& file) {
+    return !file.string().starts_with(prefix) || file.has_extension();
+  });
+  return files;
+}
+
+void KeptOutputs::find_earlier_parts(const fs::path& folder, const Digest& made_from) {
+  for (const fs::path& file : files_of(folder)) {
+    std::optional<PartReader> part = PartReader::open(file, made_from);
+    if (!part) continue;
+    earlier_.push_back(*std::move(part));
+    for (const std::uint64_t tile : earlier_.back().keys()) {
+      if (tile < earlier_of_.size()) earlier_of_[tile] = earlier_.size();
+    }
+  }
+}
+
+std::optional<TileOutput> KeptOutputs::find_earlier(TileIndex tile, const Digest& content) const {
+  if (earlier_of_[tile] == 0) return std::nullopt;
+  TileOutput output(earlier_[earlier_of_[tile] - 1], tile, tiling_);
+  if (output.content() != content) return std::nullopt;
+  return output;
 }
 
 std::vector<TileIndex> KeptOutputs::missing() const {
@@ -62,7 +95,7 @@ void KeptOutputs::for_each(const Job& job,
   }
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
     const auto& [part, tile] = places[i];
-    visit(static_cast<TileIndex>(tile), TileOutput(*part, tile));
+    visit(static_cast<TileIndex>(tile), TileOutput(*part, tile, tiling_));
   });
 }
 
@@ -73,8 +106,9 @@ void KeptOutputs::add(TileIndex tile, const TileOutput& output) {
     writer_.emplace(prefix_.string() + random_digits());
     begun_ = Clock::now();
   }
-  output.for_each_stream(
-      [&](std::string_view stream, std::span<const std::byte> bytes) { writer_->add(stream, tile, bytes); });
+  output.for_each_stored(tiling_, [&](std::string_view stream, std::span<const std::byte> bytes) {
+    writer_->add(stream, tile, bytes);
+  });
   const Clock::time_point now = Clock::now();
   const Clock::duration most_age = std::max<Clock::duration>(least_age_, (now - start_) / kPartsOfRun);
   if (writer_->bytes() >= kPartBytes || now - begun_ >= most_age) seal();

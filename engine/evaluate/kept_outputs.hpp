@@ -25,12 +25,17 @@ namespace lacuna {
 class KeptOutputs {
  public:
   // Finds the sealed outputs that are whole and made from this. Where no workspace is kept there are none.
-  // `level`: its number.
-  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Job& job);
+  // `level`: its number. `tiling` must outlive it. `earlier`: what those of the run before an update were
+  // made from; empty: there are none.
+  KeptOutputs(std::size_t level, const Tiling& tiling, const std::string& made_from,
+              const std::string& earlier, const Job& job);
 
   std::vector<TileIndex> missing() const;  // tiles of which nothing is kept, ascending
   // visit(tile, output), from several threads at once.
   void for_each(const Job& job, const std::function<void(TileIndex, const TileOutput&)>& visit) const;
+
+  // The output of the run before that has this content, if there is one. From any thread.
+  std::optional<TileOutput> find_earlier(TileIndex tile, const Digest& content) const;
 
   // From any thread.
   void add(TileIndex tile, const TileOutput& output);
@@ -42,10 +47,16 @@ class KeptOutputs {
 
   void seal();
 
+  std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) const;
+  void find_earlier_parts(const std::filesystem::path& folder, const Digest& made_from);
+
+  std::size_t level_;
+  const Tiling& tiling_;
   std::filesystem::path prefix_;  // of the parts; empty: none is kept
   Digest made_from_;
-  std::vector<PartReader> parts_;
-  std::vector<std::uint8_t> has_;  // by tile
+  std::vector<PartReader> parts_, earlier_;
+  std::vector<std::uint8_t> has_;        // by tile
+  std::vector<std::size_t> earlier_of_;  // by tile: one more than the number of the part; 0: none
   std::mutex mutex_;
   std::optional<PartWriter> writer_;
   const Clock::time_point start_ = Clock::now();

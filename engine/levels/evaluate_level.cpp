@@ -22,11 +22,13 @@ void evaluate(const Level& level, std::span<const TileIndex> tiles, std::span<Ti
     phase.advance(level.store.tiling().tiles[t].points);
   };
   kept.for_each(job, take_one);
-  evaluate_tiles(level.store, tiles, std::move(halo), eps, level.extent, consumers, job,
-                 [&](TileIndex t, const TileOutput& output) {
-                   kept.add(t, output);
-                   take_one(t, output);
-                 });
+  evaluate_tiles(
+      level.store, tiles, std::move(halo), eps, level.extent, consumers, job,
+      [&](TileIndex t, const TileOutput& output) {
+        kept.add(t, output);
+        take_one(t, output);
+      },
+      [&](TileIndex t, const TileContent& content) { return kept.find_earlier(t, content); });
   kept.finish();
 }
 

@@ -25,15 +25,29 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
   return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
 }
 
+// As the run before an update has cut the level, if that suits this one.
+std::optional<TileGuide> usable_guide(std::size_t number, const Job& job) {
+  std::optional<TileGuide> guide = find_guide(number, job);
+  if (guide && job.tile_bytes(2 * guide->tile_points) > job.memory.tiles) guide.reset();
+  return guide;
+}
+
 Level bucket_points(PointSource& scan, std::size_t number, Job& job) {
-  SurveyedScan survey = survey_scan(scan, job);
-  const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
+  std::optional<TileGuide> guide = usable_guide(number, job);
+  SurveyedScan survey = survey_scan(scan, job, guide ? &guide->grid : nullptr);
+  if (guide && survey.grid.shift != guide->grid.shift) guide.reset();
+  const std::uint64_t points = survey.points - survey.dropped;
+  const std::uint64_t tile_points = guide ? guide->tile_points : job.tile_points(points);
+  TilePlan plan =
+      split_tiles(std::move(survey.cells), survey.grid, points, tile_points, guide ? &*guide : nullptr);
+  plan.cell_points = guide ? guide->cell_points : job.cell_points(points);
   require_space(job.workspace, least_store_bytes(plan, survey.precision()));
-  TileStore store =
-      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), level_files(number, job), job);
-  return {
-      .number = number, .survey = std::move(survey), .tile_points = tile_points, .store = std::move(store)};
+  Level level{.number = number,
+              .guide = {survey.grid, plan.cuts, tile_points, plan.cell_points},
+              .store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(),
+                                   level_files(number, job), job)};
+  level.survey = std::move(survey);
+  return level;
 }
 
 Level bucket_representatives(ThinnedScan thinned, std::size_t number, Job& job) {

@@ -4,6 +4,7 @@
 // place is evaluated evenly at some level, from its own spacing upward.
 #pragma once
 
+#include "engine/bucket/split.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/job.hpp"
@@ -24,7 +25,7 @@ struct Level {
   std::optional<ThinnedScan> thinned;  // none: the level has every point
   SurveyedScan survey;                 // of the points in the store
   double extent = 0;                   // the largest distance between points of the scan
-  std::uint64_t tile_points = 0;       // in effect
+  TileGuide guide;                     // how the points are cut into tiles
   TileStore store;                     // distinct points
   std::string evaluation;              // what its tiles are evaluated from; empty: no workspace is kept
   std::vector<std::uint64_t> input;    // of the first level: `PointSource::pass_counts`

@@ -41,7 +41,7 @@ struct StoredLevel {
   std::int64_t grid_finest, grid_shift;
   std::uint64_t points, dropped, ids, is_single;
   double extent;
-  std::uint64_t tile_points, has_normals;
+  std::uint64_t tile_points, cell_points, has_normals;
   std::uint64_t points_bytes, normals_bytes;
   Digest points_digest, normals_digest;
 };
@@ -62,7 +62,8 @@ StoredLevel stored(const Level& level) {
                      .ids = survey.ids,
                      .is_single = survey.is_single,
                      .extent = level.extent,
-                     .tile_points = level.tile_points,
+                     .tile_points = level.guide.tile_points,
+                     .cell_points = level.guide.cell_points,
                      .has_normals = level.store.has_normals()};
   for (int axis = 0; axis < 3; ++axis) {
     stored.middle[axis] = survey.middle[axis];
@@ -82,6 +83,13 @@ SurveyedScan survey_of(const StoredLevel& stored) {
           .dropped = stored.dropped,
           .ids = stored.ids,
           .is_single = stored.is_single != 0};
+}
+
+TileGuide guide_of(const StoredLevel& stored, const PartReader& part) {
+  return {.grid = survey_of(stored).grid,
+          .cuts = part.records<Cut>("cuts", 0),
+          .tile_points = stored.tile_points,
+          .cell_points = stored.cell_points};
 }
 
 Tiling tiling_of(const PartReader& part) {
@@ -154,6 +162,12 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, co
   return file;
 }
 
+// The level of the run before an update.
+std::optional<PartReader> open_earlier(std::size_t number, const Job& job) {
+  if (job.earlier.empty()) return std::nullopt;
+  return PartReader::open(level_path(job.earlier, number), std::nullopt);
+}
+
 bool fits(const Tiling& tiling, const Job& job) {
   return std::all_of(tiling.tiles.begin(), tiling.tiles.end(),
                      [&](const Tile& tile) { return job.tile_bytes(tile.points) <= job.memory.tiles; });
@@ -215,6 +229,7 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
   for (const Cell& cell : tiling.cells)
     cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
   part.add("cells", 0, std::span<const StoredCell>(cells));
+  part.add("cuts", 0, std::span<const Cut>(level.guide.cuts));
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     add_in_blocks<Duplicate>(part, "duplicates", t,
                              [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });
@@ -248,7 +263,7 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
                .thinned = thinning_of(*part, job),
                .survey = survey_of(record),
                .extent = record.extent,
-               .tile_points = record.tile_points,
+               .guide = guide_of(record, *part),
                .store = std::move(store),
                .evaluation = evaluation_of(part->checksum(), job),
                .input = part->records<std::uint64_t>("input", 0)};
@@ -265,10 +280,21 @@ std::optional<Level> find_level(std::size_t number, const Job& job) {
   return open_level(number, made_from, job);
 }
 
+std::optional<TileGuide> find_guide(std::size_t number, const Job& job) {
+  const std::optional<PartReader> part = open_earlier(number, job);
+  if (!part) return std::nullopt;
+  const std::vector<StoredLevel> records = part->records<StoredLevel>("level", 0);
+  if (records.size() != 1) return std::nullopt;
+  return guide_of(records.front(), *part);
+}
+
 KeptOutputs find_outputs(const Level& level, const Job& job) {
   // Levels above the first one have no outputs but those of their loops.
   const std::string wanted = level.number == 0 ? output_parameters(job.config) : "";
-  return KeptOutputs(level.number, level.store.tiling().tiles.size(), level.evaluation + wanted, job);
+  std::string earlier;
+  if (const std::optional<PartReader> part = open_earlier(level.number, job))
+    earlier = evaluation_of(part->checksum(), job) + wanted;
+  return KeptOutputs(level.number, level.store.tiling(), level.evaluation + wanted, earlier, job);
 }
 
 }  // namespace lacuna

@@ -25,7 +25,10 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
 // The level of a workspace, whatever the levels below it were made from. None as for `open_level`.
 std::optional<Level> find_level(std::size_t number, const Job& job);
 
-// The outputs of the level's tiles that an earlier run has sealed.
+// How the run before an update has cut the level into tiles. None where there was none.
+std::optional<TileGuide> find_guide(std::size_t number, const Job& job);
+
+// The outputs of the level's tiles that are sealed already, and those of the run before an update.
 KeptOutputs find_outputs(const Level& level, const Job& job);
 
 }  // namespace lacuna

@@ -80,7 +80,7 @@ bool Tiling::check() const {
   std::uint32_t cell = 0;
   std::uint64_t row = 0;  // the first that is free
   for (const Tile& tile : tiles) {
-    if (tile.first_cell != cell || tile.last_cell <= cell || tile.last_cell > cells.size()) return false;
+    if (tile.first_cell != cell || tile.last_cell < cell || tile.last_cell > cells.size()) return false;
     if (value(tile.first_row) < row || value(tile.first_row) % kRowAlignment != 0) return false;
     if (tile.points > tile.raw) return false;
     std::uint64_t next = value(tile.first_row);

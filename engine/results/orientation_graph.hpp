@@ -16,6 +16,10 @@ struct OrientationCrossing {
   Row foreign;
   PointId foreign_id;
 };
+template <class Visit>
+void for_each_row(OrientationCrossing& record, Visit&& visit) {
+  visit(record.foreign);
+}
 
 // An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So of the edges
 // inside a tile only its own spanning forest goes on.

@@ -20,8 +20,7 @@ void PointResults::emit(const EvaluatedTile& tile, TileOutput& output) const {
     records.insert(records.end(), first, first + bytes);
   };
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
-    StoredResult result{
-        .id = tile.points.ids[p], .row = tile.points.rows[p], .probability = tile.probability(p)};
+    StoredResult result{.id = tile.points.ids[p], .row = {}, .probability = tile.probability(p)};
     for (int axis = 0; axis < 3; ++axis)
       result.normal[axis] = static_cast<float>(tile.evaluations[p].normal[axis]);
     put(&result, sizeof result);
@@ -38,7 +37,7 @@ void PointResults::absorb(TileIndex tile, const TileOutput& output) {
   const std::span<const std::byte> records = output.read<std::byte>("results");
   std::vector<Duplicate> copies;  // each point of the tile, as a copy of itself, and its copies
   const auto add = [&](const Duplicate& copy) {
-    if (copies.size() >= kTogether) append(records, copies);  // there may be more than fit in memory
+    if (copies.size() >= kTogether) append(tile, records, copies);  // there may be more than fit in memory
     copies.push_back(copy);
   };
   for (LocalIndex p = 0; p * record_bytes() < records.size(); ++p) {
@@ -47,10 +46,11 @@ void PointResults::absorb(TileIndex tile, const TileOutput& output) {
     add({id, p});
   }
   store_.for_each_duplicate(tile, add);
-  append(records, copies);
+  append(tile, records, copies);
 }
 
-void PointResults::append(std::span<const std::byte> records, std::vector<Duplicate>& copies) {
+void PointResults::append(TileIndex tile, std::span<const std::byte> records,
+                          std::vector<Duplicate>& copies) {
   std::sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   std::vector<std::byte> block;  // of ids
   for (std::size_t i = 0; i < copies.size(); ++i) {
@@ -58,7 +58,9 @@ void PointResults::append(std::span<const std::byte> records, std::vector<Duplic
     const auto record = records.subspan(p * record_bytes(), record_bytes());
     const std::size_t at = block.size();
     block.insert(block.end(), record.begin(), record.end());
+    const Row row = store_.tiling().tiles[tile].row(p);
     std::memcpy(&block[at + offsetof(StoredResult, id)], &id, sizeof id);
+    std::memcpy(&block[at + offsetof(StoredResult, row)], &row, sizeof row);
     const std::uint64_t number = value(id) / kResultBlock;
     if (i + 1 == copies.size() || value(copies[i + 1].id) / kResultBlock != number) {
       lists_.append(number, block);

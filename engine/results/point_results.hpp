@@ -53,8 +53,8 @@ class PointResults final : public TileConsumer {
 
  private:
   std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
-  // The results of the copies of points; clears `copies`. `records`: of all points of the tile.
-  void append(std::span<const std::byte> records, std::vector<Duplicate>& copies);
+  // The results of the copies of points; clears `copies`. `records`: of all points of the tile, without rows.
+  void append(TileIndex tile, std::span<const std::byte> records, std::vector<Duplicate>& copies);
 
   const TileStore& store_;
   std::size_t criteria_;  // of each point

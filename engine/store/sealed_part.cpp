@@ -30,24 +30,6 @@ struct Trailer {
   std::array<char, 8> magic;
 };
 
-class Hash {
- public:
-  Hash() : state_(XXH3_createState()) { XXH3_128bits_reset(state_.get()); }
-  void add(std::span<const std::byte> bytes) {
-    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
-  }
-  Digest digest() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    return {hash.low64, hash.high64};
-  }
-
- private:
-  struct Free {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-  };
-  std::unique_ptr<XXH3_state_t, Free> state_;
-};
-
 void add_range(const StoreFile& file, std::uint64_t end, Hash& hash) {
   std::vector<std::byte> block(std::min<std::uint64_t>(kBlock, end));
   for (std::uint64_t at = 0; at < end;) {
@@ -72,6 +54,25 @@ std::optional<Trailer> trailer_of(const StoreFile& file) {
 }
 
 }  // namespace
+
+struct Hash::State {
+  XXH3_state_t hash;
+};
+
+Hash::Hash() : state_(std::make_unique<State>()) {
+  XXH3_128bits_reset(&state_->hash);
+}
+
+Hash::~Hash() = default;
+
+void Hash::add(std::span<const std::byte> bytes) {
+  XXH3_128bits_update(&state_->hash, bytes.data(), bytes.size());
+}
+
+Digest Hash::digest() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state_->hash);
+  return {hash.low64, hash.high64};
+}
 
 Digest digest_of(std::span<const std::byte> bytes) {
   Hash hash;
@@ -152,11 +153,12 @@ bool PartReader::is_part(const fs::path& path) {
   return file && trailer_of(*file);
 }
 
-std::optional<PartReader> PartReader::open(const fs::path& path, const Digest& made_from, Check check) {
+std::optional<PartReader> PartReader::open(const fs::path& path, const std::optional<Digest>& made_from,
+                                           Check check) {
   std::optional<PartReader> part = open_unchecked(path);
   if (!part) return std::nullopt;
   const Trailer trailer = *trailer_of(part->file_);
-  if (trailer.made_from != made_from) return std::nullopt;
+  if (made_from && trailer.made_from != *made_from) return std::nullopt;
   if (check == Check::kTable) return part;
   Hash hash;
   add_range(part->file_, part->file_.size() - sizeof trailer, hash);

@@ -28,6 +28,17 @@ namespace lacuna {
 
 // XXH3 of 128 bits (Collet): of what a part was made from, and of its bytes.
 using Digest = std::array<std::uint64_t, 2>;
+class Hash {
+ public:
+  Hash();
+  ~Hash();
+  void add(std::span<const std::byte> bytes);
+  Digest digest() const;  // of all that was added
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 Digest digest_of(std::span<const std::byte> bytes);
 Digest digest_of(std::string_view text);
 Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
@@ -63,9 +74,10 @@ class PartReader {
     kWhole,  // reads all of it once
     kTable,  // bytes may be damaged
   };
-  // None where there is no such part, or where it is of something else, or is not whole.
-  static std::optional<PartReader> open(const std::filesystem::path& path, const Digest& made_from,
-                                        Check check = Check::kWhole);
+  // None where there is no such part, or where it is not made from this, or is not whole. Without
+  // `made_from`, it may be made from anything.
+  static std::optional<PartReader> open(const std::filesystem::path& path,
+                                        const std::optional<Digest>& made_from, Check check = Check::kWhole);
 
   const Digest& checksum() const { return checksum_; }
   // Of whatever it was made; by its table alone.

@@ -46,8 +46,9 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 // for the other points. Cost: one access of the tree for each run of points in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known.
-  Survey(std::uint64_t memory, std::uint64_t expected_points);
+  // `expected_points`: 0 where not known. `grid`: to count in; null: chosen as above. Its cells merge only
+  // where memory does not suffice.
+  Survey(std::uint64_t memory, std::uint64_t expected_points, const CellGrid* grid = nullptr);
 
   void add(const PointBatch& batch);
   // Adding may take two steps, of which the first may run in other threads: `add(count_cells(batch,
@@ -69,6 +70,7 @@ class Survey {
   bool merge_unless_apart(Count&& count);
 
   std::uint64_t memory_;
+  const CellGrid* grid_;
   bool is_expected_;  // whether the number of points is known
   std::uint64_t expected_points_;
   SurveyedScan scan_;

@@ -32,9 +32,9 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 
 }  // namespace
 
-SurveyedScan survey_scan(PointSource& scan, Job& job) {
+SurveyedScan survey_scan(PointSource& scan, Job& job, const CellGrid* grid) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
-  Survey survey(job.memory.cells, expected);
+  Survey survey(job.memory.cells, expected, grid);
   count_points(survey, scan, expected, job);
   return survey.finish();
 }

@@ -5,6 +5,7 @@
 #include "engine/store/sealed_part.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRun = "run";    // the part that says whose workspace it is
-constexpr const char* kPlan = "plan";  // of a run that several processes share
+constexpr const char* kRun = "run";  // the part that says whose workspace it is
+constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
 
 using Lines = std::vector<std::string>;
@@ -97,7 +98,7 @@ bool is_workspace_name(const std::string& name) {
   const auto is_number = [](const std::string& text) {
     return text.find_first_not_of("0123456789abcdef-") == std::string::npos;
   };
-  return stem == kRun || stem == kPlan ||
+  return stem == kRun || std::find(kNotes.begin(), kNotes.end(), stem) != kNotes.end() ||
          (stem.starts_with(kLevel) && is_number(stem.substr(kLevel.size()))) ||
          (stem.starts_with(kTiles) && is_number(stem.substr(kTiles.size())));
 }
@@ -124,11 +125,51 @@ std::string output_parameters(const Config& config) {
   return joined(parameter_lines(config, is_of_outputs));
 }
 
+void write_note(const fs::path& folder, WorkspaceNote note, const std::string& text) {
+  const char* const name = kNotes.at(static_cast<std::size_t>(note));
+  PartWriter part(folder / name);
+  part.add("text", 0, std::span<const char>(text));
+  part.seal(digest_of(name));
+}
+
+std::optional<std::string> read_note(const fs::path& folder, WorkspaceNote note) {
+  const char* const name = kNotes.at(static_cast<std::size_t>(note));
+  const std::optional<PartReader> part = PartReader::open(folder / name, digest_of(name));
+  if (!part) return std::nullopt;
+  const std::vector<char> text = part->records<char>("text", 0);
+  return std::string(text.begin(), text.end());
+}
+
+fs::path earlier_parts(const fs::path& folder) {
+  return folder / "before";
+}
+
+void begin_update(const fs::path& folder) {
+  const fs::path earlier = earlier_parts(folder);
+  if (PartReader::is_part(earlier / kRun)) return;
+  std::vector<fs::path> files = workspace_files(folder);
+  // The part of the run goes last: with it, the folder is a workspace.
+  std::partition(files.begin(), files.end(), [](const fs::path& file) { return file.filename() != kRun; });
+  std::error_code error;
+  fs::create_directory(earlier, error);
+  for (const fs::path& file : files) {
+    if (!error) fs::rename(file, earlier / file.filename(), error);
+  }
+  if (error) throw Error(earlier.string() + ": parts cannot be moved there: " + error.message());
+}
+
+void end_update(const fs::path& folder) {
+  const fs::path earlier = earlier_parts(folder);
+  for (const fs::path& file : workspace_files(earlier)) remove_part(file);
+  std::error_code error;
+  fs::remove(earlier, error);  // unless it has other files
+}
+
 StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.inputs = split(part->records<char>("inputs", 0), '\0'), .config = {}};
+  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}};
   const std::vector<char> text = part->records<char>("config", 0);
   read_config_text({text.data(), text.size()}, folder / kRun, run.config);
   return run;
@@ -220,6 +261,7 @@ void open_workspace(const PointSource& scan, Job& job) {
     part.seal(digest_of(kRun));
   }
   job.kept = folder;
+  if (PartReader::is_part(earlier_parts(folder) / kRun)) job.earlier = earlier_parts(folder);
   job.made_from = joined(now);
 }
 

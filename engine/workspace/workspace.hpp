@@ -27,13 +27,29 @@ std::string evaluation_parameters(const Config& config);
 // Parameters that say which outputs of a tile are wanted.
 std::string output_parameters(const Config& config);
 
+enum class WorkspaceNote {
+  kTasks,    // of a step, where several processes share the run
+  kResults,  // the folder that has the results of the last complete run
+};
+
 // What a workspace knows of its run, so that another process can do a part of it.
 struct StoredRun {
-  std::vector<std::string> inputs;  // `PointSource::names`
+  std::vector<std::string> names;  // `PointSource::names`
   Config config;
 };
 // Throws `Error` where the folder is no workspace.
 StoredRun read_run(const std::filesystem::path& folder);
+
+// A line of text as a part of its own; none where there is no such part.
+void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);
+std::optional<std::string> read_note(const std::filesystem::path& folder, WorkspaceNote note);
+
+// An update: moves the parts into a folder of the workspace, from which the run that follows takes the tiles
+// that have not changed. `end_update` removes them. A folder that is there already, of an update that was
+// stopped, is completed.
+void begin_update(const std::filesystem::path& folder);
+void end_update(const std::filesystem::path& folder);
+std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // where they are, if they are
 
 // Names of parts: the points of a level, and outputs of its tiles.
 std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);

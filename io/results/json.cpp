@@ -67,6 +67,7 @@ Json strays_json(const Strays& strays) {
 Json counts_of(const FilteredOut& filtered) {
   return {{"origin", filtered.origin},
           {"bounds", filtered.bounds},
+          {"leave_out", filtered.boxes},
           {"classes", filtered.classes},
           {"returns", filtered.returns}};
 }

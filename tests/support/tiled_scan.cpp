@@ -15,8 +15,9 @@ namespace {
 
 TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
   const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
-  return bucket_scan(scan, split_tiles(std::move(survey.cells), survey.grid, points, tile_points),
-                     survey.bounds, survey.precision(), level_files(0, job), job);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
+  plan.cell_points = job.cell_points(points);
+  return bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), level_files(0, job), job);
 }
 
 }  // namespace
@@ -36,11 +37,13 @@ Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
   Totals totals(extent);
   std::mutex mutex;
   evaluate_tiles(store, tiles, exchange_halo(store, tiles, job), config.neighbourhood.eps, extent, consumers,
-                 job, [&](TileIndex t, const TileOutput& output) {
+                 job,
+                 [&](TileIndex t, const TileOutput& output) {
                    for (TileConsumer* const consumer : consumers) consumer->absorb(t, output);
                    const std::lock_guard lock(mutex);
                    totals.add(output);
-                 });
+                 },
+                 {});
   return totals;
 }
 

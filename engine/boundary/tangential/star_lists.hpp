@@ -44,6 +44,10 @@ struct OpenLinkVertex {
   float radius;
   Consistency consistency;
 };
+template <class Visit>
+void for_each_row(OpenLinkVertex& record, Visit&& visit) {
+  visit(record.point);
+}
 
 // Open stars of one tile.
 struct OpenStars {

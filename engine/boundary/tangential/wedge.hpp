@@ -29,6 +29,12 @@ struct Wedge {
   WedgeEvidence evidence;
   Scale scale;
 };
+template <class Visit>
+void for_each_row(Wedge& record, Visit&& visit) {
+  visit(record.point.row);
+  visit(record.from);
+  visit(record.to);
+}
 
 // 0 where the circumradius is no larger than the sampling radius, 1 from `clear_radius` times that on.
 inline float clearness(double radius, double sampling_radius, const TangentialConfig& config) {

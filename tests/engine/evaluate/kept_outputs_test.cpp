@@ -20,12 +20,13 @@ using test::ScratchFolder;
 struct Kept {
   explicit Kept(const ScratchFolder& folder) : job(config, folder.path(), quiet) {
     job.kept = folder.path();
+    tiling.tiles.resize(6);
     PartWriter(folder / "run").seal({});
   }
 
   // The outputs that are there; each is one number.
   std::map<TileIndex, std::uint64_t> numbers(const std::string& made_from) const {
-    const KeptOutputs kept(3, 6, made_from, job);
+    const KeptOutputs kept(3, tiling, made_from, "", job);
     std::map<TileIndex, std::uint64_t> numbers;
     std::mutex mutex;
     kept.for_each(job, [&](TileIndex tile, const TileOutput& output) {
@@ -36,7 +37,7 @@ struct Kept {
     return numbers;
   }
   void add(const std::string& made_from, const std::map<TileIndex, std::uint64_t>& numbers) const {
-    KeptOutputs kept(3, 6, made_from, job);
+    KeptOutputs kept(3, tiling, made_from, "", job);
     for (const auto& [tile, number] : numbers) {
       TileOutput output;
       output.add("number", std::vector{number});
@@ -45,6 +46,7 @@ struct Kept {
     kept.finish();
   }
 
+  Tiling tiling;
   Config config;
   NoProgress quiet;
   Job job;

@@ -1,0 +1,189 @@
+// A run after its input has changed in places: the result is that of a run from nothing, and tiles where
+// nothing has changed are not evaluated again.
+#include "engine/consumers.hpp"
+#include "engine/levels/evaluate_level.hpp"
+#include "engine/pipeline.hpp"
+#include "engine/workspace/workspace.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ScratchFolder;
+
+// Points in the box take no part any more, and keep their ids.
+void leave_out(Cloud& cloud, const Eigen::AlignedBox3d& box) {
+  for (Eigen::Vector3d& p : cloud.positions) {
+    if (box.contains(p)) p.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void append(Cloud& cloud, const Cloud& added) {
+  cloud.positions.insert(cloud.positions.end(), added.positions.begin(), added.positions.end());
+  if (!cloud.normals.empty())
+    cloud.normals.insert(cloud.normals.end(), added.positions.size(), Eigen::Vector3d::UnitZ());
+}
+
+Eigen::AlignedBox3d random_box(Random& random) {
+  const Eigen::Vector3d middle(random.uniform(0, 60), random.uniform(0, 60), 0);
+  const double half = random.uniform(0.5, 15);
+  return {middle.array() - half, middle.array() + half};
+}
+
+// A denser patch, some of it on points of the cloud.
+Cloud random_patch(Random& random, const Cloud& cloud) {
+  const auto side = static_cast<int>(random.whole(2, 20));
+  Cloud patch = plane(side).jittered(0.3, static_cast<std::uint64_t>(random.whole(1, 1000)));
+  const Eigen::Vector3d corner(random.uniform(-20, 60), random.uniform(-20, 60), 0);
+  for (Eigen::Vector3d& p : patch.positions) p = 0.7 * p + corner;
+  for (int copies = 0; copies < 5; ++copies)
+    patch.positions.push_back(
+        cloud.positions[static_cast<std::size_t>(random.whole(0, std::int64_t(cloud.size()) - 1))]);
+  return patch;
+}
+
+Cloud scan() {
+  return plane(60).punched({18, 20}, 5).jittered(0.3, 5).with_duplicates(200, 1).with_outliers(3, 2, 1);
+}
+
+Config small_tiles(const fs::path& workspace) {
+  Config config;
+  config.run.tile_points = 150;
+  config.run.threads = 2;
+  config.run.workspace = workspace.string();
+  return config;
+}
+
+std::string bytes_from_nothing(const Cloud& cloud, Config config) {
+  config.run.workspace.clear();
+  return run_engine(cloud, config).bytes();
+}
+
+TEST_CASE("an updated run gives the result of a run from nothing, again and again") {
+  Random random(11);
+  for (int variant = 0; variant < 5; ++variant) {
+    const ScratchFolder folder;
+    Config config = small_tiles(folder.path());
+    Cloud cloud = scan();
+    if (variant == 1) config.loops.method = LoopMethod::kPaper;
+    if (variant == 2) config.normals.orient = config.output.vdb = true;
+    if (variant == 3) config.scale.min_hole = 8;
+    if (variant == 4) cloud = cloud.with_random_normals(2);
+    CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
+    for (int round = 0; round < 6; ++round) {
+      const std::int64_t what = random.whole(0, 2);
+      if (what != 0) leave_out(cloud, random_box(random));
+      if (what != 1) append(cloud, random_patch(random, cloud));
+      INFO("variant " << variant << ", round " << round);
+      begin_update(folder.path());
+      if (random.whole(0, 3) == 0) config.run.threads = static_cast<std::int64_t>(random.whole(1, 4));
+      CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
+      // One that was stopped right before its end goes on.
+      if (random.whole(0, 2) == 0)
+        CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
+      end_update(folder.path());
+      CHECK_FALSE(fs::exists(earlier_parts(folder.path())));
+    }
+  }
+}
+
+// Counts the tiles that are evaluated.
+class TileCounter final : public TileConsumer {
+ public:
+  void emit(const EvaluatedTile&, TileOutput&) const override { ++count_; }
+  void absorb(TileIndex, const TileOutput&) override {}
+  std::size_t take() { return count_.exchange(0); }
+
+ private:
+  mutable std::atomic<std::size_t> count_ = 0;
+};
+
+TEST_CASE("tiles that lie apart from what has changed are not evaluated again, at any level") {
+  const ScratchFolder folder, scratch;
+  const Config config = small_tiles(folder.path());
+  NoProgress quiet;
+  TileCounter counter;
+  struct Count {
+    std::size_t evaluated, all;
+  };
+  const auto evaluate = [&](const Cloud& cloud) {
+    std::vector<Count> counts;
+    MemoryScan input(cloud);
+    Job job(config, scratch.path(), quiet);
+    open_workspace(input, job);
+    std::optional<Level> level = first_level(input, job);
+    while (level && counts.size() < 3) {
+      Consumers consumers(*level, job);
+      consumers.all.push_back(&counter);
+      const Totals totals = evaluate_level(*level, consumers.all, job, [](TileIndex, const TileOutput&) {});
+      counts.push_back({counter.take(), level->store.tiling().tiles.size()});
+      std::optional<Level> above = level_above(*level, totals, job);
+      level.reset();
+      if (above) level.emplace(*std::move(above));
+    }
+    return counts;
+  };
+  Cloud cloud = plane(120).punched({18, 20}, 5).jittered(0.3, 5);
+  for (const Count& count : evaluate(cloud)) CHECK(count.evaluated == count.all);
+  begin_update(folder.path());
+  leave_out(cloud, {Eigen::Vector3d(100, 100, -1), Eigen::Vector3d(103, 103, 1)});
+  const std::vector<Count> updated = evaluate(cloud);
+  CHECK(updated[0].all > 90);
+  CHECK(updated[0].evaluated < 20);
+  CHECK(updated[0].evaluated > 0);
+  CHECK(updated[1].evaluated < updated[1].all / 2);
+  CHECK(updated[2].evaluated < updated[2].all);
+}
+
+TEST_CASE("an update that was stopped while it moved the parts moves the rest") {
+  const ScratchFolder folder;
+  const Config config = small_tiles(folder.path());
+  Cloud cloud = scan();
+  run_engine(cloud, config);
+  const std::vector<fs::path> parts = workspace_files(folder.path());
+  fs::create_directory(earlier_parts(folder.path()));
+  fs::rename(parts.front(), earlier_parts(folder.path()) / parts.front().filename());
+  begin_update(folder.path());
+  CHECK(workspace_files(earlier_parts(folder.path())).size() == parts.size());
+  CHECK(workspace_files(folder.path()).empty());
+  leave_out(cloud, {Eigen::Vector3d(10, 10, -1), Eigen::Vector3d(14, 12, 1)});
+  CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
+}
+
+TEST_CASE("damaged parts of the run before are not used") {
+  Random random(7);
+  Cloud cloud = scan();
+  Cloud changed = cloud;
+  leave_out(changed, {Eigen::Vector3d(10, 10, -1), Eigen::Vector3d(14, 12, 1)});
+  for (int round = 0; round < 8; ++round) {
+    const ScratchFolder folder;
+    const Config config = small_tiles(folder / "w");
+    fs::create_directory(folder / "w");
+    run_engine(cloud, config);
+    begin_update(folder / "w");
+    for (const fs::path& file : workspace_files(earlier_parts(folder / "w"))) {
+      std::string content = test::read_file(file);
+      if (random.whole(0, 1) == 0 || content.empty() || file.filename() == "run") continue;
+      content[static_cast<std::size_t>(random.whole(0, std::int64_t(content.size()) - 1))] ^= 1;
+      folder.write("damaged", content);
+      fs::rename(folder / "damaged", file);
+    }
+    INFO("round " << round);
+    CHECK(run_engine(changed, config).bytes() == bytes_from_nothing(changed, config));
+  }
+}
+
+}  // namespace
+}  // namespace lacuna
