@@ -200,7 +200,7 @@ std::vector<Parameter> parameters(Config& config);
 // is allowed) for unknown keys, wrong types and impossible values.
 std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 
-// The same for the text of a file.
+// Does the same with the text of a file.
 std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
                                           Config& config);
 

@@ -1,8 +1,8 @@
 // What the steps behind the evaluation need of one tile: named streams of plain records.
 //
 // It is all that is left of an evaluated tile: the neighbour graph never touches the disk. A run whose
-// workspace is kept seals outputs in parts, so that no tile is evaluated twice. In a part, a row is the
-// number of a tile and a place in it, so that an output is right where other tiles have more or fewer points.
+// workspace is kept seals outputs in parts, so that no tile is evaluated twice. In a part, a row is the number
+// of a tile and a place in it. So an output stays right where other tiles get more or fewer points.
 #pragma once
 
 #include "engine/model/tiling.hpp"

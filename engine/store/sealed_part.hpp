@@ -80,7 +80,7 @@ class PartReader {
                                         const std::optional<Digest>& made_from, Check check = Check::kWhole);
 
   const Digest& checksum() const { return checksum_; }
-  // Of whatever it was made; by its table alone.
+  // Takes a part of whatever it was made; reads its table alone.
   static std::optional<PartReader> open_unchecked(const std::filesystem::path& path);
 
   std::vector<std::uint64_t> keys() const;  // ascending

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -94,13 +95,10 @@ std::optional<Lines> lines_of(const fs::path& folder) {
 }
 
 bool is_workspace_name(const std::string& name) {
-  const std::string stem = name.substr(0, name.find('.'));
-  const auto is_number = [](const std::string& text) {
-    return text.find_first_not_of("0123456789abcdef-") == std::string::npos;
-  };
-  return stem == kRun || std::find(kNotes.begin(), kNotes.end(), stem) != kNotes.end() ||
-         (stem.starts_with(kLevel) && is_number(stem.substr(kLevel.size()))) ||
-         (stem.starts_with(kTiles) && is_number(stem.substr(kTiles.size())));
+  static const std::regex parts(
+      "(run|tasks|results|level-[0-9]+|tiles-[0-9]+-[0-9a-f]{16})(\\.[0-9a-f]{16}\\.partial)?"
+      "|level-[0-9]+-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
+  return std::regex_match(name, parts);
 }
 
 // Files of others that have names of parts would be replaced.

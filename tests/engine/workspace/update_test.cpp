@@ -1,5 +1,5 @@
-// A run after its input has changed in places: the result is that of a run from nothing, and tiles where
-// nothing has changed are not evaluated again.
+// A run after its input has changed in places. The result is that of a run from nothing. Tiles where nothing
+// has changed are not evaluated again.
 #include "engine/consumers.hpp"
 #include "engine/levels/evaluate_level.hpp"
 #include "engine/pipeline.hpp"

@@ -179,14 +179,16 @@ TEST_CASE("other files in a workspace stay, and what was not finished goes") {
   const ScratchFolder folder;
   folder.write("notes.txt", "x");
   bytes_of(scan(), small_tiles(), folder.path());
-  folder.write("tiles-0-7.partial", "x");
-  folder.write("level-3.points.partial", "x");
+  folder.write("tiles-0-0123456789abcdef.0123456789abcdef.partial", "x");
+  folder.write("level-3-0123456789abcdef.points.partial", "x");
   folder.write("other.partial", "x");
+  folder.write("results.csv", "x");
   bytes_of(scan(), small_tiles(), folder.path());
   CHECK(fs::exists(folder / "notes.txt"));
   CHECK(fs::exists(folder / "other.partial"));
-  CHECK_FALSE(fs::exists(folder / "tiles-0-7.partial"));
-  CHECK_FALSE(fs::exists(folder / "level-3.points.partial"));
+  for (const fs::path& file : workspace_files(folder.path())) CHECK(file.filename() != "results.csv");
+  CHECK_FALSE(fs::exists(folder / "tiles-0-0123456789abcdef.0123456789abcdef.partial"));
+  CHECK_FALSE(fs::exists(folder / "level-3-0123456789abcdef.points.partial"));
 }
 
 }  // namespace
