@@ -192,6 +192,17 @@ twice=$(awk 'FNR == 1 {running = 0} /: job [0-9_]+, start / && ++running == 2 {+
 ((twice > 0)) || fail "no task ran twice at once"
 is_as_expected "$twice tasks ran twice at once"
 
+# Slurm itself puts the task back in the queue.
+new_chain "a node that is down for a while"
+submit 7
+stop_task
+scontrol update NodeName="$(hostname -s)" State=DOWN Reason=test
+sleep 2
+scontrol update NodeName="$(hostname -s)" State=RESUME 2>/dev/null || true  # unless it is back already
+await_end
+grep --quiet 'start 2: ' "$chain"/work/logs/*.log || fail "the task did not start again"
+is_as_expected
+
 # A task is killed meanwhile. It is stopped first, so that it does not end before.
 new_chain "without a controller for a while"
 submit 7 --tries 5
