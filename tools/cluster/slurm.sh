@@ -19,7 +19,8 @@ last job writes the results. The same command goes on after a failure: tasks tha
   -h, --help
 PARAMETERS are those of lacuna detect, such as --min-hole 0.5 or --memory-limit 4GiB, for which tasks are planned.
 SBATCH_OPTIONS go to each sbatch, and override those of this script: -- --partition=long --account=survey
-A task may take a quarter more memory than planned, its job 256 MiB on top, and ten minutes more than twice the time.
+A task has the planned memory as its limit. Its job may take a quarter and 256 MiB more. It may take twice the planned
+time and ten minutes more.
 The program is $LACUNA, or lacuna in PATH. Each node has it at the same place.
 END
 }
@@ -141,9 +142,8 @@ else
 fi
 while IFS=$'\t' read -r step count memory minutes; do
   [[ $count$memory$minutes =~ ^[0-9]+$ ]] || fail "lacuna plan --tsv has a line that is no step: $step $count $memory $minutes"
-  limit=$((memory + memory / 4))
-  ((limit >= 64)) || limit=64  # lacuna takes no lower one
-  memory=$((limit + 256))
+  limit=$memory  # which the task keeps to
+  memory=$((limit + limit / 4 + 256))
   minutes=$((2 * minutes + 10))
   if [[ $step == finish ]]; then
     options=(--output="$logs/finish.log")
