@@ -16,8 +16,8 @@ block_of() { sed --quiet "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$page" | sed '1d;$d'; }
 new_folder() {
   mkdir -p "$work/$1/survey"
   cd "$work/$1"
-  "$program" synth surface survey/scan.ply --points 200000 --holes 10 --positions random >/dev/null
-  "$program" detect survey --out expected --quiet
+  "$program" synth surface survey/scan.ply --truth truth.txt --points 200000 --holes 10 --positions random >/dev/null
+  "$program" detect "$PWD/survey" --out expected --quiet
 }
 is_as_expected() {
   diff --recursive --brief --exclude=run.json expected holes
@@ -28,7 +28,7 @@ ran=0
 if command -v parallel >/dev/null && parallel --version | grep --quiet GNU; then
   new_folder "GNU parallel"
   block_of bash >loop.sh
-  bash -eu loop.sh
+  bash -eu loop.sh >log 2>&1 || { cat log; exit 1; }
   is_as_expected "GNU parallel"
   ran=1
 fi
