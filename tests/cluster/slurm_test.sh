@@ -140,13 +140,14 @@ stop_task() {
     sleep 0.02
   done
 }
-# Kills tasks at random moments, `most` of them at most, until the chain ends.
+# Kills tasks at random moments, `most` of them at most, until the chain ends. Larger scans have longer pauses.
 kill_some() {
-  local most=$1 pid
+  local most=$1 pid pause
   killed=0
   while ((killed < most)) && [[ -n $(squeue --noheader 2>&1) ]]; do
     pid=$(running | shuf --head-count=1)
-    sleep "0.$((RANDOM % 5))$((RANDOM % 10))"
+    pause=$((RANDOM % 500 * (points / 1000000 + 1)))
+    sleep "$((pause / 1000)).$(printf %03d $((pause % 1000)))"
     [[ -z $pid ]] || ! kill -KILL "$pid" 2>/dev/null || ((killed += 1))
   done
 }
