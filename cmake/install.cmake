@@ -23,6 +23,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lacuna-config-version.cma
 install(FILES ${PROJECT_BINARY_DIR}/lacuna-config.cmake ${PROJECT_BINARY_DIR}/lacuna-config-version.cmake
         DESTINATION ${package_folder} COMPONENT library)
 
+# The script that submits a run to Slurm. Pages link to it in the documentation, too.
+install(PROGRAMS tools/cluster/slurm.sh DESTINATION ${CMAKE_INSTALL_DOCDIR}/tools/cluster COMPONENT program)
+
 # Configs, and the documentation with its figures but without their scripts.
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/lacuna COMPONENT program FILES_MATCHING PATTERN "*.toml")
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
