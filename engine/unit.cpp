@@ -50,6 +50,7 @@ std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks
   Config config = with_min_hole(given);
   NoProgress silence;
   Job job(config, config.run.workspace, silence);
+  job.is_unit = true;  // units of an earlier plan may be at work
   if (config.run.tile_points == 0)
     config.run.tile_points =
         static_cast<std::int64_t>(std::min(job.tile_points(points), points / tasks / kTilesOfTask + 1));

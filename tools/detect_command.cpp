@@ -6,6 +6,7 @@
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "engine/workspace/workspace.hpp"
+#include "engine/workspace/workspace_state.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/results.hpp"
 #include "tools/disk_check.hpp"

@@ -2,8 +2,10 @@
 
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
+#include "engine/workspace/workspace.hpp"
 #include "tools/folders.hpp"
 #include "tools/summary.hpp"
+#include "tools/terminal.hpp"
 #include "tools/visible_text.hpp"
 
 #include <filesystem>
@@ -39,7 +41,9 @@ void print_status(const fs::path& folder) {
                 << " tiles evaluated\n";
     }
   }
-  std::cout << "The same command of lacuna detect goes on from here.\n";
+  if (state.is_update) std::cout << "  an update was stopped: parts of the run before are kept\n";
+  if (state.seconds_left) std::cout << "  left: about " << print_duration(*state.seconds_left) << "\n";
+  std::cout << "The same command goes on from here; lacuna finish does, too.\n";
 }
 
 void clean(const fs::path& folder) {

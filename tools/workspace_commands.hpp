@@ -1,7 +1,7 @@
 // lacuna status and lacuna clean: what a workspace has, and its end.
 #pragma once
 
-#include "engine/workspace/workspace.hpp"
+#include "engine/workspace/workspace_state.hpp"
 
 #include <string>
 

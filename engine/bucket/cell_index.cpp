@@ -77,6 +77,4 @@ void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::
   }
 }
 
-// A cell of the tiling lies inside one cell of the grid, unless its points were far: then it may span many.
-
 }  // namespace lacuna

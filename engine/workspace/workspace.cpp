@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 #include <regex>
 #include <set>
@@ -167,7 +166,9 @@ StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}};
+  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'),
+                .made_from = split(part->records<char>("made from", 0), '\n'),
+                .config = {}};
   const std::vector<char> text = part->records<char>("config", 0);
   read_config_text({text.data(), text.size()}, folder / kRun, run.config);
   return run;
@@ -181,6 +182,18 @@ fs::path tiles_prefix(const fs::path& folder, std::size_t level) {
   return folder / (std::string(kTiles) + std::to_string(level) + "-");
 }
 
+std::optional<std::size_t> level_of_part(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(kLevel) || name.find_first_of("-.", kLevel.size()) != name.npos) return std::nullopt;
+  return std::stoul(name.substr(kLevel.size()));
+}
+
+std::optional<std::size_t> level_of_outputs(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(kTiles) || file.has_extension()) return std::nullopt;
+  return std::stoul(name.substr(kTiles.size()));
+}
+
 std::vector<fs::path> workspace_files(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!PartReader::is_part(folder / kRun)) return files;
@@ -190,37 +203,6 @@ std::vector<fs::path> workspace_files(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
-  const std::vector<fs::path> files = workspace_files(folder);
-  if (files.empty()) return std::nullopt;
-  WorkspaceState state{.made_from = lines_of(folder).value_or(Lines{})};
-  std::map<std::size_t, LevelState> levels;
-  std::map<std::size_t, std::set<std::uint64_t>> evaluated;  // tiles, by level
-  for (const fs::path& file : files) {
-    std::error_code error;
-    if (const std::uintmax_t bytes = fs::file_size(file, error); !error) state.bytes += bytes;
-    const std::string name = file.filename().string();
-    const bool is_level = name.starts_with(kLevel), has_dot = file.has_extension();
-    if (has_dot || !(is_level || name.starts_with(kTiles))) continue;
-    const std::optional<PartReader> part = PartReader::open_unchecked(file);
-    if (!part) continue;
-    const std::size_t number = std::stoul(name.substr(kLevel.size()));
-    LevelState& level = levels[number];
-    level.number = number;
-    if (is_level) {
-      for (const Tile& tile : part->records<Tile>("tiles", 0)) ++level.tiles, level.points += tile.points;
-    } else {
-      const std::vector<std::uint64_t> tiles = part->keys();
-      evaluated[number].insert(tiles.begin(), tiles.end());
-    }
-  }
-  for (auto& [number, level] : levels) {
-    level.evaluated = evaluated[number].size();
-    state.levels.push_back(level);
-  }
-  return state;
 }
 
 void remove_part(const fs::path& file) {

@@ -34,7 +34,8 @@ enum class WorkspaceNote {
 
 // What a workspace knows of its run, so that another process can do a part of it.
 struct StoredRun {
-  std::vector<std::string> names;  // `PointSource::names`
+  std::vector<std::string> names;      // `PointSource::names`
+  std::vector<std::string> made_from;  // what its parts are made from, a line each
   Config config;
 };
 // Throws `Error` where the folder is no workspace.
@@ -55,24 +56,12 @@ std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // wh
 std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
 
+// The level of which a file has the points, or outputs of tiles; none: it has other things.
+std::optional<std::size_t> level_of_part(const std::filesystem::path& file);
+std::optional<std::size_t> level_of_outputs(const std::filesystem::path& file);
+
 // The files of a workspace, without others that lie in the folder; none where it is no workspace.
 std::vector<std::filesystem::path> workspace_files(const std::filesystem::path& folder);
-
-// What a workspace has of a level.
-struct LevelState {
-  std::size_t number = 0;     // from 0
-  std::uint64_t points = 0;   // distinct ones
-  std::size_t tiles = 0;      // 0: the level's points are not all there
-  std::size_t evaluated = 0;  // tiles
-};
-struct WorkspaceState {
-  std::vector<std::string> made_from;  // a line each
-  std::vector<LevelState> levels;
-  std::uint64_t bytes = 0;  // of all files
-};
-
-// Reads the tables of the parts, and not whether the parts are whole. None where the folder is no workspace.
-std::optional<WorkspaceState> state_of_workspace(const std::filesystem::path& folder);
 
 // Removes one of the files.
 void remove_part(const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/workspace/workspace.hpp"
+#include "engine/workspace/workspace_state.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"

@@ -1,5 +1,6 @@
 // A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
 #include "engine/workspace/workspace.hpp"
+#include "engine/workspace/workspace_state.hpp"
 
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
