@@ -17,7 +17,7 @@ new_folder() {
   mkdir -p "$work/$1/survey"
   cd "$work/$1"
   "$program" synth surface survey/scan.ply --truth truth.txt --points 200000 --holes 10 --positions random >/dev/null
-  "$program" detect "$PWD/survey" --out expected --quiet
+  "$program" detect survey --out expected --quiet
 }
 is_as_expected() {
   diff --recursive --brief --exclude=run.json expected holes

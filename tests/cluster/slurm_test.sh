@@ -105,6 +105,7 @@ END
 
 # Each run has a folder of its own, with a space and a % in its name.
 new_chain() {
+  chain_name=$1
   chain="$work/$1 %j"
   mkdir "$chain"
 }
@@ -117,15 +118,15 @@ submit() {
 await_end() {
   local until=$((SECONDS + most_seconds))
   while [[ -n $(squeue --noheader 2>&1) ]]; do  # an error, too, while the controller is down
-    ((SECONDS < until)) || fail "${chain##*/}: not at its end after $most_seconds seconds"
+    ((SECONDS < until)) || fail "$chain_name: not at its end after $most_seconds seconds"
     sleep 0.5
   done
 }
 is_as_expected() {
-  [[ -d $chain/out ]] || fail "${chain##*/}: no results"
+  [[ -d $chain/out ]] || fail "$chain_name: no results"
   diff --recursive --brief --exclude=run.json "$work/expected" "$chain/out" >&2 ||
-    fail "${chain##*/}: other results than those of lacuna detect"
-  echo "${chain##*/}: same bytes, $(starts) starts of tasks${1:+, $1} ($((SECONDS - began)) s)"
+    fail "$chain_name: other results than those of lacuna detect"
+  echo "$chain_name: same bytes, $(starts) starts of tasks${1:+, $1} ($((SECONDS - began)) s)"
   rm -rf "$chain"
   began=$SECONDS
 }
