@@ -36,17 +36,14 @@ void StoredSearch::search_cell(std::uint32_t cell, const StoredPoint& point, Row
 
 const std::vector<StoredPoint>& StoredSearch::cached(std::uint32_t cell) {
   constexpr std::uint64_t kCachedPoints = 65'536;
-  const auto [place, is_new] = cache_.try_emplace(cell);
-  if (is_new) {
-    cached_points_ += tiling_.cells[cell].points;
-    if (cached_points_ > kCachedPoints) {
-      cache_.clear();
-      cached_points_ = tiling_.cells[cell].points;
-      return cache_[cell] = store_.cell(cell);
-    }
-    place->second = store_.cell(cell);
+  if (const auto found = cache_.find(cell); found != cache_.end()) return found->second;
+  const std::uint64_t points = tiling_.cells[cell].points;
+  if (cached_points_ + points > kCachedPoints) {
+    cache_.clear();
+    cached_points_ = 0;
   }
-  return place->second;
+  cached_points_ += points;
+  return cache_[cell] = store_.cell(cell);
 }
 
 }  // namespace lacuna
