@@ -92,7 +92,7 @@ std::string unknown_key(const std::vector<Parameter>& all, const std::string& se
          (elsewhere ? belongs_in(*elsewhere) : suggestion(key, keys)) + "; allowed there: " + listed(keys);
 }
 
-// A number or a flag as on the command line. Others differ from all of these, since text has its quotes.
+// A number or a flag is as on the command line. All others are no such text: a string has its quotes.
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "{...}";
   if (node.is_array()) return "[...]";
