@@ -3,11 +3,8 @@
 // their numbers, in the same order.
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/config.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/halo/eps_balls.hpp"
-#include "engine/halo/halo.hpp"
+#include "engine/levels/evaluate_level.hpp"
 #include "engine/levels/level.hpp"
-#include "engine/levels/sealed_level.hpp"
 #include "engine/run/job.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/temporary_folder.hpp"
@@ -32,12 +29,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // `totals`: set to those of the level.
-LevelLoops find_loops(const Level& level, double extent, Totals& totals, Job& job) {
+LevelLoops find_loops(const Level& level, Totals& totals, Job& job) {
   tangential::TangentialBoundary boundary(level.store, job);
   const std::vector<TileConsumer*> consumers = {&boundary};
-  const double eps = eps_length(job.config.neighbourhood, extent);
-  KeptOutputs kept = find_outputs(level, job);
-  totals = evaluate_tiles(level.store, exchange_halo(level.store, job), eps, extent, kept, consumers, job);
+  totals = evaluate_level(level, consumers, job,
+                          [&](TileIndex tile, const TileOutput& output) { boundary.absorb(tile, output); });
   const FoundLoops found = boundary.find_loops(totals, job);
   return level_loops(level, totals, found, boundary, job);
 }
@@ -45,11 +41,10 @@ LevelLoops find_loops(const Level& level, double extent, Totals& totals, Job& jo
 // As engine/pipeline.cpp finds them, from fine to coarse.
 std::vector<LevelLoops> find_all_loops(PointSource& scan, Job& job) {
   std::optional<Level> level = first_level(scan, job);
-  const double extent = extent_of(level->survey.bounds);
   std::vector<LevelLoops> levels;
   while (level) {
     Totals totals;
-    levels.push_back(find_loops(*level, extent, totals, job));
+    levels.push_back(find_loops(*level, totals, job));
     std::optional<Level> above = level_above(*level, totals, job);
     level.reset();
     if (above) level.emplace(*std::move(above));

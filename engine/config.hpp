@@ -200,6 +200,10 @@ std::vector<Parameter> parameters(Config& config);
 // is allowed) for unknown keys, wrong types and impossible values.
 std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 
+// The same for the text of a file.
+std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
+                                          Config& config);
+
 // The whole config as TOML, a help comment above each key.
 std::string print_config(const Config& config);
 

@@ -37,8 +37,7 @@ std::string read_text(const std::filesystem::path& file) {
   throw Error(file.string() + ":" + std::to_string(line) + ": " + reason);
 }
 
-toml::table parse_toml(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
   if (const auto fault = find_fault(text)) fail(file, fault->line, fault->reason);
   try {
     return toml::parse(text, file.string());
@@ -125,10 +124,15 @@ void set(const Parameter& parameter, const toml::node& node) {
 }  // namespace
 
 std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
+  return read_config_text(read_text(file), file, config);
+}
+
+std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
+                                          Config& config) {
   Config changed = config;
   std::vector<std::string> keys;
   const std::vector<Parameter> all = parameters(changed);
-  for (const auto& [section, content] : parse_toml(file)) {
+  for (const auto& [section, content] : parse_toml(file, text)) {
     const std::string in(section.str());
     const toml::table* const table = content.as_table();
     if (!table) fail(file, section.source().begin.line, stray_key(all, in));

@@ -127,7 +127,7 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
                .has_normals = scan.has_normals(),
                .reads_slowly = scan.reads_slowly()};
   const std::uint64_t input_peak = peak_memory();
-  add_sample(level.store, extent_of(level.survey.bounds), job, estimate, size);
+  add_sample(level.store, level.extent, job, estimate, size);
   estimate.disk = disk_needs(size, job);
   estimate.memory = std::max(input_peak, memory_needs(size, job));
   return estimate;

@@ -1,19 +1,13 @@
 #include "engine/pipeline.hpp"
 
-#include "engine/boundary/paper/paper_boundary.hpp"
-#include "engine/boundary/tangential/tangential_boundary.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/consumers.hpp"
 #include "engine/halo/eps_balls.hpp"
-#include "engine/halo/halo.hpp"
+#include "engine/levels/evaluate_level.hpp"
 #include "engine/levels/level.hpp"
-#include "engine/levels/sealed_level.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
-#include "engine/results/orientation_graph.hpp"
-#include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
-#include "engine/results/scan_sample.hpp"
 #include "engine/summarise.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
@@ -27,13 +21,6 @@
 namespace lacuna {
 namespace {
 
-// The one place where the method is chosen.
-std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
-  if (job.config.loops.method == LoopMethod::kPaper)
-    return std::make_unique<paper::PaperBoundary>(store, job);
-  return std::make_unique<tangential::TangentialBoundary>(store, job);
-}
-
 struct FoundLevel {
   Totals totals;
   FoundLoops found;
@@ -43,26 +30,22 @@ struct FoundLevel {
 // Finds the loops of one level. Halo and evaluate: each point's criteria from its exact neighbourhood
 // (paper, 4.1 to 4.6). Then boundary edges, stitched across tiles to components, and their loops. Each
 // consumer keeps what it needs of an evaluated tile.
-FoundLevel find_loops(const Level& level, double extent, BoundaryMethod& boundary,
-                      std::vector<TileConsumer*> consumers, Job& job) {
-  const double eps = eps_length(job.config.neighbourhood, extent);
-  AppendLists<HaloEdge> halo = exchange_halo(level.store, job);
-  consumers.push_back(&boundary);
-  KeptOutputs kept = find_outputs(level, job);
-  Totals totals = evaluate_tiles(level.store, std::move(halo), eps, extent, kept, consumers, job);
-  FoundLoops found = boundary.find_loops(totals, job);
-  LevelLoops loops = level_loops(level, totals, found, boundary, job);
+FoundLevel find_loops(const Level& level, Consumers& consumers, Job& job) {
+  Totals totals = evaluate_level(level, consumers.all, job, [&](TileIndex tile, const TileOutput& output) {
+    for (TileConsumer* const consumer : consumers.all) consumer->absorb(tile, output);
+  });
+  FoundLoops found = consumers.boundary->find_loops(totals, job);
+  LevelLoops loops = level_loops(level, totals, found, *consumers.boundary, job);
   return {std::move(totals), std::move(found), std::move(loops)};
 }
 
 // Finds the loops of each level above, from fine to coarse.
-void find_loops_above(const Level& first, double extent, Totals totals, std::vector<LevelLoops>& levels,
-                      Job& job) {
+void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels, Job& job) {
   Phase phase(job, "levels", points_above(first));
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(below ? *below : first, totals, job)) {
-    const std::unique_ptr<BoundaryMethod> boundary = boundary_method(level->store, job);
-    FoundLevel found = find_loops(*level, extent, *boundary, {}, job);
+    Consumers consumers(*level, job);
+    FoundLevel found = find_loops(*level, consumers, job);
     levels.push_back(std::move(found.loops));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
@@ -82,30 +65,18 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // Survey and bucket: where the points are, and the points in tiles on disk.
   Level first = first_level(scan, job);
   const TileStore& store = first.store;
-  const double extent = extent_of(first.survey.bounds);
   Summary summary = summarise(first, job);
-  const double eps = eps_length(config.neighbourhood, extent);
+  const double eps = eps_length(config.neighbourhood, first.extent);
   refuse_balls(store.tiling(), eps, job);  // those of thinner levels are smaller
 
   // The loops of the first level, and all else that is found of its points.
-  Candidates candidates(store, job);
-  const std::unique_ptr<BoundaryMethod> boundary = boundary_method(store, job);
-  std::optional<PointResults> points;
-  std::optional<ProbabilityVoxels> voxels;
-  std::optional<ScanSample> sampler;
-  std::optional<OrientationGraph> orientation;
-  std::vector<TileConsumer*> consumers = {&candidates};
-  if (config.output.points) consumers.push_back(&points.emplace(summary.counts.points, store, job));
-  if (config.output.vdb) consumers.push_back(&voxels.emplace(store, job));
-  if (const std::int64_t most = config.output.sample_points; most > 0)
-    consumers.push_back(&sampler.emplace(static_cast<std::uint64_t>(most), store, job));
-  if (config.normals.orient) consumers.push_back(&orientation.emplace(store, job));
-  FoundLevel found = find_loops(first, extent, *boundary, std::move(consumers), job);
+  Consumers consumers(first, job);
+  FoundLevel found = find_loops(first, consumers, job);
 
   // The loops of the levels above, and each hole tracked through the levels.
   std::vector<LevelLoops> levels;
   levels.push_back(std::move(found.loops));
-  if (has_levels(config)) find_loops_above(first, extent, found.totals, levels, job);
+  if (has_levels(config)) find_loops_above(first, found.totals, levels, job);
   add_findings(found.totals, found.found, levels, eps, summary);
   MeasuredLoops loops =
       measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);
@@ -113,8 +84,9 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   // Results, in the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
   LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
-  RowSet coherent = candidates.coherent(job);
-  RowSet boundary_candidates = boundary->boundary_candidates(candidates, coherent, on_loops.rows, job);
+  auto& [boundary, candidates, points, voxels, sampler, orientation, all] = consumers;
+  RowSet coherent = candidates->coherent(job);
+  RowSet boundary_candidates = boundary->boundary_candidates(*candidates, coherent, on_loops.rows, job);
   std::optional<ProbabilityGrid> probabilities;
   if (voxels) probabilities.emplace(voxels->finish(store, first.survey.middle, job));
   std::optional<Column<StoredSample>> sample;
@@ -125,7 +97,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
       collect_results({std::move(summary), std::move(loops), std::move(selected), std::move(on_loops),
                        std::move(coherent), std::move(boundary_candidates), std::move(points),
                        std::move(probabilities), std::move(sample), std::move(opposed_normals)},
-                      candidates, store, job);
+                      *candidates, store, job);
   if (!first.thinned || !config.output.points) return detection;
   return spread_results(std::move(detection), std::move(*first.thinned->represented), job);
 }

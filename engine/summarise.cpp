@@ -11,12 +11,11 @@ Summary summarise(const Level& level, const Job& job) {
   const SurveyedScan& survey = level.survey;
   const TileStore& store = level.store;
   Summary summary;
-  summary.counts.points = survey.points;
+  summary.counts.points = level.input_points();
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
   if (thinned) {
     summary.resolution = thinned->edge;
-    summary.counts.points = thinned->points;
     summary.counts.dropped = thinned->dropped;
     summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->left;
     summary.bounds = thinned->bounds;

@@ -8,10 +8,13 @@
 #include <functional>
 #include <limits>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace lacuna::io {
 namespace {
+
+constexpr std::string_view kPose = " pose=";
 
 // The first of those that are not empty, where the others are the same. Empty where two differ.
 template <class Same>
@@ -142,19 +145,34 @@ bool FileScan::reads_slowly() const {
 }
 
 std::vector<std::string> FileScan::identity() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = names();
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::ostringstream line;
-    line.precision(std::numeric_limits<double>::max_digits10);
     const Digest sample = sample_digest(files_[i], states_[i]);
-    line << std::filesystem::absolute(files_[i]).lexically_normal().string() << ", " << states_[i].size
-         << " bytes, written at " << states_[i].mtime << " ns, sample " << std::hex << sample[0] << sample[1]
-         << std::dec;
-    if (poses_[i])
-      line << ", pose " << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
-    lines.push_back(line.str());
+    line << ", " << states_[i].size << " bytes, written at " << states_[i].mtime << " ns, sample " << std::hex
+         << sample[0] << sample[1];
+    lines[i] += line.str();
   }
   return lines;
+}
+
+std::vector<std::string> FileScan::names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::ostringstream name;
+    name << std::filesystem::absolute(files_[i]).lexically_normal().string();
+    if (poses_[i] || name.str().find(kPose) != std::string::npos) name << kPose;
+    if (poses_[i]) name << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+    names.push_back(name.str());
+  }
+  return names;
+}
+
+ScanInput parse_name(const std::string& name) {
+  const std::size_t at = name.rfind(kPose);
+  if (at == name.npos) return name;
+  const std::string pose = name.substr(at + kPose.size());
+  return {name.substr(0, at), pose.empty() ? std::nullopt : std::optional(parse_pose(pose))};
 }
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {

@@ -28,6 +28,8 @@ struct ScanInput {
   std::optional<Pose> pose;  // of its coordinates in the registered scan
 };
 
+ScanInput parse_name(const std::string& name);  // of `FileScan::names`
+
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
 // position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
@@ -46,6 +48,8 @@ class FileScan : public PointSource {
   bool reads_slowly() const override;  // any file does
   // Name, size, time and a sample of each file, and its pose.
   std::vector<std::string> identity() const override;
+  // "FILE", absolute, or "FILE pose=NUMBERS", as `parse_name` reads them.
+  std::vector<std::string> names() const override;
   // Rows that were read of each file, and those that the filters left out.
   std::vector<std::uint64_t> pass_counts() const override;
   void set_pass_counts(std::span<const std::uint64_t> counts) override;

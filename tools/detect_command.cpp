@@ -49,17 +49,12 @@ constexpr std::array<Choice<ProgressStyle>, 4> kProgressStyles{{{"bar", Progress
                                                                 {"none", ProgressStyle::kNone}}};
 
 struct DetectArguments {
-  explicit DetectArguments(CLI::App& command) : parameters(command) {}
+  explicit DetectArguments(CLI::App& command) : run(command) {}
 
   std::vector<fs::path> scans;
-  fs::path out;
   bool print_config = false;
-  ProgressStyle progress = default_progress_style();
-  bool quiet = false;
-  fs::path log_file;
   bool restart = false;
-  bool overwrite = false;
-  ParameterOptions parameters;
+  ResultArguments run;
 };
 
 void require(const CLI::App& command, const std::string& option) {
@@ -109,13 +104,38 @@ std::string readers_note(const FileScan& scan, const OutputConfig& config,
          "; --local-coordinates helps, or --points --points-format las or csv\n";
 }
 
-// Writes the results; returns their summary.
-std::string detect_to(const DetectArguments& arguments, const Config& config) {
+}  // namespace
+
+RunArguments::RunArguments(CLI::App& command) : parameters(command) {
+  add_choice(command, "--progress", kProgressStyles, progress,
+             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs");
+  command.add_flag("--quiet", quiet, "No progress, no summary: only warnings and errors");
+  command
+      .add_option("--log-file", log_file,
+                  "Append warnings, errors and the times of stages to this file, with the time of each")
+      ->type_name("FILE");
+}
+
+Config RunArguments::start(Config base) const {
+  auto [config, warnings] = parameters.read(std::move(base));
+  if (quiet) quiet_log();
+  if (!log_file.empty()) start_log_file(log_file);
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  return config;
+}
+
+ResultArguments::ResultArguments(CLI::App& command) : RunArguments(command) {
+  command.add_option("--out", out, "Folder for the results; created if missing")->type_name("DIR");
+  command.add_flag("--overwrite", overwrite,
+                   "Replace files that lacuna detect did not write, too, where results need their names");
+}
+
+std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config,
+                      const ResultArguments& arguments, bool restart) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
-  const ReadOptions options{.columns = config.input.columns, .memory = memory};
-  FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
+  FileScan scan(inputs, config.input, memory);
   refuse_degrees(scan);
   for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
 
@@ -126,8 +146,7 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  const std::unique_ptr<UsedWorkspace> workspace =
-      use_workspace(config.run.workspace, out, arguments.restart);
+  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out, restart);
   if (workspace) watch_workspace(workspace->folder.path());
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
@@ -159,21 +178,22 @@ std::string detect_to(const DetectArguments& arguments, const Config& config) {
   return summary;
 }
 
+namespace {
+
 void run_detect(const CLI::App& command, const DetectArguments& arguments) {
-  auto [config, warnings] = arguments.parameters.read();
   if (arguments.print_config) {
-    std::cout << print_config(config);
+    std::cout << print_config(arguments.run.parameters.read().config);
     return;
   }
+  const Config config = arguments.run.start();
   require(command, "SCAN");
   require(command, "--out");
-  if (arguments.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
-  if (arguments.quiet) quiet_log();
-  if (!arguments.log_file.empty()) start_log_file(arguments.log_file);
-  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-
-  const std::string summary = detect_to(arguments, config);
-  if (!arguments.quiet) std::cout << summary;
+  if (arguments.run.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
+  const ReadOptions options{.columns = config.input.columns,
+                            .memory = Memory::share(config.run.memory_limit).reading};
+  const std::string summary =
+      detect_to(expand_inputs(arguments.scans, options), config, arguments.run, arguments.restart);
+  if (!arguments.run.quiet) std::cout << summary;
 }
 
 }  // namespace
@@ -186,21 +206,10 @@ void add_detect_command(CLI::App& app) {
       ->add_option("SCAN", arguments->scans,
                    "Scan files, folders of them, or @LIST of their names; several are one registered scan")
       ->type_name("SCAN");
-  command->add_option("--out", arguments->out, "Folder for the results; created if missing")
-      ->type_name("DIR");
   command->add_flag("--print-config", arguments->print_config,
                     "Print the parameters in effect as a config file, and end");
-  add_choice(*command, "--progress", kProgressStyles, arguments->progress,
-             "How stderr shows progress, by default bar on a terminal, else plain; json is for programs");
-  command->add_flag("--quiet", arguments->quiet, "No progress, no summary: only warnings and errors");
-  command
-      ->add_option("--log-file", arguments->log_file,
-                   "Append warnings, errors and the times of stages to this file, with the time of each")
-      ->type_name("FILE");
   command->add_flag("--restart", arguments->restart,
                     "Begin anew: without what the workspace has of an earlier run");
-  command->add_flag("--overwrite", arguments->overwrite,
-                    "Replace files that lacuna detect did not write, too, where results need their names");
   command->callback([command, arguments] { run_detect(*command, *arguments); });
 }
 

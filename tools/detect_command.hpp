@@ -1,11 +1,42 @@
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "io/file_scan.hpp"
+#include "tools/parameter_options.hpp"
+#include "tools/shown_progress.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
 
 namespace lacuna::tools {
+
+// What the commands have in common that run the engine.
+struct RunArguments {
+  explicit RunArguments(CLI::App& command);
+
+  // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
+  Config start(Config base = {}) const;
+
+  ProgressStyle progress = default_progress_style();
+  bool quiet = false;
+  std::filesystem::path log_file;
+  ParameterOptions parameters;
+};
+
+// Those that also write results.
+struct ResultArguments : RunArguments {
+  explicit ResultArguments(CLI::App& command);
+
+  std::filesystem::path out;
+  bool overwrite = false;
+};
+
+// Finds the holes and writes the results; returns their summary. `restart`: without what the workspace has.
+std::string detect_to(const std::vector<io::ScanInput>& inputs, const Config& config,
+                      const ResultArguments& arguments, bool restart = false);
 
 // It runs when parsed. Throws `Error` when the job fails, `CLI::Error` for wrong usage.
 void add_detect_command(CLI::App& app);

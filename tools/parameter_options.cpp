@@ -67,8 +67,7 @@ std::string ParameterOptions::read_file(Config& config, std::vector<std::string>
   }
 }
 
-EffectiveConfig ParameterOptions::read() const {
-  Config config;
+EffectiveConfig ParameterOptions::read(Config config) const {
   std::vector<std::string> keys_in_file;
   const std::string file = read_file(config, keys_in_file);
   const std::vector<Parameter> all = parameters(config);

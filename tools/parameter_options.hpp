@@ -26,9 +26,9 @@ class ParameterOptions {
   // Adds `--config` and an option for every parameter, grouped by section in --help.
   explicit ParameterOptions(CLI::App& command);
 
-  // Defaults, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
+  // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
   // and `CLI::ValidationError` for what is wrong on the command line.
-  EffectiveConfig read() const;
+  EffectiveConfig read(Config config = {}) const;
 
  private:
   // The file's name; empty: none was given.

@@ -15,6 +15,7 @@
 #include "tools/signals.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
+#include "tools/unit_commands.hpp"
 #include "tools/visible_text.hpp"
 #include "tools/workspace_commands.hpp"
 
@@ -168,6 +169,9 @@ int run(int argc, char** argv) {
   add_info_command(app);
   add_status_command(app);
   add_clean_command(app);
+  add_plan_command(app);
+  add_work_command(app);
+  add_finish_command(app);
   add_report_command(app);
   add_render_command(app);
   add_synth_command(app);

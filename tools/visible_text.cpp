@@ -51,9 +51,9 @@ class VisibleBuffer final : public std::streambuf {
     std::string shown;
     std::string_view left = std::string_view(text_).substr(0, count);
     while (!left.empty()) {
-      const std::size_t length = std::min(left.find('\n'), left.size());
+      const std::size_t length = std::min(left.find_first_of("\n\t"), left.size());
       shown += visible(left.substr(0, length));
-      if (length < left.size()) shown += '\n';
+      if (length < left.size()) shown += left[length];
       left.remove_prefix(std::min(length + 1, left.size()));
     }
     text_.erase(0, count);

@@ -156,24 +156,12 @@ void emit_sums(const Totals& sums, TileOutput& output) {
   output.add("distances", std::move(bins));
 }
 
-void absorb_sums(const TileOutput& output, Totals& totals) {
-  for (const TileSums& sums : output.read<TileSums>("sums")) {
-    totals.points += sums.points;
-    totals.neighbours += sums.neighbours;
-    totals.candidates += sums.candidates;
-    totals.undefined_normals += sums.undefined_normals;
-    totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
-    for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
-      totals.probabilities[bin] += sums.probabilities[bin];
-  }
-  for (const DistanceBin& bin : output.read<DistanceBin>("distances"))
-    totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
-}
-
 // One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
 Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
-              double unit, std::vector<LocalIndex>& candidates) {
-  Totals totals{.points = evaluations.size(), .neighbours = neighbourhoods.indices.size()};
+              double extent, std::vector<LocalIndex>& candidates) {
+  Totals totals(extent);
+  totals.points = evaluations.size();
+  totals.neighbours = neighbourhoods.indices.size();
   std::vector<std::uint32_t> distances(LengthBins::bin_of(std::numeric_limits<double>::infinity()));
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
     const Evaluation& e = evaluations[p];
@@ -183,7 +171,8 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& nei
     totals.undefined_normals += !e.normal.allFinite();
     if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
       ++distances[LengthBins::bin_of(e.mean_distance)];
-    const double length = e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / unit;
+    const double length =
+        e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / totals.length_unit;
     constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
     totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
   }
@@ -217,6 +206,21 @@ double LengthBins::median() const {
   return 0;
 }
 
+Totals::Totals(double extent) : length_unit(lacuna::length_unit(extent)) {}
+
+void Totals::add(const TileOutput& output) {
+  for (const TileSums& sums : output.read<TileSums>("sums")) {
+    points += sums.points;
+    neighbours += sums.neighbours;
+    candidates += sums.candidates;
+    undefined_normals += sums.undefined_normals;
+    edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
+    for (std::size_t bin = 0; bin < kProbabilityBins; ++bin) probabilities[bin] += sums.probabilities[bin];
+  }
+  for (const DistanceBin& bin : output.read<DistanceBin>("distances"))
+    distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
+}
+
 double Totals::mean_neighbours() const {
   return points == 0 ? 0 : static_cast<double>(neighbours) / static_cast<double>(points);
 }
@@ -226,35 +230,20 @@ double Totals::mean_edge_length() const {
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
 }
 
-Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
-                      KeptOutputs& kept, std::span<TileConsumer* const> consumers, Job& job) {
+void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
+                    double eps, double extent, std::span<TileConsumer* const> consumers, Job& job,
+                    const std::function<void(TileIndex, const TileOutput&)>& take) {
   const Tiling& tiling = store.tiling();
-  Totals totals{.length_unit = length_unit(extent)};
-  Phase phase(job, "evaluate", tiling.points());
-  std::mutex mutex;
-  const auto absorb = [&](TileIndex index, const TileOutput& output) {
-    for (TileConsumer* const consumer : consumers) consumer->absorb(index, output);
-    phase.advance(tiling.tiles[index].points);
-    const std::lock_guard lock(mutex);
-    absorb_sums(output, totals);
-  };
-  kept.for_each(job, absorb);
-
-  std::vector<TileIndex> missing;
-  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-    if (!kept.has(t)) missing.push_back(t);
-  }
-  std::vector<std::uint64_t> needs(missing.size());
+  std::vector<std::uint64_t> needs(tiles.size());
   job.arena.for_each(needs.size(), [&](std::size_t i) {
-    const TileIndex t = missing[i];
-    const Tile& tile = tiling.tiles[t];
-    std::uint64_t foreign = halo.count(t);
+    const Tile& tile = tiling.tiles[tiles[i]];
+    std::uint64_t foreign = halo.count(tiles[i]);
     for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
     needs[i] =
         job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
-    const TileIndex index = missing[i];
+    const TileIndex index = tiles[i];
     const Tile& tile = tiling.tiles[index];
     std::vector<HaloEdge> inbox = halo.read(index);
     halo.drop(index);
@@ -268,18 +257,15 @@ Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double
 
     std::vector<LocalIndex> candidates;
     const Totals sums =
-        sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, totals.length_unit, candidates);
+        sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, extent, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
     const EvaluatedTile evaluated{index,       tile,   points,     neighbourhoods,
                                   evaluations, values, candidates, is_border};
     TileOutput output;
     emit_sums(sums, output);
     for (const TileConsumer* const consumer : consumers) consumer->emit(evaluated, output);
-    kept.add(index, output);
-    absorb(index, output);
+    take(index, output);
   });
-  kept.finish();
-  return totals;
 }
 
 }  // namespace lacuna

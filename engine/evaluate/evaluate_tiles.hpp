@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/evaluate/kept_outputs.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
@@ -10,6 +9,7 @@
 #include "engine/store/tile_store.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -33,6 +33,11 @@ inline constexpr double kDistanceOverSpacing = 1.7;
 
 // Sums over all distinct points, exact in any order.
 struct Totals {
+  // `extent`: the largest distance between points of the scan.
+  explicit Totals(double extent = 0);
+  // The sums of a tile. By one thread at a time.
+  void add(const TileOutput& output);
+
   std::uint64_t points = 0;
   std::uint64_t neighbours = 0;  // of |N_p|
   std::uint64_t candidates = 0;  // Pi above the threshold
@@ -47,10 +52,10 @@ struct Totals {
   double median_distance() const { return distances.median(); }
 };
 
-// Evaluates the tiles whose output is not kept, and hands the outputs of all to the consumers. Consumes the
-// halo, which may be empty where all are kept. `eps`: a length, 0: off. `extent`: the largest distance
-// between points.
-Totals evaluate_tiles(const TileStore& store, AppendLists<HaloEdge> halo, double eps, double extent,
-                      KeptOutputs& kept, std::span<TileConsumer* const> consumers, Job& job);
+// Evaluates these tiles: take(tile, output), from several threads at once. Consumes the halo. `eps`: a
+// length, 0: off. `extent`: the largest distance between points of the scan.
+void evaluate_tiles(const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
+                    double eps, double extent, std::span<TileConsumer* const> consumers, Job& job,
+                    const std::function<void(TileIndex, const TileOutput&)>& take);
 
 }  // namespace lacuna

@@ -3,7 +3,6 @@
 #include "engine/workspace/workspace.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 namespace lacuna {
@@ -12,46 +11,37 @@ namespace {
 namespace fs = std::filesystem;
 
 // With more, a stop would lose more; with less, there would be too many files. A part may take longer in a
-// run that has taken long.
+// run that has taken long. Units of a run are many, and each loses its own tiles only.
 constexpr std::uint64_t kPartBytes = std::uint64_t{256} << 20;
-constexpr std::chrono::seconds kLeastAge{10};
+constexpr std::chrono::seconds kLeastAge{10}, kLeastAgeOfUnit{300};
 constexpr int kPartsOfRun = 64;
-
-fs::path part_path(const fs::path& prefix, std::size_t number) {
-  return prefix.string() + std::to_string(number);
-}
-
-// The numbers of the parts that there are.
-std::set<std::size_t> part_numbers(const fs::path& prefix) {
-  const std::string name = prefix.filename().string();
-  std::set<std::size_t> numbers;
-  for (const fs::path& file : workspace_files(prefix.parent_path())) {
-    const std::string other = file.filename().string();
-    if (other.starts_with(name) && !file.has_extension())
-      numbers.insert(std::stoul(other.substr(name.size())));
-  }
-  return numbers;
-}
 
 }  // namespace
 
 KeptOutputs::KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Job& job)
-    : made_from_(digest_of(made_from)), has_(tiles) {
+    : made_from_(digest_of(made_from)), has_(tiles), least_age_(job.is_unit ? kLeastAgeOfUnit : kLeastAge) {
   if (job.kept.empty()) return;
-  prefix_ = job.kept / ("tiles-" + std::to_string(level) + "-");
-  for (const std::size_t number : part_numbers(prefix_)) {
-    next_ = number + 1;
-    if (std::optional<PartReader> part = PartReader::open(part_path(prefix_, number), made_from_)) {
+  prefix_ = tiles_prefix(job.kept, level);
+  for (const fs::path& file : workspace_files(job.kept)) {
+    if (!file.string().starts_with(prefix_.string()) || file.has_extension()) continue;
+    // A unit needs to know only which tiles there are.
+    std::optional<PartReader> part = PartReader::open(
+        file, made_from_, job.is_unit ? PartReader::Check::kTable : PartReader::Check::kWhole);
+    if (part) {
       for (const std::uint64_t tile : part->keys()) has_.at(tile) = 1;
       parts_.push_back(*std::move(part));
-    } else {
-      remove_part(part_path(prefix_, number));
+    } else if (!job.is_unit) {
+      remove_part(file);
     }
   }
 }
 
-std::size_t KeptOutputs::count() const {
-  return static_cast<std::size_t>(std::count(has_.begin(), has_.end(), 1));
+std::vector<TileIndex> KeptOutputs::missing() const {
+  std::vector<TileIndex> missing;
+  for (TileIndex t = 0; t < has_.size(); ++t) {
+    if (has_[t] == 0) missing.push_back(t);
+  }
+  return missing;
 }
 
 void KeptOutputs::for_each(const Job& job,
@@ -72,9 +62,7 @@ void KeptOutputs::for_each(const Job& job,
   }
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
     const auto& [part, tile] = places[i];
-    TileOutput output;
-    for (const std::string& stream : part->streams(tile)) output.add(stream, part->bytes(stream, tile));
-    visit(static_cast<TileIndex>(tile), output);
+    visit(static_cast<TileIndex>(tile), TileOutput(*part, tile));
   });
 }
 
@@ -82,13 +70,13 @@ void KeptOutputs::add(TileIndex tile, const TileOutput& output) {
   if (prefix_.empty()) return;
   const std::lock_guard lock(mutex_);
   if (!writer_) {
-    writer_.emplace(part_path(prefix_, next_++));
+    writer_.emplace(prefix_.string() + random_digits());
     begun_ = Clock::now();
   }
   output.for_each_stream(
       [&](std::string_view stream, std::span<const std::byte> bytes) { writer_->add(stream, tile, bytes); });
   const Clock::time_point now = Clock::now();
-  const Clock::duration most_age = std::max<Clock::duration>(kLeastAge, (now - start_) / kPartsOfRun);
+  const Clock::duration most_age = std::max<Clock::duration>(least_age_, (now - start_) / kPartsOfRun);
   if (writer_->bytes() >= kPartBytes || now - begun_ >= most_age) seal();
 }
 

@@ -1,7 +1,8 @@
 // The outputs of a level's tiles in a workspace that is kept.
 //
 // Outputs gather in a part, which is sealed from time to time. So a run that is stopped loses the tiles of
-// the last seconds.
+// the last seconds. Parts have names that no other process gives to one, so several may put out tiles of one
+// level at a time. A tile of which there are two outputs does no harm: they are the same.
 #pragma once
 
 #include "engine/evaluate/tile_output.hpp"
@@ -27,8 +28,7 @@ class KeptOutputs {
   // `level`: its number.
   KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Job& job);
 
-  bool has(TileIndex tile) const { return has_[tile] != 0; }
-  std::size_t count() const;  // tiles
+  std::vector<TileIndex> missing() const;  // tiles of which nothing is kept, ascending
   // visit(tile, output), from several threads at once.
   void for_each(const Job& job, const std::function<void(TileIndex, const TileOutput&)>& visit) const;
 
@@ -47,10 +47,10 @@ class KeptOutputs {
   std::vector<PartReader> parts_;
   std::vector<std::uint8_t> has_;  // by tile
   std::mutex mutex_;
-  std::size_t next_ = 0;  // number of the next part
   std::optional<PartWriter> writer_;
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point begun_;  // when the open part was
+  Clock::time_point begun_;          // when the open part was
+  const Clock::duration least_age_;  // of a part, unless it is large
 };
 
 }  // namespace lacuna

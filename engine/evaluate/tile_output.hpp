@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/run/error.hpp"
+#include "engine/store/sealed_part.hpp"
 
 #include <cassert>
 #include <cstddef>
@@ -23,6 +24,10 @@ namespace lacuna {
 
 class TileOutput {
  public:
+  TileOutput() = default;
+  // One that was sealed: each stream is read when it is wanted. The part must outlive it.
+  TileOutput(const PartReader& part, std::uint64_t tile) : part_(&part), tile_(tile) {}
+
   // A stream that was not added before.
   template <class Record, class Allocator>
   void add(std::string_view stream, std::vector<Record, Allocator> records) {
@@ -39,9 +44,7 @@ class TileOutput {
   template <class Record>
   std::span<const Record> read(std::string_view stream) const {
     static_assert(std::is_trivially_copyable_v<Record>);
-    const auto at = streams_.find(stream);
-    if (at == streams_.end()) return {};
-    const std::span<const std::byte> bytes = at->second.bytes;
+    const std::span<const std::byte> bytes = bytes_of(stream);
     if (bytes.size() % sizeof(Record) != 0) fail_record_size(stream);
     assert(reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(Record) == 0);
     return {reinterpret_cast<const Record*>(bytes.data()), bytes.size() / sizeof(Record)};
@@ -58,11 +61,20 @@ class TileOutput {
     std::span<const std::byte> bytes;
     std::shared_ptr<const void> owner;
   };
+  std::span<const std::byte> bytes_of(std::string_view stream) const {
+    const auto at = streams_.find(stream);
+    if (at != streams_.end()) return at->second.bytes;
+    if (part_ == nullptr) return {};
+    const auto owned = std::make_shared<const PartReader::AlignedBytes>(part_->bytes(stream, tile_));
+    return streams_.try_emplace(std::string(stream), std::span(*owned), owned).first->second.bytes;
+  }
   [[noreturn]] static void fail_record_size(std::string_view stream) {
     fail_inconsistent("the stream " + std::string(stream) + " of a tile is not of whole records");
   }
 
-  std::map<std::string, Stream, std::less<>> streams_;
+  mutable std::map<std::string, Stream, std::less<>> streams_;  // in memory
+  const PartReader* part_ = nullptr;
+  std::uint64_t tile_ = 0;  // of the part
 };
 
 }  // namespace lacuna

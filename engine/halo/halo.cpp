@@ -42,13 +42,53 @@ void sort_unique(std::vector<std::uint32_t>& cells) {
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-// Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs.
+// The tiles whose inboxes are wanted.
+class WantedTiles {
+ public:
+  WantedTiles(const Tiling& tiling, std::span<const TileIndex> tiles)
+      : tiling_(tiling), boxes_(tiling.tiles.size()), is_wanted_(tiling.tiles.size()) {
+    for (const TileIndex t : tiles) is_wanted_[t] = 1;
+    for (TileIndex t = 0; t < boxes_.size(); ++t) {
+      const Tile& tile = tiling.tiles[t];
+      for (std::uint32_t c = tile.first_cell; c < tile.last_cell; ++c) boxes_[t].extend(tiling.cells[c].box);
+    }
+  }
+
+  bool contains(TileIndex t) const { return is_wanted_[t] != 0; }
+  bool contains_cell(std::uint32_t cell) const { return contains(tiling_.tile_of_cell(cell)); }
+  const Eigen::AlignedBox3d& box(TileIndex t) const { return boxes_[t]; }
+
+  // Those that lie near a box.
+  std::vector<TileIndex> near(const Eigen::AlignedBox3d& box, double squared_radius) const {
+    std::vector<TileIndex> found;
+    for (TileIndex t = 0; t < boxes_.size(); ++t) {
+      if (contains(t) && min_squared_distance(box, boxes_[t]) <= squared_radius) found.push_back(t);
+    }
+    return found;
+  }
+
+ private:
+  const Tiling& tiling_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // by tile
+  std::vector<std::uint8_t> is_wanted_;     // by tile
+};
+
+// Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs. Of a tile that is
+// not wanted itself, only those count that may be neighbours of a wanted one.
 class BorderPlan {
  public:
   // The cells of a group hold about `group_points` points at most.
-  BorderPlan(const Tiling& tiling, const Tile& tile, std::size_t k, std::uint64_t group_points)
-      : tiling_(tiling), tile_(tile), k_(k), group_points_(group_points) {
-    if (!tiling.nodes.empty()) visit(0);
+  BorderPlan(const Tiling& tiling, TileIndex tile, const WantedTiles& wanted, std::size_t k,
+             std::uint64_t group_points)
+      : tiling_(tiling),
+        tile_(tiling.tiles[tile]),
+        wanted_(wanted),
+        all_count_(wanted.contains(tile)),
+        k_(k),
+        group_points_(group_points) {
+    const Eigen::AlignedBox3d& box = wanted.box(tile);
+    if (!all_count_ && tile_.points > k) wanted_near_ = wanted.near(box, max_squared_distance(box, box));
+    if (all_count_ || tile_.points <= k || !wanted_near_.empty()) visit(0);
     close_group();
   }
 
@@ -76,13 +116,22 @@ class BorderPlan {
   }
 
   bool leaves_tile(const Eigen::AlignedBox3d& box, double squared_distance_bound) const {
+    if (!may_count(box, squared_distance_bound)) return false;
     bool leaves = false;
     for_each_cell_near(tiling_, box, squared_distance_bound, tile_.first_cell, tile_.last_cell,
-                       [&](std::uint32_t) {
-                         leaves = true;
-                         return false;
+                       [&](std::uint32_t cell) {
+                         leaves = all_count_ || wanted_.contains_cell(cell);
+                         return !leaves;
                        });
     return leaves;
+  }
+
+  // Whether the box may be near a wanted tile. A tile of k points or fewer has no bound of its own.
+  bool may_count(const Eigen::AlignedBox3d& box, double squared_radius) const {
+    return all_count_ || tile_.points <= k_ ||
+           std::any_of(wanted_near_.begin(), wanted_near_.end(), [&](TileIndex t) {
+             return min_squared_distance(box, wanted_.box(t)) <= squared_radius;
+           });
   }
 
   // No less than the squared distance from any point of the cell to its k-th neighbour.
@@ -154,8 +203,11 @@ class BorderPlan {
 
   const Tiling& tiling_;
   const Tile& tile_;
+  const WantedTiles& wanted_;
+  bool all_count_;
   std::size_t k_;
   std::uint64_t group_points_;
+  std::vector<TileIndex> wanted_near_;
   Border border_;
   Group group_;
   std::uint64_t gathered_ = 0;
@@ -164,8 +216,15 @@ class BorderPlan {
 
 class HaloBuilder {
  public:
-  HaloBuilder(const TileStore& store, std::size_t k, TileIndex tile, AppendLists<HaloEdge>& inboxes)
-      : store_(store), tiling_(store.tiling()), k_(k), tile_(tile), outbox_(inboxes), far_search_(store) {}
+  HaloBuilder(const TileStore& store, std::size_t k, TileIndex tile, const WantedTiles& wanted,
+              AppendLists<HaloEdge>& inboxes)
+      : store_(store),
+        tiling_(store.tiling()),
+        k_(k),
+        tile_(tile),
+        wanted_(wanted),
+        outbox_(inboxes),
+        far_search_(store) {}
 
   void send_edges_of_group(const Group& group) {
     std::vector<StoredPoint> stored;
@@ -206,32 +265,35 @@ class HaloBuilder {
     const Tile& here = tiling_.tiles[tile_];
     if (here.owns(q_row)) return;
     const TileIndex there = tiling_.tile_of_row(q_row);
-    outbox_.add(tile_, {q_row, q, here.local(p_row), 0});
-    outbox_.add(there, {p_row, p, tiling_.tiles[there].local(q_row), 1});
+    if (wanted_.contains(tile_)) outbox_.add(tile_, {q_row, q, here.local(p_row), 0});
+    if (wanted_.contains(there)) outbox_.add(there, {p_row, p, tiling_.tiles[there].local(q_row), 1});
   }
 
   const TileStore& store_;
   const Tiling& tiling_;
   std::size_t k_;
   TileIndex tile_;
+  const WantedTiles& wanted_;
   Outbox<HaloEdge> outbox_;
   StoredSearch far_search_;
 };
 
 }  // namespace
 
-AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job) {
+AppendLists<HaloEdge> exchange_halo(const TileStore& store, std::span<const TileIndex> tiles, Job& job) {
   const Tiling& tiling = store.tiling();
   const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
   Phase phase(job, "halo", tiling.points());
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(std::max(tile.points, kGroupPoints)));
   AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.memory.spills / 2);
+  if (tiles.empty()) return inboxes;
+  const WantedTiles wanted(tiling, tiles);
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     const std::uint64_t group_points = std::max(tile.points, kGroupPoints);
-    const BorderPlan plan(tiling, tile, k, group_points);
-    HaloBuilder builder(store, k, static_cast<TileIndex>(t), inboxes);
+    const BorderPlan plan(tiling, static_cast<TileIndex>(t), wanted, k, group_points);
+    HaloBuilder builder(store, k, static_cast<TileIndex>(t), wanted, inboxes);
     for (const Group& group : plan.border().groups) builder.send_edges_of_group(group);
     for (const std::uint32_t cell : plan.border().far_cells) builder.send_edges_of_far_cell(cell);
     builder.send();

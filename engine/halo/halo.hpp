@@ -5,6 +5,8 @@
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <span>
+
 namespace lacuna {
 
 // Sent to the owner of a point: a halo point, and the edge to it.
@@ -15,13 +17,13 @@ struct HaloEdge {
   std::uint32_t incoming;  // 1: the foreign point has the owned one among its k nearest; 0: the other way
 };
 
-// Each tile's inbox. With it, a tile knows every foreign point that is among the k nearest of its own, or the
-// reverse. It need not read a halo for this.
+// The inboxes of these tiles; those of others stay empty. With it, a tile knows every foreign point that is
+// among the k nearest of its own, or the reverse. It need not read a halo for this.
 //
 // Only points whose neighbourhood may leave their tile take part: those of cells whose distance bound touches
 // a foreign cell. Their exact neighbours are searched among all cells within that bound, so that the halo is
 // complete. The bound of a lone outlier holds too many points. Its neighbours are searched cell by cell,
 // nearest cell first.
-AppendLists<HaloEdge> exchange_halo(const TileStore& store, Job& job);
+AppendLists<HaloEdge> exchange_halo(const TileStore& store, std::span<const TileIndex> tiles, Job& job);
 
 }  // namespace lacuna

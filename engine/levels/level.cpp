@@ -2,6 +2,7 @@
 
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/halo/eps_balls.hpp"
 #include "engine/levels/sealed_level.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
@@ -124,16 +125,18 @@ Level first_level(PointSource& input, Job& job) {
     return *std::move(kept);
   }
   Level level = read_first_level(input, job);
+  level.extent = extent_of(level.survey.bounds);
   level.input = input.pass_counts();
   seal_level(level, job.made_from, job);
   return level;
 }
 
 std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job) {
-  const std::string made_from = evaluation_of(below, job);
-  if (std::optional<Level> kept = open_level(below.number + 1, made_from, job)) return kept;
+  if (std::optional<Level> kept = open_level(below.number + 1, below.evaluation, job)) return kept;
   std::optional<Level> level = thin_level(below, totals, job);
-  if (level) seal_level(*level, made_from, job);
+  if (!level) return std::nullopt;
+  level->extent = below.extent;
+  seal_level(*level, below.evaluation, job);
   return level;
 }
 

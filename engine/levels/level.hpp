@@ -23,11 +23,13 @@ struct Level {
   std::size_t number = 0;              // from 0
   std::optional<ThinnedScan> thinned;  // none: the level has every point
   SurveyedScan survey;                 // of the points in the store
+  double extent = 0;                   // the largest distance between points of the scan
   std::uint64_t tile_points = 0;       // in effect
   TileStore store;                     // distinct points
-  std::string made_from;               // and how it is cut into tiles; empty: no workspace is kept
+  std::string evaluation;              // what its tiles are evaluated from; empty: no workspace is kept
   std::vector<std::uint64_t> input;    // of the first level: `PointSource::pass_counts`
 
+  std::uint64_t input_points() const { return thinned ? thinned->points : survey.points; }
   double edge() const { return thinned ? thinned->edge : 0; }  // of its lattice
 };
 
@@ -41,6 +43,9 @@ Level first_level(PointSource& input, Job& job);
 // that lattices do not depend on the scan. The edge is the first one that leaves about six in ten points.
 // None where too few are left for a hole. `totals`: of the level below.
 std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job);
+
+// So many levels at most: a level of 2^64 points has few left after so many.
+inline constexpr std::size_t kMostLevels = 128;
 
 // Whether a run with this config has levels above the first one: unless the config names one level, or the
 // method is the paper's.

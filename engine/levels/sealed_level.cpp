@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <iomanip>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,6 +17,8 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char *kPoints = ".points", *kNormals = ".normals";
 
 struct StoredBox {
   double min[3], max[3];
@@ -36,6 +40,7 @@ struct StoredLevel {
   double middle[3], grid_origin[3];
   std::int64_t grid_finest, grid_shift;
   std::uint64_t points, dropped, ids, is_single;
+  double extent;
   std::uint64_t tile_points, has_normals;
   std::uint64_t points_bytes, normals_bytes;
   Digest points_digest, normals_digest;
@@ -47,16 +52,6 @@ struct StoredThinning {
   std::uint64_t points, dropped, left, has_normals, lists;  // of represented points; 0: none
 };
 
-fs::path part_of(std::size_t number, const Job& job) {
-  return job.kept / ("level-" + std::to_string(number));
-}
-fs::path points_of(std::size_t number, const Job& job) {
-  return part_of(number, job).string() + ".points";
-}
-fs::path normals_of(std::size_t number, const Job& job) {
-  return part_of(number, job).string() + ".normals";
-}
-
 StoredLevel stored(const Level& level) {
   const SurveyedScan& survey = level.survey;
   StoredLevel stored{.bounds = StoredBox(survey.bounds),
@@ -66,6 +61,7 @@ StoredLevel stored(const Level& level) {
                      .dropped = survey.dropped,
                      .ids = survey.ids,
                      .is_single = survey.is_single,
+                     .extent = level.extent,
                      .tile_points = level.tile_points,
                      .has_normals = level.store.has_normals()};
   for (int axis = 0; axis < 3; ++axis) {
@@ -163,8 +159,27 @@ bool fits(const Tiling& tiling, const Job& job) {
                      [&](const Tile& tile) { return job.tile_bytes(tile.points) <= job.memory.tiles; });
 }
 
-std::string text_of(const Digest& digest) {
-  return std::to_string(digest[0]) + " " + std::to_string(digest[1]);
+// Columns have the names of their content: two processes that make the same level do each other no harm.
+fs::path column_of(std::size_t number, const Digest& digest, const char* extension, const Job& job) {
+  std::ostringstream name;
+  name << level_path(job.kept, number).string() << "-" << std::hex << std::setfill('0') << std::setw(16)
+       << digest[0] << extension;
+  return name.str();
+}
+
+void remove_other_columns(std::size_t number, Level& level, const Job& job) {
+  const std::string prefix = level_path(job.kept, number).string() + "-";
+  for (const fs::path& file : workspace_files(job.kept)) {
+    if (file.string().starts_with(prefix) && file != level.store.points_file().path() &&
+        file != level.store.normals_file().path())
+      remove_part(file);
+  }
+}
+
+// What the tiles of a level are evaluated from, but for the outputs that a user wants of them.
+std::string evaluation_of(const Digest& checksum, const Job& job) {
+  return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n" +
+         evaluation_parameters(job.config);
 }
 
 }  // namespace
@@ -172,10 +187,11 @@ std::string text_of(const Digest& digest) {
 StoreFiles level_files(std::size_t number, const Job& job) {
   const fs::path duplicates = job.file("duplicates");
   if (job.kept.empty()) return {StoreFile(job.file("points")), StoreFile(job.file("normals")), duplicates};
-  const auto create = [](const fs::path& path) {
-    return StoreFile(path.string() + kUnsealed, StoreFile::Name::kKept);
+  const auto create = [&](const char* extension) {
+    return StoreFile(level_path(job.kept, number).string() + "-" + random_digits() + extension + kUnsealed,
+                     StoreFile::Name::kKept);
   };
-  return {create(points_of(number, job)), create(normals_of(number, job)), duplicates};
+  return {create(kPoints), create(kNormals), duplicates};
 }
 
 void seal_level(Level& level, const std::string& made_from, const Job& job) {
@@ -188,10 +204,10 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
   record.normals_bytes = normals.size();
   record.points_digest = digest_of(points);
   record.normals_digest = digest_of(normals);
-  points.seal(points_of(level.number, job));
-  normals.seal(normals_of(level.number, job));
+  points.seal(column_of(level.number, record.points_digest, kPoints, job));
+  normals.seal(column_of(level.number, record.normals_digest, kNormals, job));
 
-  PartWriter part(part_of(level.number, job));
+  PartWriter part(level_path(job.kept, level.number));
   part.add("level", 0, std::span<const StoredLevel>(&record, 1));
   const Tiling& tiling = level.store.tiling();
   part.add("tiles", 0, std::span<const Tile>(tiling.tiles));
@@ -205,22 +221,23 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
   }
   part.add("input", 0, std::span<const std::uint64_t>(level.input));
   if (level.thinned) add_thinning(*level.thinned, part);
-  level.made_from = text_of(part.seal(digest_of(made_from)));
+  level.evaluation = evaluation_of(part.seal(digest_of(made_from)), job);
+  if (!job.is_unit) remove_other_columns(level.number, level, job);
 }
 
 std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Job& job) {
   if (job.kept.empty()) return std::nullopt;
-  const std::optional<PartReader> part = PartReader::open(part_of(number, job), digest_of(made_from));
+  const std::optional<PartReader> part = PartReader::open(level_path(job.kept, number), digest_of(made_from));
   if (!part) return std::nullopt;
   const std::vector<StoredLevel> records = part->records<StoredLevel>("level", 0);
   if (records.size() != 1) return std::nullopt;
   const StoredLevel& record = records.front();
   Tiling tiling = tiling_of(*part);
   if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
-  std::optional<StoreFile> points =
-      open_file(points_of(number, job), record.points_bytes, record.points_digest);
-  std::optional<StoreFile> normals =
-      open_file(normals_of(number, job), record.normals_bytes, record.normals_digest);
+  std::optional<StoreFile> points = open_file(column_of(number, record.points_digest, kPoints, job),
+                                              record.points_bytes, record.points_digest);
+  std::optional<StoreFile> normals = open_file(column_of(number, record.normals_digest, kNormals, job),
+                                               record.normals_bytes, record.normals_digest);
   if (!points || !normals) return std::nullopt;
   TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
                   survey_of(record).precision(), record.has_normals != 0, job.memory.spills / 8);
@@ -230,21 +247,28 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
   return Level{.number = number,
                .thinned = thinning_of(*part, job),
                .survey = survey_of(record),
+               .extent = record.extent,
                .tile_points = record.tile_points,
                .store = std::move(store),
-               .made_from = text_of(part->checksum()),
+               .evaluation = evaluation_of(part->checksum(), job),
                .input = part->records<std::uint64_t>("input", 0)};
 }
 
-std::string evaluation_of(const Level& level, const Job& job) {
-  return level.made_from + "\n" + evaluation_parameters(job.config);
+std::optional<Level> find_level(std::size_t number, const Job& job) {
+  std::string made_from = job.made_from;
+  for (std::size_t below = 0; below < number; ++below) {
+    const std::optional<PartReader> part =
+        PartReader::open(level_path(job.kept, below), digest_of(made_from));
+    if (!part) return std::nullopt;
+    made_from = evaluation_of(part->checksum(), job);
+  }
+  return open_level(number, made_from, job);
 }
 
 KeptOutputs find_outputs(const Level& level, const Job& job) {
   // Levels above the first one have no outputs but those of their loops.
   const std::string wanted = level.number == 0 ? output_parameters(job.config) : "";
-  return KeptOutputs(level.number, level.store.tiling().tiles.size(), evaluation_of(level, job) + wanted,
-                     job);
+  return KeptOutputs(level.number, level.store.tiling().tiles.size(), level.evaluation + wanted, job);
 }
 
 }  // namespace lacuna

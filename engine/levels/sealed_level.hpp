@@ -15,15 +15,15 @@ namespace lacuna {
 // Empty files for the store of a level: with names where the workspace is kept.
 StoreFiles level_files(std::size_t number, const Job& job);
 
-// Seals a level whose store is finished, and sets its `made_from`. Does nothing where no workspace is kept.
+// Seals a level whose store is finished, and sets its `evaluation`. Does nothing where no workspace is kept.
 void seal_level(Level& level, const std::string& made_from, const Job& job);
 
 // None where the level is not there, is damaged, or was made from something else. Neither where its tiles do
 // not fit in memory.
 std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Job& job);
 
-// What the evaluated tiles of a level are made from, but for the outputs that a user wants of them.
-std::string evaluation_of(const Level& level, const Job& job);
+// The level of a workspace, whatever the levels below it were made from. None as for `open_level`.
+std::optional<Level> find_level(std::size_t number, const Job& job);
 
 // The outputs of the level's tiles that an earlier run has sealed.
 KeptOutputs find_outputs(const Level& level, const Job& job);

@@ -50,6 +50,8 @@ class PointSource {
   // One line for each part of the source, such as a file. Lines are equal only where the points are. Empty:
   // it cannot be said, so that no workspace is kept.
   virtual std::vector<std::string> identity() const { return {}; }
+  // What opens the same parts again, in whatever form the source's program reads.
+  virtual std::vector<std::string> names() const { return {}; }
   // Counts of the last pass, such as rows that filters left out. A workspace keeps them for runs that do not
   // read again.
   virtual std::vector<std::uint64_t> pass_counts() const { return {}; }

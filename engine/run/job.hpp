@@ -40,6 +40,7 @@ struct Job {
   bool is_in_phase = false;
   std::filesystem::path kept;  // the folder of the run's sealed parts; empty: none is kept
   std::string made_from;       // what they are made from, as text
+  bool is_unit = false;        // one of several processes that make parts of the run: it removes none
 
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.

@@ -59,12 +59,16 @@ class PartReader {
  public:
   // Whether the file ends as parts do. It may be damaged elsewhere.
   static bool is_part(const std::filesystem::path& path);
-  // None where there is no such part, or where it is of something else, or is not whole. Reads all of it
-  // once.
-  static std::optional<PartReader> open(const std::filesystem::path& path, const Digest& made_from);
+  enum class Check {
+    kWhole,  // reads all of it once
+    kTable,  // bytes may be damaged
+  };
+  // None where there is no such part, or where it is of something else, or is not whole.
+  static std::optional<PartReader> open(const std::filesystem::path& path, const Digest& made_from,
+                                        Check check = Check::kWhole);
 
   const Digest& checksum() const { return checksum_; }
-  // By its table alone: bytes may be damaged.
+  // Of whatever it was made; by its table alone.
   static std::optional<PartReader> open_unchecked(const std::filesystem::path& path);
 
   std::vector<std::uint64_t> keys() const;  // ascending

@@ -3,11 +3,13 @@
 #include "engine/run/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -33,6 +35,13 @@ std::string at_byte(std::uint64_t offset) {
 }
 
 }  // namespace
+
+std::string random_digits() {
+  std::random_device random;
+  std::array<char, 17> name{};
+  std::snprintf(name.data(), name.size(), "%08x%08x", random(), random());
+  return name.data();
+}
 
 StoreFile::StoreFile(std::filesystem::path path, Name name)
     : path_(std::move(path)), has_own_name_(name == Name::kKept) {

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace lacuna {
 
 inline constexpr const char* kUnsealed = ".partial";  // how names of files end before they are sealed
+std::string random_digits();  // 16 hexadecimal digits, drawn at random: no other process has the same
 
 // Reads and writes may come from several threads.
 //

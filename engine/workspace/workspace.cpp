@@ -16,7 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRun = "run";  // the part that says whose workspace it is
+constexpr const char* kRun = "run";    // the part that says whose workspace it is
+constexpr const char* kPlan = "plan";  // of a run that several processes share
+constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
 
 using Lines = std::vector<std::string>;
 
@@ -67,12 +69,10 @@ std::string first_other(const Lines& lines, const Lines& others) {
   return "nothing";
 }
 
-std::optional<Lines> lines_of(const fs::path& folder) {
-  const std::optional<PartReader> part = PartReader::open(folder / kRun, digest_of(kRun));
-  if (!part) return std::nullopt;
+Lines split(std::span<const char> text, char end) {
   Lines lines(1);
-  for (const char c : part->records<char>("made from", 0)) {
-    if (c == '\n') {
+  for (const char c : text) {
+    if (c == end) {
       lines.emplace_back();
     } else {
       lines.back() += c;
@@ -82,19 +82,32 @@ std::optional<Lines> lines_of(const fs::path& folder) {
   return lines;
 }
 
+std::optional<PartReader> open_run(const fs::path& folder) {
+  return PartReader::open(folder / kRun, digest_of(kRun));
+}
+
+std::optional<Lines> lines_of(const fs::path& folder) {
+  const std::optional<PartReader> part = open_run(folder);
+  if (!part) return std::nullopt;
+  return split(part->records<char>("made from", 0), '\n');
+}
+
 bool is_workspace_name(const std::string& name) {
-  const auto numbers_from = [&](std::size_t at) {
-    return name.find_first_not_of("0123456789-", at) >= std::min(name.size(), name.find('.'));
+  const std::string stem = name.substr(0, name.find('.'));
+  const auto is_number = [](const std::string& text) {
+    return text.find_first_not_of("0123456789abcdef-") == std::string::npos;
   };
-  return name == kRun || name == std::string(kRun) + kUnsealed ||
-         (name.starts_with("level-") && numbers_from(6)) || (name.starts_with("tiles-") && numbers_from(6));
+  return stem == kRun || stem == kPlan ||
+         (stem.starts_with(kLevel) && is_number(stem.substr(kLevel.size()))) ||
+         (stem.starts_with(kTiles) && is_number(stem.substr(kTiles.size())));
 }
 
 // Files of others that have names of parts would be replaced.
 void refuse_others(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (is_workspace_name(name) && name != std::string(kRun) + kUnsealed)
+    const bool is_begun = name.starts_with(std::string(kRun) + ".");
+    if (is_workspace_name(name) && !is_begun)
       throw Error(entry.path().string() +
                   ": is not of a workspace, and has the name of a part of one; allowed: "
                   "an empty folder");
@@ -109,6 +122,24 @@ std::string evaluation_parameters(const Config& config) {
 
 std::string output_parameters(const Config& config) {
   return joined(parameter_lines(config, is_of_outputs));
+}
+
+StoredRun read_run(const fs::path& folder) {
+  const std::optional<PartReader> part = open_run(folder);
+  if (!part)
+    throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
+  StoredRun run{.inputs = split(part->records<char>("inputs", 0), '\0'), .config = {}};
+  const std::vector<char> text = part->records<char>("config", 0);
+  read_config_text({text.data(), text.size()}, folder / kRun, run.config);
+  return run;
+}
+
+fs::path level_path(const fs::path& folder, std::size_t level) {
+  return folder / (std::string(kLevel) + std::to_string(level));
+}
+
+fs::path tiles_prefix(const fs::path& folder, std::size_t level) {
+  return folder / (std::string(kTiles) + std::to_string(level) + "-");
 }
 
 std::vector<fs::path> workspace_files(const fs::path& folder) {
@@ -132,11 +163,11 @@ std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
     std::error_code error;
     if (const std::uintmax_t bytes = fs::file_size(file, error); !error) state.bytes += bytes;
     const std::string name = file.filename().string();
-    const bool is_level = name.starts_with("level-"), has_dot = file.has_extension();
-    if (has_dot || !(is_level || name.starts_with("tiles-"))) continue;
+    const bool is_level = name.starts_with(kLevel), has_dot = file.has_extension();
+    if (has_dot || !(is_level || name.starts_with(kTiles))) continue;
     const std::optional<PartReader> part = PartReader::open_unchecked(file);
     if (!part) continue;
-    const std::size_t number = std::stoul(name.substr(std::string_view("level-").size()));
+    const std::size_t number = std::stoul(name.substr(kLevel.size()));
     LevelState& level = levels[number];
     level.number = number;
     if (is_level) {
@@ -174,12 +205,18 @@ void open_workspace(const PointSource& scan, Job& job) {
   }
   if (!PartReader::is_part(folder / kRun)) refuse_others(folder);
   for (const fs::path& file : workspace_files(folder)) {
-    if (file.extension() == kUnsealed) remove_part(file);
+    if (!job.is_unit && file.extension() == kUnsealed) remove_part(file);
   }
   if (!before) {
+    std::string inputs;
+    for (const std::string& name : scan.names()) inputs += name + '\0';
+    Config config = job.config;
+    config.run.workspace.clear();  // which may be another path for another machine
     PartWriter part(folder / kRun);
-    const std::string lines = joined(now);
-    part.add("made from", 0, std::span<const char>(lines));
+    for (const auto& [stream, text] : {std::pair<std::string_view, std::string>{"made from", joined(now)},
+                                       {"inputs", inputs},
+                                       {"config", print_config(config)}})
+      part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }
   job.kept = folder;

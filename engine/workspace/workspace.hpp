@@ -27,6 +27,18 @@ std::string evaluation_parameters(const Config& config);
 // Parameters that say which outputs of a tile are wanted.
 std::string output_parameters(const Config& config);
 
+// What a workspace knows of its run, so that another process can do a part of it.
+struct StoredRun {
+  std::vector<std::string> inputs;  // `PointSource::names`
+  Config config;
+};
+// Throws `Error` where the folder is no workspace.
+StoredRun read_run(const std::filesystem::path& folder);
+
+// Names of parts: the points of a level, and outputs of its tiles.
+std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);
+std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
+
 // The files of a workspace, without others that lie in the folder; none where it is no workspace.
 std::vector<std::filesystem::path> workspace_files(const std::filesystem::path& folder);
 

@@ -1,10 +1,13 @@
 #include "tests/support/tiled_scan.hpp"
 
 #include "engine/bucket/split.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/levels/sealed_level.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <memory>
+#include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace lacuna {
@@ -29,9 +32,22 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
 
 Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
   const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
-  KeptOutputs none(0, store.tiling().tiles.size(), "", job);
-  return evaluate_tiles(store, exchange_halo(store, job), config.neighbourhood.eps, extent, none, consumers,
-                        job);
+  const std::vector<TileIndex> tiles = all_tiles();
+  Totals totals(extent);
+  std::mutex mutex;
+  evaluate_tiles(store, tiles, exchange_halo(store, tiles, job), config.neighbourhood.eps, extent, consumers,
+                 job, [&](TileIndex t, const TileOutput& output) {
+                   for (TileConsumer* const consumer : consumers) consumer->absorb(t, output);
+                   const std::lock_guard lock(mutex);
+                   totals.add(output);
+                 });
+  return totals;
+}
+
+std::vector<TileIndex> TiledScan::all_tiles() const {
+  std::vector<TileIndex> tiles(store.tiling().tiles.size());
+  std::iota(tiles.begin(), tiles.end(), TileIndex{0});
+  return tiles;
 }
 
 std::map<PointId, Row> TiledScan::rows() const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/boundary/paper/paper_boundary.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/bucket/bucket_scan.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/survey/survey_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -24,6 +24,7 @@ struct TiledScan {
   // Every point evaluated, for these consumers.
   Totals evaluate(std::vector<TileConsumer*> consumers);
 
+  std::vector<TileIndex> all_tiles() const;
   std::map<PointId, Row> rows() const;  // of the stored points
   TileIndex tile_of(Row row) const { return store.tiling().tile_of_row(row); }
   LocalIndex local(Row row) const;  // in its tile

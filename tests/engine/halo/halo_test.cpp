@@ -50,7 +50,7 @@ std::vector<Letter> letters_plainly(const TiledScan& scan, const Cloud& cloud,
 
 // What has arrived of the edges from points of `from`.
 std::vector<Letter> letters_sent(TiledScan& scan, const Cloud& cloud, const std::set<PointId>& from) {
-  const AppendLists<HaloEdge> inboxes = exchange_halo(scan.store, scan.job);
+  const AppendLists<HaloEdge> inboxes = exchange_halo(scan.store, scan.all_tiles(), scan.job);
   std::vector<Letter> outbox;
   std::size_t moved = 0;
   for (TileIndex t = 0; t < inboxes.lists(); ++t) {

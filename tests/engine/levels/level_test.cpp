@@ -1,7 +1,7 @@
 // The levels of a scan: which lattices, and which points.
 #include "engine/levels/level.hpp"
 
-#include "engine/levels/sealed_level.hpp"
+#include "engine/levels/evaluate_level.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tiled_scan.hpp"
@@ -23,9 +23,7 @@ struct AtLevel {
 };
 
 Totals totals_of(const Level& level, Job& job) {
-  AppendLists<HaloEdge> halo = exchange_halo(level.store, job);
-  KeptOutputs kept = find_outputs(level, job);
-  return evaluate_tiles(level.store, std::move(halo), 0, 1, kept, {}, job);
+  return evaluate_level(level, {}, job, [](TileIndex, const TileOutput&) {});
 }
 
 AtLevel seen(const Level& level) {

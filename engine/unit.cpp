@@ -1,0 +1,109 @@
+#include "engine/unit.hpp"
+
+#include "engine/consumers.hpp"
+#include "engine/levels/evaluate_level.hpp"
+#include "engine/levels/sealed_level.hpp"
+#include "engine/run/error.hpp"
+#include "engine/store/sealed_part.hpp"
+#include "engine/workspace/workspace.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <span>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kLevel = "level-", kEvaluate = "evaluate-";
+
+constexpr std::uint64_t kTilesOfTask = 8;  // so that tasks take about equally long
+
+// With fewer points, to start a task takes longer than what it does.
+constexpr std::uint64_t kFewestOfTask = 100'000;
+
+// The number of tasks, as a part of its own.
+fs::path tasks_path(const fs::path& workspace) {
+  return workspace / "plan";
+}
+
+void write_tasks(const fs::path& workspace, std::uint64_t tasks) {
+  PartWriter part(tasks_path(workspace));
+  part.add("tasks", 0, std::span<const std::uint64_t>(&tasks, 1));
+  part.seal(digest_of("plan"));
+}
+
+std::size_t read_tasks(const fs::path& workspace) {
+  const std::optional<PartReader> part = PartReader::open(tasks_path(workspace), digest_of("plan"));
+  const std::vector<std::uint64_t> tasks =
+      part ? part->records<std::uint64_t>("tasks", 0) : std::vector<std::uint64_t>{};
+  if (tasks.size() != 1 || tasks[0] == 0)
+    throw Error(workspace.string() + ": has no plan; allowed: a workspace of lacuna plan");
+  return tasks[0];
+}
+
+std::optional<Level> make_level(std::size_t number, PointSource& scan, Job& job) {
+  if (std::optional<Level> kept = find_level(number, job)) return kept;
+  if (number == 0) return first_level(scan, job);
+  const std::optional<Level> below = make_level(number - 1, scan, job);
+  if (!below) return std::nullopt;
+  const Consumers consumers(*below, job);
+  const Totals totals = evaluate_level(*below, consumers.all, job, [](TileIndex, const TileOutput&) {});
+  return level_above(*below, totals, job);
+}
+
+}  // namespace
+
+std::string Step::name() const {
+  return std::string(evaluates ? kEvaluate : kLevel) + std::to_string(level);
+}
+
+std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks, std::uint64_t points) {
+  check_config(given);
+  Config config = with_min_hole(given);
+  NoProgress silence;
+  Job job(config, config.run.workspace, silence);
+  if (config.run.tile_points == 0)
+    config.run.tile_points =
+        static_cast<std::int64_t>(std::min(job.tile_points(points), points / tasks / kTilesOfTask + 1));
+  open_workspace(scan, job);
+  write_tasks(job.kept, tasks);
+
+  std::vector<Step> steps;
+  const std::size_t levels = has_levels(config) ? kMostLevels : 1;
+  for (std::size_t level = 0; level < levels; ++level, points /= 2) {
+    if (level > 0 && points < tasks * kFewestOfTask) break;
+    steps.push_back({.level = level, .points = points});
+    steps.push_back({.level = level, .evaluates = true, .tasks = tasks, .points = points});
+  }
+  return steps;
+}
+
+std::optional<Step> step_of_name(std::string_view name, const fs::path& workspace) {
+  Step step{.evaluates = name.starts_with(kEvaluate)};
+  if (!step.evaluates && !name.starts_with(kLevel)) return std::nullopt;
+  name.remove_prefix((step.evaluates ? kEvaluate : kLevel).size());
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), step.level);
+  if (error != std::errc() || end != name.data() + name.size() || step.level >= kMostLevels)
+    return std::nullopt;
+  if (step.evaluates) step.tasks = read_tasks(workspace);
+  return step;
+}
+
+bool work(PointSource& scan, const Config& given, const Step& step, std::size_t task,
+          const std::filesystem::path& scratch, Progress& progress) {
+  check_config(given);
+  const Config config = with_min_hole(given);
+  Job job(config, scratch, progress);
+  job.is_unit = true;
+  open_workspace(scan, job);
+  const std::optional<Level> level = make_level(step.level, scan, job);
+  if (!level) return false;
+  if (!step.evaluates) return true;
+  const Consumers consumers(*level, job);
+  evaluate_share(*level, {task, step.tasks}, consumers.all, job);
+  return true;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,145 @@
+// A run as units, in whatever order and however often they are done.
+#include "engine/unit.hpp"
+
+#include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "engine/workspace/workspace.hpp"
+#include "tests/support/clouds.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ScratchFolder;
+
+Cloud scan() {
+  return plane(60).punched({18, 20}, 5).jittered(0.3, 5).with_duplicates(200, 1).with_outliers(3, 2, 1);
+}
+
+struct SharedRun {
+  explicit SharedRun(LoopMethod method = LoopMethod::kTangential) {
+    config.run.tile_points = 400;
+    config.run.threads = 2;
+    config.run.workspace = (folder / "workspace").string();
+    config.loops.method = method;
+    config.output.points = true;
+    fs::create_directory(folder / "workspace");
+  }
+
+  std::vector<Step> planned(std::size_t tasks) {
+    MemoryScan input(cloud);
+    // As of a large scan, so that there are several steps.
+    return plan(input, config, tasks, tasks * 400'000);
+  }
+  bool work_on(const Step& step, std::size_t task) const {
+    MemoryScan input(cloud);
+    const ScratchFolder scratch;
+    NoProgress quiet;
+    return work(input, config, step, task, scratch.path(), quiet);
+  }
+  std::string bytes() const { return run_engine(cloud, config).bytes(); }
+  std::string expected() const {
+    Config alone = config;
+    alone.run.workspace.clear();
+    return run_engine(cloud, alone).bytes();
+  }
+
+  ScratchFolder folder;
+  Cloud cloud = scan();
+  Config config;
+};
+
+TEST_CASE("units of any number of tasks give the result of one process") {
+  for (const LoopMethod method : {LoopMethod::kTangential, LoopMethod::kPaper}) {
+    for (const std::size_t tasks : {1, 2, 7, 40}) {
+      SharedRun run(method);
+      const std::vector<Step> steps = run.planned(tasks);
+      CHECK(steps.size() == (method == LoopMethod::kPaper ? 2 : 6));
+      for (const Step& step : steps) {
+        for (std::size_t task = step.tasks; task-- > 0;) CHECK(run.work_on(step, task));
+      }
+      const auto state = state_of_workspace(run.config.run.workspace);
+      REQUIRE(state);
+      CHECK(state->levels.front().evaluated == state->levels.front().tiles);
+      INFO(tasks << " tasks");
+      CHECK(run.bytes() == run.expected());
+    }
+  }
+}
+
+TEST_CASE("units that are lost, done twice, out of order or at the same time change nothing") {
+  Random random(5);
+  for (int round = 0; round < 6; ++round) {
+    SharedRun run;
+    struct Unit {
+      Step step;
+      std::size_t task;
+    };
+    std::vector<Unit> units;
+    for (const Step& step : run.planned(3)) {
+      for (std::size_t task = 0; task < step.tasks; ++task) {
+        for (std::int64_t copies = random.whole(0, 2); copies > 0; --copies) units.push_back({step, task});
+      }
+    }
+    for (std::size_t i = units.size(); i-- > 1;)
+      std::swap(units[i], units[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(i)))]);
+    const auto every_second = [&](std::size_t first) {
+      for (std::size_t i = first; i < units.size(); i += 2) run.work_on(units[i].step, units[i].task);
+    };
+    std::thread other([&] { every_second(1); });
+    every_second(0);
+    other.join();
+    INFO("round " << round);
+    CHECK(run.bytes() == run.expected());
+  }
+}
+
+TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
+  SharedRun run;
+  const std::vector<Step> steps = run.planned(5);
+  std::size_t before = 0, all = 0;
+  for (std::size_t task = 0; task < 5; ++task) {
+    run.work_on(steps[1], task);
+    const LevelState level = state_of_workspace(run.config.run.workspace)->levels.front();
+    CHECK(level.evaluated > before);
+    before = level.evaluated;
+    all = level.tiles;
+  }
+  CHECK(before == all);
+}
+
+TEST_CASE("a level that the scan does not have is nothing to do") {
+  SharedRun run;
+  run.planned(2);
+  CHECK_FALSE(run.work_on({.level = 60}, 0));
+  CHECK_FALSE(run.work_on({.level = 60, .evaluates = true, .tasks = 2}, 1));
+  CHECK(run.bytes() == run.expected());
+}
+
+TEST_CASE("names of steps go forth and back, and others are none") {
+  SharedRun run;
+  for (const Step& step : run.planned(4)) {
+    const std::optional<Step> read = step_of_name(step.name(), run.config.run.workspace);
+    REQUIRE(read);
+    CHECK(read->level == step.level);
+    CHECK(read->evaluates == step.evaluates);
+    CHECK(read->tasks == step.tasks);
+  }
+  for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})
+    CHECK_FALSE(step_of_name(name, run.config.run.workspace));
+  const ScratchFolder without_plan;
+  CHECK_THROWS_WITH(step_of_name("evaluate-0", without_plan.path()), Catch::Contains("has no plan"));
+}
+
+}  // namespace
+}  // namespace lacuna

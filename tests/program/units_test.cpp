@@ -1,0 +1,101 @@
+// plan, work and finish: processes that share a run.
+#include "tests/support/run_program.hpp"
+#include "tests/support/sheet.hpp"
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using test::check_failure;
+using test::ProgramResult;
+using test::run_program;
+using test::ScratchFolder;
+
+struct Shared {
+  ScratchFolder folder;
+  std::string workspace = (folder / "work space").string();
+
+  Shared() {
+    folder.write("a.txt", test::sheet(300));
+    folder.write("b.txt", "0 0 9\n0 1 9\n1 0 9\n");
+    folder.write("all.list", "a.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
+  }
+  std::string list() const { return "@" + (folder / "all.list").string(); }
+  ProgramResult plan(std::vector<std::string> more = {}) const {
+    std::vector<std::string> all = {"plan", list(), "--workspace", workspace, "--tasks", "3"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_program(all);
+  }
+};
+
+TEST_CASE("plan, work and finish give the files of detect") {
+  const Shared run;
+  const ProgramResult planned = run.plan({"--tsv", "--points", "--k", "14"});
+  REQUIRE(planned.exit_code == 0);
+  std::istringstream lines(planned.out);
+  std::vector<std::string> steps;
+  std::string step;
+  for (std::size_t tasks, mib, minutes; lines >> step >> tasks >> mib >> minutes;) {
+    steps.push_back(step);
+    CHECK(mib > 0);
+    CHECK(minutes > 0);
+    if (step == "finish") continue;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const ProgramResult worked = run_program(
+          {"work", run.workspace, "--step", step, "--task", std::to_string(task), "--threads", "1"});
+      INFO(worked.err);
+      CHECK(worked.exit_code == 0);
+      CHECK_THAT(worked.out, Contains(step + ", task " + std::to_string(task) + ": done"));
+    }
+  }
+  CHECK(steps == std::vector<std::string>{"level-0", "evaluate-0", "finish"});
+  const ProgramResult finished =
+      run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
+  INFO(finished.err);
+  REQUIRE(finished.exit_code == 0);
+  const fs::path alone = run.folder / "alone";
+  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--k", "14", "--quiet"})
+              .exit_code == 0);
+  for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "points.ply"}) {
+    INFO(name);
+    CHECK((test::read_file(run.folder / "out" / name) == test::read_file(alone / name)));
+  }
+}
+
+TEST_CASE("finish does what no unit has done") {
+  const Shared run;
+  REQUIRE(run.plan().exit_code == 0);
+  CHECK(run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"}).exit_code ==
+        0);
+  CHECK(fs::exists(run.folder / "out" / "holes.json"));
+}
+
+TEST_CASE("a plan says in a table what its tasks are, and wrong units are refused") {
+  const Shared run;
+  CHECK_THAT(run.plan().out, Contains("evaluate-0      3") && Contains("memory of a task"));
+  const auto work = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"work", run.workspace});
+    return run_program(arguments);
+  };
+  check_failure(work({"--step", "evaluate"}), 2, "--step: allowed: a step of lacuna plan");
+  check_failure(work({"--step", "evaluate-0", "--task", "3"}), 2, "--task: allowed: 0 to 2");
+  check_failure(work({}), 2, "--step is required");
+  check_failure(run_program({"work", run.folder.path().string(), "--step", "level-0"}), 1,
+                "not the workspace of a run");
+  check_failure(run_program({"finish", run.workspace}), 2, "--out is required");
+  check_failure(run_program({"plan", run.list(), "--tasks", "3"}), 2, "--workspace is required");
+  check_failure(run.plan({"--k", "20"}), 1, "the workspace of another run");
+  run.folder.write("b.txt", "0 0 8\n0 1 9\n1 0 9\n");
+  check_failure(work({"--step", "level-0"}), 1, "the workspace of another run");
+}
+
+}  // namespace
+}  // namespace lacuna
