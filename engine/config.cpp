@@ -1,106 +1,13 @@
 #include "engine/config.hpp"
 
-#include "engine/config_text.hpp"
 #include "engine/criteria/criteria.hpp"
 #include "engine/parameter_values.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/regular_file.hpp"
-#include "engine/unknown_key.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <optional>
-#include <sstream>
-
-#include <toml++/toml.h>
 
 namespace lacuna {
 namespace {
-
-constexpr std::size_t kLargestConfigFile = 1 << 20;
-
-struct SetFromToml {
-  const Parameter& parameter;
-  const toml::node& node;
-
-  void operator()(std::int64_t* target) const { set_number(target, node.value_exact<std::int64_t>()); }
-  void operator()(double* target) const {
-    set_number(target, node.is_number() ? node.value<double>() : std::nullopt);
-  }
-  void operator()(bool* target) const {
-    const auto flag = node.value_exact<bool>();
-    if (!flag) refuse(parameter, shown());
-    *target = *flag;
-  }
-  void operator()(std::string* target) const {
-    const auto text = node.value_exact<std::string>();
-    if (!text) refuse(parameter, shown());
-    *target = *text;
-  }
-  template <typename Number>
-  void operator()(std::vector<Number>* target) const {
-    const toml::array* const array = node.as_array();
-    if (!array) refuse(parameter, shown());
-    std::vector<Number> numbers(array->size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) SetFromToml{parameter, (*array)[i]}(&numbers[i]);
-    *target = std::move(numbers);
-  }
-  void operator()(const NamedValue&) const {
-    const auto text = node.value_exact<std::string>();
-    if (!text) refuse(parameter, shown());
-    parameter.set(*text);
-  }
-  void operator()(std::uint64_t*) const {
-    if (const auto text = node.value_exact<std::string>()) {
-      parameter.set(*text);
-    } else if (node.is_integer()) {
-      parameter.set(shown());
-    } else {
-      refuse(parameter, shown());
-    }
-  }
-
- private:
-  template <typename Number>
-  void set_number(Number* target, std::optional<Number> number) const {
-    if (!number || !in_range(parameter, static_cast<double>(*number))) refuse(parameter, shown());
-    *target = *number;
-  }
-  std::string shown() const {
-    if (node.is_table()) return "{...}";
-    if (node.is_array()) return "[...]";
-    if (const auto text = node.value_exact<std::string>()) return quote(*text);
-    std::ostringstream out;
-    node.visit([&out](const auto& value) { out << value; });
-    return out.str();
-  }
-};
-
-std::string read_text(const std::filesystem::path& file) {
-  check_regular_file(file, "a config file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
-  std::string text(kLargestConfigFile + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw Error(file.string() + ": cannot read the config file: " + std::strerror(errno));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kLargestConfigFile) throw Error(file.string() + ": too large for a config file (1 MiB)");
-  return text;
-}
-
-toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
-  if (const auto fault = find_fault(text)) {
-    throw Error(file.string() + ":" + std::to_string(fault->line) + ": " + fault->reason);
-  }
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw Error(file.string() + ":" + std::to_string(error.source().begin.line) + ": " +
-                std::string(error.description()));
-  }
-}
 
 // Min along each axis, then max along each.
 void check_box(const std::string& name, std::span<const double> box) {
@@ -141,58 +48,6 @@ void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_li
 }
 
 }  // namespace
-
-std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
-  return read_config_text(read_text(file), file, config);
-}
-
-std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
-                                          Config& config) {
-  Config changed = config;
-  std::vector<std::string> keys;
-  const std::vector<Parameter> all = parameters(changed);
-  const toml::table root = parse_toml(file, text);
-  const auto fail = [&file](const toml::source_region& place, const std::string& reason) {
-    throw Error(file.string() + ":" + std::to_string(place.begin.line) + ": " + reason);
-  };
-
-  for (const auto& [section, content] : root) {
-    const toml::table* table = content.as_table();
-    if (!table || !is_section(all, section.str())) {
-      fail(section.source(), unknown_section(all, section.str(), table != nullptr));
-    }
-    for (const auto& [key, node] : *table) {
-      const Parameter* parameter = find_key(all, key.str());
-      if (!parameter || parameter->section != section.str()) {
-        fail(key.source(), unknown_key(all, section.str(), key.str()));
-      }
-      try {
-        std::visit(SetFromToml{*parameter, node}, parameter->value);
-      } catch (const Error& error) {
-        fail(key.source(), error.what());
-      }
-      keys.emplace_back(key.str());
-    }
-  }
-  config = std::move(changed);
-  return keys;
-}
-
-std::string print_config(const Config& config) {
-  Config printed = config;
-  std::string text = "# Parameters of a run of lacuna. Command line over config file over defaults.\n";
-  std::string_view section;
-  for (const Parameter& parameter : parameters(printed)) {
-    text += '\n';
-    if (parameter.section != section) {
-      section = parameter.section;
-      text += "[" + std::string(section) + "]\n";
-    }
-    text += "# " + std::string(parameter.help) + "\n# Allowed: " + std::string(parameter.allowed) + ".\n" +
-            std::string(parameter.key) + " = " + parameter.print() + "\n";
-  }
-  return text;
-}
 
 double first_edge(const ScaleConfig& scale) {
   if (scale.resolution > 0 || scale.every_point) return scale.resolution;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -220,8 +221,8 @@ Config with_min_hole(Config config);
 // too small to work in).
 void check_config(const Config& config);
 
-// "512MiB", "2GiB", "1500000" and back. Throws `Error`.
-std::uint64_t parse_bytes(std::string_view text);
+// "512MiB", "2GiB", "1500000" and back.
+std::optional<std::uint64_t> parse_bytes(std::string_view text);
 std::string print_bytes(std::uint64_t bytes);
 
 }  // namespace lacuna

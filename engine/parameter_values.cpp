@@ -9,6 +9,8 @@
 #include <optional>
 #include <sstream>
 
+#include <toml++/toml.h>
+
 namespace lacuna {
 namespace {
 
@@ -16,8 +18,6 @@ constexpr std::uint64_t kKiB = 1024;
 constexpr std::uint64_t kMiB = 1024 * kKiB;
 constexpr std::uint64_t kGiB = 1024 * kMiB;
 constexpr std::uint64_t kTiB = 1024 * kGiB;
-
-constexpr std::string_view kFormerTangential = "stars";
 
 struct Unit {
   std::string_view name;
@@ -37,52 +37,50 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-// Sets values, of whatever type the parameter has, once they are found possible.
+// Sets the value, of whatever type the parameter has, and returns true if the text is a possible one.
 struct SetFromText {
   const Parameter& parameter;
   std::string_view text;
 
   template <typename Number>
-  void operator()(Number* target) const {
-    const std::optional<Number> number = parse_number<Number>(text);
-    if (!number || !in_range(parameter, static_cast<double>(*number))) refuse(parameter, text);
-    *target = *number;
+  bool operator()(Number* target) const {
+    return set(target, parse_number<Number>(text));
   }
-  void operator()(bool* target) const {
-    if (text != "true" && text != "false") refuse(parameter, text);
+  bool operator()(std::uint64_t* target) const { return set(target, parse_bytes(text)); }
+  bool operator()(bool* target) const {
+    if (text != "true" && text != "false") return false;
     *target = text == "true";
+    return true;
   }
-  void operator()(std::string* target) const { *target = text; }
+  bool operator()(std::string* target) const {
+    *target = text;
+    return true;
+  }
   template <typename Number>
-  void operator()(std::vector<Number>* target) const {
+  bool operator()(std::vector<Number>* target) const {
     std::vector<Number> numbers;
     constexpr std::string_view kBetween = ", \t";
     for (std::size_t at = text.find_first_not_of(kBetween); at < text.size();) {
       const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
-      const std::optional<Number> number = parse_number<Number>(text.substr(at, end - at));
-      if (!number || !in_range(parameter, static_cast<double>(*number))) refuse(parameter, text);
-      numbers.push_back(*number);
+      if (!set(&numbers.emplace_back(), parse_number<Number>(text.substr(at, end - at)))) return false;
       at = text.find_first_not_of(kBetween, end);
     }
     *target = std::move(numbers);
+    return true;
   }
-  void operator()(const NamedValue& target) const {
+  bool operator()(const NamedValue& target) const {
     const auto name = std::find(target.names.begin(), target.names.end(), text);
-    if (name == target.names.end()) {
-      const bool is_method = parameter.key == "method";
-      refuse(parameter, is_method && text == kFormerTangential ? "stars (now called tangential)" : text);
-    }
+    if (name == target.names.end()) return false;
     *target.value = static_cast<std::uint8_t>(name - target.names.begin());
+    return true;
   }
-  void operator()(std::uint64_t* target) const {
-    std::uint64_t bytes = 0;
-    try {
-      bytes = parse_bytes(text);
-    } catch (const Error&) {
-      refuse(parameter, text);
-    }
-    if (!in_range(parameter, static_cast<double>(bytes))) refuse(parameter, text);
-    *target = bytes;
+
+ private:
+  template <typename Number>
+  bool set(Number* target, std::optional<Number> number) const {
+    if (!number || !in_range(parameter, static_cast<double>(*number))) return false;
+    *target = *number;
+    return true;
   }
 };
 
@@ -106,16 +104,13 @@ struct PrintValue {
 [[noreturn]] void refuse(const Parameter& parameter, std::string_view given) {
   std::ostringstream message;
   message << parameter.key << " = " << given << " is not possible; allowed: " << parameter.allowed;
-  const bool is_real = std::holds_alternative<double*>(parameter.value) ||
-                       std::holds_alternative<std::vector<double>*>(parameter.value);
-  if (is_real && !parse_number<double>(given))
+  if (is_any_of<double*, std::vector<double>*>(parameter) && !parse_number<double>(given))
     message << ", as a number without a unit, with a decimal point";
   throw UsageError(message.str());
 }
 
 bool in_range(const Parameter& parameter, double value) {
-  const bool is_size = std::holds_alternative<std::uint64_t*>(parameter.value);
-  if (is_size && value == 0) return true;
+  if (is_any_of<std::uint64_t*>(parameter) && value == 0) return true;
   return std::isfinite(value) && parameter.min <= value && value <= parameter.max;
 }
 
@@ -128,22 +123,9 @@ std::string print_number(double value) {
 }
 
 std::string quote(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      constexpr char kDigits[] = "0123456789ABCDEF";
-      quoted += "\\u00";
-      quoted += kDigits[code >> 4];
-      quoted += kDigits[code & 15];
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
+  std::ostringstream quoted;
+  quoted << toml::toml_formatter{toml::value{text}, toml::format_flags::allow_unicode_strings};
+  return quoted.str();
 }
 
 std::string Parameter::option() const {
@@ -157,25 +139,22 @@ std::string Parameter::print() const {
 }
 
 void Parameter::set(std::string_view text) const {
-  std::visit(SetFromText{*this, text}, value);
+  if (std::visit(SetFromText{*this, text}, value)) return;
+  const bool is_former = key == "method" && text == "stars";
+  refuse(*this, is_former ? "stars (now called tangential)" : text);
 }
 
-std::uint64_t parse_bytes(std::string_view text) {
-  const auto fail = [text] {
-    throw Error("\"" + std::string(text) +
-                "\" is not a size; allowed: a whole number of bytes, or one with " +
-                "KiB, MiB, GiB, TiB, KB, MB, GB or TB, such as 512MiB");
-  };
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  const std::optional<std::uint64_t> number = parse_number<std::uint64_t>(text.substr(0, digits));
-  std::string_view unit_name = text.substr(digits);
-  if (unit_name.starts_with(' ')) unit_name.remove_prefix(1);
+  const auto number = parse_number<std::uint64_t>(text.substr(0, digits));
+  std::string_view name = text.substr(digits);
+  if (name.starts_with(' ')) name.remove_prefix(1);
   const Unit* unit = std::find_if(std::begin(kUnits), std::end(kUnits),
-                                  [&](const Unit& known) { return known.name == unit_name; });
-  if (!number || (unit == std::end(kUnits) && digits != text.size())) fail();
+                                  [name](const Unit& known) { return known.name == name; });
+  if (!number || (unit == std::end(kUnits) && digits != text.size())) return std::nullopt;
 
   const std::uint64_t factor = unit == std::end(kUnits) ? 1 : unit->bytes;
-  if (*number > std::numeric_limits<std::uint64_t>::max() / factor) fail();
+  if (*number > std::numeric_limits<std::uint64_t>::max() / factor) return std::nullopt;
   return *number * factor;
 }
 

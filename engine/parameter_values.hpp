@@ -5,11 +5,18 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace lacuna {
 
 // Throws `Error` that names the parameter, what was given and what is allowed.
 [[noreturn]] void refuse(const Parameter& parameter, std::string_view given);
+
+// Whether the value has one of these types.
+template <typename... Types>
+bool is_any_of(const Parameter& parameter) {
+  return (std::holds_alternative<Types>(parameter.value) || ...);
+}
 
 bool in_range(const Parameter& parameter, double value);
 

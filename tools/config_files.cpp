@@ -1,7 +1,7 @@
 #include "tools/config_files.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/unknown_key.hpp"
+#include "engine/run/words.hpp"
 
 #include <set>
 #include <string_view>
@@ -32,11 +32,10 @@ std::vector<fs::path> config_folders() {
       if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
     }
   }
-  std::string list;
-  for (const std::string& known : names) list += ", " + known;
+  const std::vector<std::string_view> known(names.begin(), names.end());
   throw Error("--config " + name + ": no file and no installed config has this name" +
-              suggestion(name, {names.begin(), names.end()}) + "; allowed: a TOML file" +
-              (names.empty() ? "; no config is installed" : ", or one of these:" + list.substr(1)));
+              suggestion(name, known) + "; allowed: a TOML file" +
+              (known.empty() ? "; no config is installed" : ", or one of these: " + listed(known)));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "tools/program.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/run/words.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "engine/unknown_key.hpp"
 #include "tools/compare_command.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
@@ -93,15 +93,11 @@ void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   if (word == kHelpCommand && app.get_parent() == nullptr) return check_names(app, arguments.subspan(1));
   if (const CLI::App* const command = find_command(app, word))
     return check_names(*command, arguments.subspan(1));
-  std::vector<std::string> names;
-  std::string known;
-  for (const CLI::App* command : commands) {
-    names.push_back(command->get_name());
-    known += (known.empty() ? "" : ", ") + command->get_name();
-  }
-  throw CLI::ParseError("unknown command \"" + word + "\"" + suggestion(word, {names.begin(), names.end()}) +
-                            "; allowed: " + known,
-                        CLI::ExitCodes::ExtrasError);
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  throw CLI::ParseError(
+      "unknown command \"" + word + "\"" + suggestion(word, names) + "; allowed: " + listed(names),
+      CLI::ExitCodes::ExtrasError);
 }
 
 int run_command(CLI::App& app, const std::vector<std::string>& arguments) {

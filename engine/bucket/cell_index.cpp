@@ -1,8 +1,10 @@
-#include "engine/bucket/index_grid.hpp"
+#include "engine/bucket/cell_index.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+
+#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {
@@ -23,11 +25,14 @@ const Leaf* leaf_at(const Lower* node, const openvdb::Coord& cell) {
 
 }  // namespace
 
-CellIndex::CellIndex(const CellGrid& grid) : grid_(std::make_unique<Grid>(Grid{grid})) {}
+struct CellIndex::Grid {
+  CellGrid cells;
+  openvdb::Int32Grid::Ptr numbers = openvdb::Int32Grid::create(-1);  // as `kNoCell`
+};
 
 CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
                      std::span<const CountedCell> aside)
-    : CellIndex(grid) {
+    : grid_(std::make_unique<Grid>(Grid{grid})) {
   auto numbers = grid_->numbers->getUnsafeAccessor();
   std::int32_t number = 0;
   for (const std::span<const CountedCell> part : {cells, aside}) {
@@ -40,10 +45,6 @@ CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
 
 CellIndex::CellIndex(CellIndex&&) noexcept = default;
 CellIndex::~CellIndex() = default;
-
-const CellGrid& CellIndex::cells() const {
-  return grid_->cells;
-}
 
 // In steps through the levels of the tree, each for many positions: the cache misses of positions in random
 // order overlap.

@@ -15,14 +15,11 @@ class CellIndex {
  public:
   static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
 
-  explicit CellIndex(const CellGrid& grid);
   // `cells`, then `aside`, numbered from 0.
   CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
             std::span<const CountedCell> aside = {});
   CellIndex(CellIndex&&) noexcept;
   ~CellIndex();
-
-  const CellGrid& cells() const;
 
   // The number of each position's cell; `kNoCell` where the cell has none. From any thread.
   void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const;

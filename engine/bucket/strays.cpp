@@ -1,8 +1,9 @@
 #include "engine/bucket/strays.hpp"
 
+#include "engine/model/least_first.hpp"
+
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <queue>
 #include <vector>
 
@@ -11,30 +12,21 @@ namespace {
 
 constexpr std::uint64_t kMostPassedOver = 1024;
 
-// The smallest of `key(point)` after `passed_over` smaller ones. `least(cell)` is a lower bound of the keys
-// in a cell: cells come in its order, until none can hold a smaller key.
+// The smallest of `key(point)` after `passed_over` smaller ones. `least(box)` is a lower bound of the keys of
+// points in a box.
 template <class Least, class Key>
 double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&& least, Key&& key) {
-  struct Outermost {
-    double least;
-    std::uint32_t cell;
-    bool operator>(const Outermost& other) const { return least > other.least; }
-  };
-  const std::vector<Cell>& cells = store.tiling().cells;
-  std::vector<Outermost> order;
-  order.reserve(cells.size());
-  for (std::uint32_t cell = 0; cell < cells.size(); ++cell) order.push_back({least(cells[cell].box), cell});
-  std::make_heap(order.begin(), order.end(), std::greater<>());
-
   std::priority_queue<double> smallest;  // the largest of them on top
-  while (!order.empty() && (smallest.size() <= passed_over || order.front().least < smallest.top())) {
-    for (const StoredPoint& point : store.cell(order.front().cell)) {
-      smallest.push(key(point.position()));
-      if (smallest.size() > passed_over + 1) smallest.pop();
-    }
-    std::pop_heap(order.begin(), order.end(), std::greater<>());
-    order.pop_back();
-  }
+  for_each_cell_least_first(
+      store.tiling(), least,
+      [&](double to_come) { return smallest.size() > passed_over && to_come >= smallest.top(); },
+      [](const CellNode&) { return true; },
+      [&](std::uint32_t cell) {
+        for (const StoredPoint& point : store.cell(cell)) {
+          smallest.push(key(point.position()));
+          if (smallest.size() > passed_over + 1) smallest.pop();
+        }
+      });
   return smallest.top();
 }
 

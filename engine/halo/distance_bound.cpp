@@ -1,19 +1,12 @@
 #include "engine/halo/distance_bound.hpp"
 
-#include <algorithm>
+#include "engine/model/least_first.hpp"
+
 #include <limits>
 #include <queue>
 
 namespace lacuna {
 namespace {
-
-struct Near {
-  double squared_distance;  // lower bound
-  std::uint32_t index;
-  bool is_cell;
-
-  friend bool operator<(const Near& a, const Near& b) { return a.squared_distance > b.squared_distance; }
-};
 
 struct Far {
   double squared_distance;  // upper bound
@@ -38,8 +31,6 @@ double squared_distance_bound(const Tiling& tiling, std::uint32_t cell, std::siz
 
   // Cells by their nearest corner; done when those whose farthest corner is nearer than any corner to come
   // hold k points and the point itself.
-  std::priority_queue<Near> queue;
-  queue.push({0, 0, false});
   std::priority_queue<Far> enough;  // cells that hold more than k points together, the farthest on top
   std::uint64_t points = 0;
   const auto keep = [&](Far far) {
@@ -50,64 +41,43 @@ double squared_distance_bound(const Tiling& tiling, std::uint32_t cell, std::siz
       enough.pop();
     }
   };
-  while (!queue.empty()) {
-    const Near near = queue.top();
-    queue.pop();
-    if (points > k && near.squared_distance >= enough.top().squared_distance) break;
-    if (near.is_cell) {
-      keep({max_squared_distance(box, tiling.cells[near.index].box), tiling.cells[near.index].points});
-      continue;
-    }
-    const CellNode& node = tiling.nodes[near.index];
-    const double farthest = max_squared_distance(box, node.box);
-    if (is_small(node.box, farthest)) {
-      keep({farthest, node.points});
-    } else if (node.left != 0) {
-      for (const std::uint32_t child : {node.left, node.right}) {
-        queue.push({min_squared_distance(box, tiling.nodes[child].box), child, false});
-      }
-    } else {
-      for (std::uint32_t c = node.first; c < node.last; ++c) {
-        queue.push({min_squared_distance(box, tiling.cells[c].box), c, true});
-      }
-    }
-  }
+  for_each_cell_least_first(
+      tiling, [&](const Eigen::AlignedBox3d& other) { return min_squared_distance(box, other); },
+      [&](double nearest) { return points > k && nearest >= enough.top().squared_distance; },
+      [&](const CellNode& node) {
+        const double farthest = max_squared_distance(box, node.box);
+        if (!is_small(node.box, farthest)) return true;
+        keep({farthest, node.points});
+        return false;
+      },
+      [&](std::uint32_t other) {
+        keep({max_squared_distance(box, tiling.cells[other].box), tiling.cells[other].points});
+      });
   return enough.top().squared_distance;
 }
-
-namespace {
-
-struct NearCells {
-  const Tiling& tiling;
-  const Eigen::AlignedBox3d& box;
-  double squared_radius;
-  std::uint32_t skip_first, skip_last;
-  const std::function<bool(std::uint32_t)>& visit;
-
-  bool within(const Eigen::AlignedBox3d& other) const {
-    return min_squared_distance(box, other) <= squared_radius;
-  }
-
-  // False when `visit` wants no more.
-  bool descend(std::uint32_t index) const {
-    const CellNode& node = tiling.nodes[index];
-    if (node.first >= skip_first && node.last <= skip_last) return true;
-    if (!within(node.box)) return true;
-    if (node.left != 0) return descend(node.left) && descend(node.right);
-    for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
-      const bool skipped = cell >= skip_first && cell < skip_last;
-      if (!skipped && within(tiling.cells[cell].box) && !visit(cell)) return false;
-    }
-    return true;
-  }
-};
-
-}  // namespace
 
 void for_each_cell_near(const Tiling& tiling, const Eigen::AlignedBox3d& box, double squared_radius,
                         std::uint32_t skip_first, std::uint32_t skip_last,
                         const std::function<bool(std::uint32_t)>& visit) {
-  if (!tiling.nodes.empty()) NearCells{tiling, box, squared_radius, skip_first, skip_last, visit}.descend(0);
+  const auto is_near = [&](const Eigen::AlignedBox3d& other) {
+    return min_squared_distance(box, other) <= squared_radius;
+  };
+  std::vector<std::uint32_t> to_come;  // nodes, the next one last
+  if (!tiling.nodes.empty()) to_come.push_back(0);
+  while (!to_come.empty()) {
+    const CellNode& node = tiling.nodes[to_come.back()];
+    to_come.pop_back();
+    if (node.first >= skip_first && node.last <= skip_last) continue;
+    if (!is_near(node.box)) continue;
+    if (node.left != 0) {
+      to_come.insert(to_come.end(), {node.right, node.left});
+      continue;
+    }
+    for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
+      const bool is_skipped = cell >= skip_first && cell < skip_last;
+      if (!is_skipped && is_near(tiling.cells[cell].box) && !visit(cell)) return;
+    }
+  }
 }
 
 }  // namespace lacuna

@@ -1,26 +1,18 @@
 #include "engine/loops/raw_loops.hpp"
 
+#include "engine/store/column_writer.hpp"
+
 #include <algorithm>
 
 namespace lacuna {
-
-namespace {
-
-constexpr std::uint64_t kBlock = 4096;  // points: a loop may be larger than memory
-
-}  // namespace
 
 void RawLoops::add(std::uint64_t points, const LoopEvidence& evidence,
                    const std::function<Vertex(std::uint64_t)>& vertex) {
   const std::lock_guard lock(*mutex_);
   index_.push_back({vertices_.size(), points, vertex(0).id, evidence});
-  std::vector<Vertex> block;
-  for (std::uint64_t i = 0; i < points; ++i) {
-    block.push_back(vertex(i));
-    if (block.size() < kBlock && i + 1 < points) continue;
-    vertices_.append(block);
-    block.clear();
-  }
+  ColumnWriter<Vertex> writer(vertices_);
+  for (std::uint64_t i = 0; i < points; ++i) writer.add(vertex(i));
+  writer.finish();
 }
 
 std::vector<Vertex> RawLoops::read(std::size_t loop) const {
@@ -28,10 +20,9 @@ std::vector<Vertex> RawLoops::read(std::size_t loop) const {
 }
 
 void RawLoops::for_each_vertex(std::size_t loop, const std::function<void(const Vertex&)>& visit) const {
-  const std::uint64_t offset = index_[loop].offset, points = index_[loop].points;
-  for (std::uint64_t i = 0; i < points; i += kBlock) {
-    for (const Vertex& v : vertices_.read(offset + i, std::min(kBlock, points - i))) visit(v);
-  }
+  const std::uint64_t begin = index_[loop].offset;
+  ColumnReader<Vertex> vertices(vertices_);
+  for (std::uint64_t i = begin; i < begin + index_[loop].points; ++i) visit(vertices[i]);
 }
 
 bool RawLoops::comes_first(const Entry& a, const Entry& b) const {

@@ -39,6 +39,11 @@ void round_down(const double* coordinates, std::size_t count, double scale, cons
 
 }  // namespace
 
+CellGrid CellGrid::around(const Eigen::Vector3d& middle, int finest) {
+  const auto along = [&](double x) { return std::floor(std::ldexp(x, -finest)) - kMiddle; };
+  return {.finest = finest, .origin = {along(middle.x()), along(middle.y()), along(middle.z())}};
+}
+
 double CellGrid::edge() const {
   return power_of_two(finest + shift);
 }

@@ -24,10 +24,17 @@ inline bool same_cell(const CellCoord& a, const CellCoord& b) {
 struct CellGrid {
   static constexpr std::int32_t kLast = 1 << 30;
   static constexpr int kMaxShift = 30;
+  // The bits of this coordinate alternate. So its distance to the nearest border of a node of OpenVDB's tree
+  // is a third of the node's size, however often cells merge. A scan in the middle of few nodes needs few of
+  // them.
+  static constexpr std::int32_t kMiddle = 0x2aaaaaa;
 
   int finest = 0;  // within +-900, so that its powers of two are normal numbers
   int shift = 0;
   std::array<double, 3> origin{};  // in finest cells
+
+  // Finest cells, from 2^finest, so that `middle` lies in the one with `kMiddle` along each axis.
+  static CellGrid around(const Eigen::Vector3d& middle, int finest);
 
   double edge() const;
   CellCoord cell_of(const Eigen::Vector3d& position) const;

@@ -84,8 +84,8 @@ struct PointResult {
   // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop
   // (tangential).
   std::uint8_t boundary = 0;
-  std::uint8_t coherent =
-      0;                   // a candidate that coherence leaves (paper, 5.1), whichever method finds the loops
+  // A candidate that coherence leaves (paper, 5.1), whichever method finds the loops.
+  std::uint8_t coherent = 0;
   std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
   Eigen::Vector3f normal;  // NaN where undefined
 };

@@ -38,19 +38,15 @@ using BoundarySort = SortedRuns<StoredBoundary>;
 
 class WorkspaceDetection final : public Detection {
  public:
-  WorkspaceDetection(Summary summary, MeasuredLoops loops, std::vector<std::size_t> selected,
-                     Column<StoredBoundary> boundary, std::uint64_t marked,
-                     std::optional<PointResults> results, std::optional<ProbabilityGrid> probabilities,
-                     std::optional<Column<StoredSample>> sample, std::optional<RowSet> turned)
-      : summary_(std::move(summary)),
-        all_loops_(std::move(loops)),
-        selected_(std::move(selected)),
+  WorkspaceDetection(Findings findings, Column<StoredBoundary> boundary)
+      : summary_(std::move(findings.summary)),
+        all_loops_(std::move(findings.loops)),
+        selected_(std::move(findings.selected)),
         boundary_(std::move(boundary)),
-        marked_(marked),
-        results_(std::move(results)),
-        probabilities_(std::move(probabilities)),
-        sample_(std::move(sample)),
-        turned_(std::move(turned)) {
+        results_(std::move(findings.points)),
+        probabilities_(std::move(findings.probabilities)),
+        sample_(std::move(findings.sample)),
+        turned_(std::move(findings.opposed_normals)) {
     for (const std::size_t loop : selected_) loops_.push_back(all_loops_.measures[loop]);
   }
 
@@ -62,9 +58,9 @@ class WorkspaceDetection final : public Detection {
   }
 
   void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
-    BoundaryReader boundary(*this);
-    for (std::uint64_t i = 0; i < marked_; ++i) {
-      const StoredBoundary& p = boundary.next();
+    ColumnReader<StoredBoundary> boundary(boundary_);
+    for (std::uint64_t i = 0; i < boundary_.size(); ++i) {
+      const StoredBoundary& p = boundary[i];
       if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
     }
   }
@@ -91,8 +87,9 @@ class WorkspaceDetection final : public Detection {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     PointResult dropped{.probability = kNaN, .normal = Eigen::Vector3f::Constant(kNaN)};
     dropped.criteria.fill(kNaN);
-    BoundaryReader boundary(*this);
+    ColumnReader<StoredBoundary> boundary(boundary_);
     std::uint64_t next_boundary = 0;
+    const std::uint64_t marked = boundary_.size();
     std::vector<PointResult> block;
     for (std::size_t b = 0; b < results_->blocks(); ++b) {
       const std::uint64_t first = b * kResultBlock;
@@ -102,31 +99,18 @@ class WorkspaceDetection final : public Detection {
         PointResult& point = block[value(r.id) - first] = result(r);
         std::copy(criteria.begin(), criteria.end(), point.criteria.begin());
       });
-      for (; next_boundary < marked_; ++next_boundary) {
-        const StoredBoundary& p = boundary.peek();
-        if (value(p.point.id) >= last) break;
+      for (; next_boundary < marked && value(boundary[next_boundary].point.id) < last; ++next_boundary) {
+        const StoredBoundary& p = boundary[next_boundary];
         PointResult& point = block[value(p.point.id) - first];
         point.boundary = p.is_boundary();
         point.coherent = (p.flags & kCoherent) != 0;
         point.loop = p.loop;
-        boundary.next();
       }
       visit(PointId{first}, block);
     }
   }
 
  private:
-  class BoundaryReader {
-   public:
-    explicit BoundaryReader(const WorkspaceDetection& detection) : records_(detection.boundary_) {}
-    const StoredBoundary& peek() { return records_[at_]; }
-    const StoredBoundary& next() { return records_[at_++]; }
-
-   private:
-    ColumnReader<StoredBoundary> records_;
-    std::uint64_t at_ = 0;
-  };
-
   PointResult result(const StoredResult& r) const {
     const float sign = turned_ && turned_->contains(r.row) ? -1.0f : 1.0f;
     return {.probability = r.probability,
@@ -139,7 +123,6 @@ class WorkspaceDetection final : public Detection {
   std::vector<std::size_t> selected_;
   std::vector<LoopMeasures> loops_;
   Column<StoredBoundary> boundary_;  // in ascending id
-  std::uint64_t marked_;             // points in it
   std::optional<PointResults> results_;
   std::optional<ProbabilityGrid> probabilities_;
   std::optional<Column<StoredSample>> sample_;
@@ -184,7 +167,6 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
   Column<StoredBoundary> boundary_points(job.file("boundary"));
-  std::uint64_t marked = 0;
   {
     Phase phase(job, "collect", tiling.points());
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
@@ -210,16 +192,12 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
       });
       phase.advance(tile.points);
     });
-    marked = sorted.size();
     ColumnWriter<StoredBoundary> writer(boundary_points);
     sorted.for_each([&](const StoredBoundary& p) { writer.add(p); });
     writer.finish();
   }
   summary.phases = job.phases;
-  return std::make_unique<WorkspaceDetection>(
-      std::move(summary), std::move(findings.loops), std::move(findings.selected), std::move(boundary_points),
-      marked, std::move(findings.points), std::move(findings.probabilities), std::move(findings.sample),
-      std::move(findings.opposed_normals));
+  return std::make_unique<WorkspaceDetection>(std::move(findings), std::move(boundary_points));
 }
 
 }  // namespace lacuna

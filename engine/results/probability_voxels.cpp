@@ -33,25 +33,16 @@ struct AlongZ {
 // Voxels in any order of equal ones have the same largest probability and the same number of points.
 using VoxelSort = SortedRuns<TileVoxel, AlongZ>;
 
-// The middle is at this coordinate along each axis. Its bits alternate. So its distance to the nearest border
-// of a node of OpenVDB's tree is a third of the node's size, however often voxels double.
-constexpr std::int32_t kMiddle = 0x2aaaaaa;
-
 // Returns the shift of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
 std::int32_t shift_of(int doublings) {
-  return (kMiddle >> doublings) / 4096 * 4096;
+  return (CellGrid::kMiddle >> doublings) / 4096 * 4096;
 }
 
 CellGrid finest_lattice(int exponent, const Eigen::Vector3d& middle) {
   // No voxel is smaller than the last digit of the coordinates.
   const double far = middle.cwiseAbs().maxCoeff();
   const int digit = far > 0 ? std::ilogb(far) - std::numeric_limits<double>::digits : -500;
-  CellGrid grid{.finest = std::clamp(exponent, std::max(digit, -500), 500)};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double at = std::ldexp(middle[static_cast<Eigen::Index>(axis)], -grid.finest);
-    grid.origin[axis] = std::floor(at) - kMiddle;
-  }
-  return grid;
+  return CellGrid::around(middle, std::clamp(exponent, std::max(digit, -500), 500));
 }
 
 // The lattice with the coordinates that the voxels get in the end.

@@ -1,5 +1,7 @@
 #include "engine/results/voxel_sizes.hpp"
 
+#include "engine/bucket/z_curve.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -32,16 +34,8 @@ int differing_bits(const CellCoord& a, const CellCoord& b) {
 }  // namespace
 
 bool comes_before_along_z(const CellCoord& a, const CellCoord& b) {
-  std::size_t axis = 0;
-  std::uint32_t highest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t bit = std::bit_floor(bits_of(a[i]) ^ bits_of(b[i]));
-    if (bit > highest) {
-      highest = bit;
-      axis = i;
-    }
-  }
-  return bits_of(a[axis]) < bits_of(b[axis]);
+  return comes_before(ZPlace{bits_of(a[0]), bits_of(a[1]), bits_of(a[2])},
+                      ZPlace{bits_of(b[0]), bits_of(b[1]), bits_of(b[2])});
 }
 
 CellCoord VoxelSizes::node_of(const CellCoord& voxel, int doublings) {

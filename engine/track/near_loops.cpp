@@ -158,8 +158,7 @@ void add_pairs(SharedSort& shared, const std::vector<std::uint32_t>& own_cells,
     ++count;
   });
   add();
-  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.end(),
-            [](const NearLoops& x, const NearLoops& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.end());
   std::size_t kept = begin;
   for (std::size_t i = begin; i < pairs.size(); ++i) {
     if (kept > begin && pairs[kept - 1].a == pairs[i].a && pairs[kept - 1].b == pairs[i].b) {
@@ -188,8 +187,7 @@ std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job&
     add_shared(sorted_cells(cells, job), first[coarse], own_cells, shared);
     add_pairs(shared, own_cells, pairs);
   }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const NearLoops& x, const NearLoops& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

@@ -208,7 +208,7 @@ TEST_CASE("lists of numbers come as text with commas and as arrays, and print as
   CHECK_THAT(error_of_set("classes", "ground"), Contains("whole numbers from 0 to 255"));
   CHECK_THAT(error_of_set("bounds", "1,nan,3,4"), Contains("bounds = 1,nan,3,4"));
   CHECK_THAT(error_of_file("[input]\nclasses = 2\n"), Contains(":2: classes = 2 is not"));
-  CHECK_THAT(error_of_file("[input]\nclasses = [2, 1.5]\n"), Contains("classes = 1.5 is not"));
+  CHECK_THAT(error_of_file("[input]\nclasses = [2, 1.5]\n"), Contains("classes = 2, 1.5 is not"));
   CHECK_THAT(error_of_set("returns", "second"), Contains("allowed: all, first, last or only"));
 }
 
@@ -345,7 +345,7 @@ TEST_CASE("a size has a unit or none") {
   CHECK(parse_bytes("2GB") == 2'000'000'000);
   for (const char* text : {"", "MiB", "-1", "1.5GiB", "1e9", "5 XiB", "5  MiB", "20000000TiB", "0x10"}) {
     INFO(text);
-    CHECK_THROWS_AS(parse_bytes(text), Error);
+    CHECK_FALSE(parse_bytes(text));
   }
 }
 

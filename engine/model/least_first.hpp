@@ -1,0 +1,45 @@
+// The best-first walk over the cells of a scan.
+#pragma once
+
+#include "engine/model/tiling.hpp"
+
+#include <cstdint>
+#include <queue>
+
+namespace lacuna {
+
+// visit(cell) for cells in ascending order of least(box), a number that is no larger for a larger box. The
+// cells of a node are passed over where enter(node) is false. The walk ends where is_enough(least) is true of
+// the least number to come. Cost: the nodes on the way to the visited cells, times the logarithm of those.
+template <class Least, class IsEnough, class Enter, class Visit>
+void for_each_cell_least_first(const Tiling& tiling, Least&& least, IsEnough&& is_enough, Enter&& enter,
+                               Visit&& visit) {
+  struct Place {
+    double least;
+    std::uint32_t index;
+    bool is_cell;
+
+    bool operator<(const Place& other) const { return least > other.least; }  // the least one on top
+  };
+  std::priority_queue<Place> places;
+  if (!tiling.nodes.empty()) places.push({least(tiling.nodes[0].box), 0, false});
+  while (!places.empty() && !is_enough(places.top().least)) {
+    const Place place = places.top();
+    places.pop();
+    if (place.is_cell) {
+      visit(place.index);
+      continue;
+    }
+    const CellNode& node = tiling.nodes[place.index];
+    if (!enter(node)) continue;
+    if (node.left != 0) {
+      for (const std::uint32_t child : {node.left, node.right})
+        places.push({least(tiling.nodes[child].box), child, false});
+    } else {
+      for (std::uint32_t cell = node.first; cell < node.last; ++cell)
+        places.push({least(tiling.cells[cell].box), cell, true});
+    }
+  }
+}
+
+}  // namespace lacuna
