@@ -162,7 +162,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
   note_complete_results();
   progress->end();
-  for (const std::string& warning : scan_warnings(scan, detection->summary(), config))
+  for (const std::string& warning : scan_warnings(scan, detection->summary, config))
     spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
