@@ -92,11 +92,11 @@ void add_sample(const TileStore& store, double extent, const Job& job, Estimate&
   const auto detection = detect(scan, config_of_sample(job.config, extent, share), workspace.path(), silence);
   const double all = seconds_since(start), processor = processor_seconds() - processor_start;
   double seconds = all;
-  for (const PhaseTime& phase : detection->summary().phases) {
+  for (const PhaseTime& phase : detection->summary.phases) {
     if (phase.name == "survey" || phase.name == "bucket") seconds -= phase.seconds;
   }
   estimate.seconds += seconds / share;
-  size.candidates = static_cast<double>(detection->summary().counts.candidates) /
+  size.candidates = static_cast<double>(detection->summary.counts.candidates) /
                     static_cast<double>(sample.positions.size());
   estimate.slowdown =
       std::max(1.0, kBusyThreads * all * static_cast<double>(job.arena.threads()) / processor);

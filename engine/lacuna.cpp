@@ -23,9 +23,9 @@ Holes find_holes(PointSource& scan, const Config& config) {
   const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), silence);
 
   Holes holes;
-  holes.summary = detection->summary();
-  holes.loops.reserve(detection->loops().size());
-  for (std::size_t i = 0; i < detection->loops().size(); ++i) holes.loops.push_back(detection->read_loop(i));
+  holes.summary = detection->summary;
+  holes.loops.reserve(detection->loops.size());
+  for (std::size_t i = 0; i < detection->loops.size(); ++i) holes.loops.push_back(detection->read_loop(i));
   if (config.output.points) {
     holes.points.reserve(holes.summary.counts.points);
     detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {

@@ -187,8 +187,8 @@ double length_bound(double extent) {
 
 std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times,
                           std::string_view unit) {
-  const Summary& summary = detection.summary();
-  const std::vector<LoopMeasures>& loops = detection.loops();
+  const Summary& summary = detection.summary;
+  const std::vector<LoopMeasures>& loops = detection.loops;
   const double extent = extent_of(summary);
   const double bound = length_bound(extent);
   const Kind holes = loops_of(loops, LoopKind::kHole, bound);

@@ -123,33 +123,32 @@ struct ReportedLoop {
   Loop points;
 };
 
-// What is not in the summary is read from disk: throws `Error`. Visits come from the calling thread.
-class Detection {
- public:
-  virtual ~Detection() = default;
-  virtual const Summary& summary() const = 0;
-  // Measures of every reported loop, in order.
-  virtual const std::vector<LoopMeasures>& loops() const = 0;
-  // In the order of the loop, which may be larger than memory. loop < loops().size()
-  virtual void for_each_loop_point(std::size_t loop,
-                                   const std::function<void(const LoopPoint&)>& visit) const = 0;
+// Calls visit with each element, in the order stated. As often as wanted.
+template <class... Element>
+using Stream = std::function<void(const std::function<void(Element...)>& visit)>;
+
+// Streams are read from disk: they throw `Error`. Visits come from the calling thread.
+struct Detection {
+  Summary summary;
+  std::vector<LoopMeasures> loops;  // reported ones, in order
+  // The points of one of these loops, in its order. It may be larger than memory.
+  std::function<void(std::size_t loop, const std::function<void(const LoopPoint&)>& visit)>
+      for_each_loop_point;
+  Stream<const BoundaryPoint&> for_each_boundary_point;  // in ascending id
+  // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
+  Stream<PointId, std::span<const PointResult>> for_each_result_block;
+  // In ascending id, spread evenly over the surface: at most output.sample_points, none without it.
+  std::uint64_t sampled_points = 0;
+  Stream<const SampledPoint&> for_each_sampled_point = [](const auto&) {};
+  // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
+  ProbabilityLattice probability_lattice;
+  Stream<const ProbabilityVoxel&> for_each_probability_voxel;
+
   ReportedLoop read_loop(std::size_t loop) const {
-    ReportedLoop read{loops()[loop], {}};
+    ReportedLoop read{loops[loop], {}};
     for_each_loop_point(loop, [&](const LoopPoint& p) { read.points.push_back(p); });
     return read;
   }
-  // In ascending id.
-  virtual void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const = 0;
-  // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
-  virtual void for_each_result_block(
-      const std::function<void(PointId first, std::span<const PointResult>)>& visit) const = 0;
-  // In ascending id, spread evenly over the surface: at most output.sample_points, none without it.
-  virtual std::uint64_t sampled_points() const = 0;
-  virtual void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const = 0;
-  // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
-  virtual ProbabilityLattice probability_lattice() const = 0;
-  virtual void for_each_probability_voxel(
-      const std::function<void(const ProbabilityVoxel&)>& visit) const = 0;
 };
 
 }  // namespace lacuna

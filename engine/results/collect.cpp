@@ -36,71 +36,44 @@ struct StoredBoundary {
 
 using BoundarySort = SortedRuns<StoredBoundary>;
 
-class WorkspaceDetection final : public Detection {
- public:
-  WorkspaceDetection(Findings findings, Column<StoredBoundary> boundary)
-      : summary_(std::move(findings.summary)),
-        all_loops_(std::move(findings.loops)),
-        selected_(std::move(findings.selected)),
-        boundary_(std::move(boundary)),
-        results_(std::move(findings.points)),
-        probabilities_(std::move(findings.probabilities)),
-        sample_(std::move(findings.sample)),
-        turned_(std::move(findings.opposed_normals)) {
-    for (const std::size_t loop : selected_) loops_.push_back(all_loops_.measures[loop]);
+// visit(record) for each of a column.
+template <class Record, class Visit>
+void for_each_record(const Column<Record>& column, Visit&& visit) {
+  ColumnReader<Record> records(column);
+  for (std::uint64_t i = 0; i < column.size(); ++i) visit(records[i]);
+}
+
+// What result blocks are made of.
+struct ResultBlocks {
+  std::uint64_t points;  // of the input
+  PointResults results;
+  std::shared_ptr<const Column<StoredBoundary>> boundary;  // in ascending id
+  std::optional<RowSet> turned;                            // rows whose normal is turned round
+
+  PointResult result(const StoredResult& r) const {
+    const float sign = turned && turned->contains(r.row) ? -1.0f : 1.0f;
+    return {.probability = r.probability,
+            .criteria = {},
+            .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
   }
 
-  const Summary& summary() const override { return summary_; }
-  const std::vector<LoopMeasures>& loops() const override { return loops_; }
-  void for_each_loop_point(std::size_t loop,
-                           const std::function<void(const LoopPoint&)>& visit) const override {
-    all_loops_.loops.for_each_point(selected_[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
-  }
-
-  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
-    ColumnReader<StoredBoundary> boundary(boundary_);
-    for (std::uint64_t i = 0; i < boundary_.size(); ++i) {
-      const StoredBoundary& p = boundary[i];
-      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
-    }
-  }
-
-  std::uint64_t sampled_points() const override { return sample_ ? sample_->size() : 0; }
-  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
-    if (!sample_) return;
-    ColumnReader<StoredSample> sample(*sample_);
-    for (std::uint64_t i = 0; i < sample_->size(); ++i) {
-      const auto& [point, probability, normal] = sample[i];
-      visit({point.id, point.position(), probability, {normal[0], normal[1], normal[2]}});
-    }
-  }
-
-  ProbabilityLattice probability_lattice() const override { return probabilities_->lattice; }
-
-  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
-    ColumnReader<ProbabilityVoxel> voxels(probabilities_->voxels);
-    for (std::uint64_t i = 0; i < probabilities_->lattice.voxels; ++i) visit(voxels[i]);
-  }
-
-  void for_each_result_block(
-      const std::function<void(PointId first, std::span<const PointResult>)>& visit) const override {
+  void for_each(const std::function<void(PointId first, std::span<const PointResult>)>& visit) const {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     PointResult dropped{.probability = kNaN, .normal = Eigen::Vector3f::Constant(kNaN)};
     dropped.criteria.fill(kNaN);
-    ColumnReader<StoredBoundary> boundary(boundary_);
-    std::uint64_t next_boundary = 0;
-    const std::uint64_t marked = boundary_.size();
+    ColumnReader<StoredBoundary> marks(*boundary);
+    std::uint64_t next = 0;
+    const std::uint64_t marked = boundary->size();
     std::vector<PointResult> block;
-    for (std::size_t b = 0; b < results_->blocks(); ++b) {
-      const std::uint64_t first = b * kResultBlock;
-      const std::uint64_t last = std::min(first + kResultBlock, summary_.counts.points);
+    for (std::size_t b = 0; b < results.blocks(); ++b) {
+      const std::uint64_t first = b * kResultBlock, last = std::min(first + kResultBlock, points);
       block.assign(last - first, dropped);
-      results_->for_each(b, [&](const StoredResult& r, std::span<const float> criteria) {
+      results.for_each(b, [&](const StoredResult& r, std::span<const float> criteria) {
         PointResult& point = block[value(r.id) - first] = result(r);
         std::copy(criteria.begin(), criteria.end(), point.criteria.begin());
       });
-      for (; next_boundary < marked && value(boundary[next_boundary].point.id) < last; ++next_boundary) {
-        const StoredBoundary& p = boundary[next_boundary];
+      for (; next < marked && value(marks[next].point.id) < last; ++next) {
+        const StoredBoundary& p = marks[next];
         PointResult& point = block[value(p.point.id) - first];
         point.boundary = p.is_boundary();
         point.coherent = (p.flags & kCoherent) != 0;
@@ -109,25 +82,52 @@ class WorkspaceDetection final : public Detection {
       visit(PointId{first}, block);
     }
   }
-
- private:
-  PointResult result(const StoredResult& r) const {
-    const float sign = turned_ && turned_->contains(r.row) ? -1.0f : 1.0f;
-    return {.probability = r.probability,
-            .criteria = {},
-            .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
-  }
-
-  Summary summary_;
-  MeasuredLoops all_loops_;
-  std::vector<std::size_t> selected_;
-  std::vector<LoopMeasures> loops_;
-  Column<StoredBoundary> boundary_;  // in ascending id
-  std::optional<PointResults> results_;
-  std::optional<ProbabilityGrid> probabilities_;
-  std::optional<Column<StoredSample>> sample_;
-  std::optional<RowSet> turned_;
 };
+
+// Each stream holds what it reads.
+std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBoundary> boundary_points) {
+  auto detection = std::make_unique<Detection>();
+  detection->summary = std::move(findings.summary);
+  for (const std::size_t loop : findings.selected) detection->loops.push_back(findings.loops.measures[loop]);
+
+  const auto loops = std::make_shared<const PlacedLoops>(std::move(findings.loops.loops));
+  detection->for_each_loop_point = [loops, selected = std::move(findings.selected)](std::size_t loop,
+                                                                                    const auto& visit) {
+    loops->for_each_point(selected[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
+  };
+
+  const auto boundary = std::make_shared<const Column<StoredBoundary>>(std::move(boundary_points));
+  detection->for_each_boundary_point = [boundary](const auto& visit) {
+    for_each_record(*boundary, [&](const StoredBoundary& p) {
+      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
+    });
+  };
+  if (findings.points) {
+    const auto blocks =
+        std::make_shared<const ResultBlocks>(ResultBlocks{.points = detection->summary.counts.points,
+                                                          .results = *std::move(findings.points),
+                                                          .boundary = boundary,
+                                                          .turned = std::move(findings.opposed_normals)});
+    detection->for_each_result_block = [blocks](const auto& visit) { blocks->for_each(visit); };
+  }
+  if (findings.sample) {
+    const auto sample = std::make_shared<const Column<StoredSample>>(*std::move(findings.sample));
+    detection->sampled_points = sample->size();
+    detection->for_each_sampled_point = [sample](const auto& visit) {
+      for_each_record(*sample, [&](const StoredSample& s) {
+        visit({s.point.id, s.point.position(), s.probability, {s.normal[0], s.normal[1], s.normal[2]}});
+      });
+    };
+  }
+  if (findings.probabilities) {
+    const auto grid = std::make_shared<const ProbabilityGrid>(*std::move(findings.probabilities));
+    detection->probability_lattice = grid->lattice;
+    detection->for_each_probability_voxel = [grid](const auto& visit) {
+      for_each_record(grid->voxels, visit);
+    };
+  }
+  return detection;
+}
 
 // A tile's points that are coherent or belong to the boundary, each once.
 std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& findings, const Tile& tile,
@@ -197,7 +197,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
     writer.finish();
   }
   summary.phases = job.phases;
-  return std::make_unique<WorkspaceDetection>(std::move(findings), std::move(boundary_points));
+  return make_detection(std::move(findings), std::move(boundary_points));
 }
 
 }  // namespace lacuna

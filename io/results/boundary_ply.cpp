@@ -7,7 +7,7 @@ namespace lacuna::io {
 void write_boundary(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                     OutputFile& out) {
   PlyElement vertex{.name = "vertex",
-                    .count = detection.summary().counts.boundary_points,
+                    .count = detection.summary.counts.boundary_points,
                     .properties = position_and_id(detection, scan, config)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;

@@ -27,8 +27,8 @@ std::string_view table_header() {
 
 void write_table(const Detection& detection, OutputFile& out) {
   out.write(std::string(table_header()) + "\n");
-  for (std::size_t id = 0; id < detection.loops().size(); ++id) {
-    const LoopMeasures& loop = detection.loops()[id];
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+    const LoopMeasures& loop = detection.loops[id];
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
     for (const LoopMeasure& measure : kLoopMeasures) {
       if (measure.is_count) {

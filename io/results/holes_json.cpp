@@ -68,12 +68,12 @@ Json levels_json(const std::vector<LevelSummary>& levels) {
 }
 
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
-  const Summary& summary = detection.summary();
+  const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
   put_crs(scan, json);
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
   json["inputs"] = inputs(scan);
-  json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops());
+  json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops);
   json["bounds"] = corners(summary.bounds);
   json["strays"] = strays_json(summary.strays);
   const LocalOffset offset = local_offset(detection, config.output);
@@ -103,7 +103,7 @@ void write_list(std::string_view key, OutputFile& out,
 
 // Point by point: a loop may be larger than memory.
 void write_loop(std::size_t id, const Detection& detection, bool with_coordinates, OutputFile& out) {
-  const LoopMeasures& measures = detection.loops()[id];
+  const LoopMeasures& measures = detection.loops[id];
   const Json head = {{"id", id},
                      {"kind", name_of(measures.kind)},
                      {"confidence", measures.track.confidence},
@@ -140,11 +140,11 @@ void write_holes(const Detection& detection, const FileScan& scan, const Config&
   text.resize(text.size() - 2);  // without its "\n}": the loops follow
   out.write(text);
   out.write(",\n  \"loops\": [");
-  for (std::size_t i = 0; i < detection.loops().size(); ++i) {
+  for (std::size_t i = 0; i < detection.loops.size(); ++i) {
     out.write(i == 0 ? "\n    " : ",\n    ");
     write_loop(i, detection, !config.output.no_coordinates, out);
   }
-  out.write(detection.loops().empty() ? "]\n}\n" : "\n  ]\n}\n");
+  out.write(detection.loops.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
 }  // namespace lacuna::io

@@ -9,7 +9,7 @@ namespace lacuna::io {
 
 LocalOffset local_offset(const Detection& detection, const OutputConfig& config) {
   if (!config.local_coordinates) return std::nullopt;
-  const Eigen::AlignedBox3d& bounds = detection.summary().strays.rest;
+  const Eigen::AlignedBox3d& bounds = detection.summary.strays.rest;
   if (bounds.isEmpty()) return Eigen::Vector3d(0, 0, 0);
   // Added to 0, -0 is 0.
   return bounds.center().unaryExpr([](double middle) { return std::round(middle) + 0.0; });

@@ -119,7 +119,7 @@ void put_measures(DxfText& dxf, std::size_t id, const LoopMeasures& loop) {
 
 void put_loop(DxfText& dxf, std::size_t id, const Detection& detection) {
   constexpr int kClosed = 1, k3D = 8, k3DVertex = 32;
-  const LoopMeasures& measures = detection.loops()[id];
+  const LoopMeasures& measures = detection.loops[id];
   const char* const layer = layer_of(measures.kind);
   dxf.put(0, "POLYLINE");
   dxf.put(8, layer);
@@ -142,11 +142,11 @@ void put_loop(DxfText& dxf, std::size_t id, const Detection& detection) {
 void write_loops_dxf(const Detection& detection, OutputFile& out) {
   DxfText dxf(out);
   out.write(kDxfMark);
-  put_header(dxf, detection.summary().bounds);
+  put_header(dxf, detection.summary.bounds);
   put_tables(dxf);
   dxf.put(0, "SECTION");
   dxf.put(2, "ENTITIES");
-  for (std::size_t id = 0; id < detection.loops().size(); ++id) put_loop(dxf, id, detection);
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) put_loop(dxf, id, detection);
   dxf.put(0, "ENDSEC");
   dxf.put(0, "EOF");
 }

@@ -55,8 +55,7 @@ class LoopsWriter {
     if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
       result = GisCrs::kNotConverted;
     create();
-    for (std::size_t id = 0; id < task_.detection.loops().size(); ++id)
-      put(id, task_.detection.read_loop(id));
+    for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) put(id, task_.detection.read_loop(id));
     if (has_transaction_) require(dataset_->CommitTransaction() == OGRERR_NONE);
     dataset_.reset();
     require(true);
@@ -106,7 +105,7 @@ class LoopsWriter {
 
   bool converts_all() {
     if (!conversion_) return false;
-    for (std::size_t id = 0; id < task_.detection.loops().size(); ++id) {
+    for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
       if (!line_of(task_.detection.read_loop(id))) return false;
     }
     return true;

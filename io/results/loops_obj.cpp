@@ -24,8 +24,8 @@ std::string head_of(std::size_t id, const LoopMeasures& loop) {
 void write_loops_obj(const Detection& detection, OutputFile& out) {
   out.write(kObjMark);
   std::uint64_t next = 1;  // vertices count from 1, over all objects
-  for (std::size_t id = 0; id < detection.loops().size(); ++id) {
-    const LoopMeasures& loop = detection.loops()[id];
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+    const LoopMeasures& loop = detection.loops[id];
     out.write(head_of(id, loop));
     std::string line;
     detection.for_each_loop_point(id, [&](const LoopPoint& point) {

@@ -11,7 +11,7 @@ namespace {
 
 std::uint64_t count_points(const Detection& detection) {
   std::uint64_t count = 0;
-  for (const LoopMeasures& loop : detection.loops()) count += loop.points;
+  for (const LoopMeasures& loop : detection.loops) count += loop.points;
   return count;
 }
 
@@ -39,8 +39,8 @@ void write_loops(const Detection& detection, const FileScan& scan, const OutputC
                         .properties = {{"vertex1", Scalar::kInt32, {}}, {"vertex2", Scalar::kInt32, {}}}};
   PlyWriter writer(out, {vertex, edge}, local_offset(detection, config));
 
-  for (std::size_t loop = 0; loop < detection.loops().size(); ++loop) {
-    const LoopMeasures& measures = detection.loops()[loop];
+  for (std::size_t loop = 0; loop < detection.loops.size(); ++loop) {
+    const LoopMeasures& measures = detection.loops[loop];
     const LoopColour& colour = colour_of(measures.kind);
     detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
       writer.put_position(coordinate, point.position);
@@ -52,7 +52,7 @@ void write_loops(const Detection& detection, const FileScan& scan, const OutputC
     });
   }
   std::int32_t first = 0;
-  for (const LoopMeasures& loop : detection.loops()) {
+  for (const LoopMeasures& loop : detection.loops) {
     const auto length = static_cast<std::int32_t>(loop.points);
     for (std::int32_t i = 0; i < length; ++i) {
       writer.put(first + i);

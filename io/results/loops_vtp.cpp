@@ -34,8 +34,8 @@ struct Array {
 
 class LoopArrays {
  public:
-  explicit LoopArrays(const Detection& detection) : detection_(detection), loops_(detection.loops().size()) {
-    for (const LoopMeasures& loop : detection.loops()) points_ += loop.points;
+  explicit LoopArrays(const Detection& detection) : detection_(detection), loops_(detection.loops.size()) {
+    for (const LoopMeasures& loop : detection.loops) points_ += loop.points;
     add_points();
     add_lines();
   }
@@ -62,8 +62,7 @@ class LoopArrays {
   void add_for_loops(std::string section, std::string name, std::string type, ValueOf value_of) {
     arrays_.push_back({std::move(section), std::move(name), std::move(type), 1, loops_ * 8,
                        [this, value_of](OutputFile& out) {
-                         for (std::size_t i = 0; i < loops_; ++i)
-                           put(out, value_of(i, detection_.loops()[i]));
+                         for (std::size_t i = 0; i < loops_; ++i) put(out, value_of(i, detection_.loops[i]));
                        }});
   }
 
@@ -97,7 +96,7 @@ class LoopArrays {
     }
     arrays_.push_back({"Lines", "connectivity", "Int64", 1, (points_ + loops_) * 8, [this](OutputFile& out) {
                          std::int64_t first = 0;
-                         for (const LoopMeasures& loop : detection_.loops()) {
+                         for (const LoopMeasures& loop : detection_.loops) {
                            const auto end = first + static_cast<std::int64_t>(loop.points);
                            for (std::int64_t i = first; i < end; ++i) put(out, i);
                            put(out, first);  // closed
@@ -106,7 +105,7 @@ class LoopArrays {
                        }});
     arrays_.push_back({"Lines", "offsets", "Int64", 1, loops_ * 8, [this](OutputFile& out) {
                          std::int64_t end = 0;
-                         for (const LoopMeasures& loop : detection_.loops())
+                         for (const LoopMeasures& loop : detection_.loops)
                            put(out, end += static_cast<std::int64_t>(loop.points) + 1);
                        }});
   }

@@ -40,7 +40,7 @@ std::uint64_t pcd_row_bytes(const FileScan& scan, const OutputConfig& config) {
 void write_points_pcd(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {
   const std::vector<ResultColumn> results = result_columns(scan, config);
-  const std::uint64_t rows = detection.summary().counts.points;
+  const std::uint64_t rows = detection.summary.counts.points;
   check_rows(out.path().string(), rows);
 
   PcdInput input = pcd_input(scan, config, results, local_offset(detection, config));

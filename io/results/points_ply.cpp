@@ -44,7 +44,7 @@ std::uint64_t ply_row_bytes(const FileScan& scan, const OutputConfig& config) {
 void write_points_ply(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {
   const PlyColumns columns(scan, config);
-  PlyElement vertex{.name = "vertex", .count = detection.summary().counts.points, .properties = {}};
+  PlyElement vertex{.name = "vertex", .count = detection.summary.counts.points, .properties = {}};
   for (const Property& property : columns.input.properties)
     vertex.properties.push_back({property.name, property.type, {}});
   for (const ResultColumn& result : columns.results)

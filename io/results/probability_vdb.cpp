@@ -81,7 +81,7 @@ class FileBuffer final : public std::streambuf {
 };
 
 openvdb::FloatGrid::Ptr grid_of(const Detection& detection) {
-  const ProbabilityLattice lattice = detection.probability_lattice();
+  const ProbabilityLattice lattice = detection.probability_lattice;
   const auto grid = openvdb::FloatGrid::create(0);
   auto values = grid->getUnsafeAccessor();
   detection.for_each_probability_voxel([&](const ProbabilityVoxel& voxel) {

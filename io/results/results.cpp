@@ -183,7 +183,7 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,
                                          const OutputConfig& config) {
   const Scalar coordinate = coordinate_type(scan, config);
-  const bool small = detection.summary().counts.points <= std::numeric_limits<std::uint32_t>::max();
+  const bool small = detection.summary.counts.points <= std::numeric_limits<std::uint32_t>::max();
   return {{"x", coordinate, {}},
           {"y", coordinate, {}},
           {"z", coordinate, {}},

@@ -64,7 +64,7 @@ std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config)
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out) {
   PlyElement vertex{.name = "vertex",
-                    .count = detection.sampled_points(),
+                    .count = detection.sampled_points,
                     .properties = position_and_id(detection, scan, config)};
   const Scalar coordinate = vertex.properties.front().type;
   const Scalar id = vertex.properties.back().type;

@@ -90,13 +90,12 @@ Detected run_engine(PointSource& scan, Config config) {
   const test::ScratchFolder workspace;
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
-  Detected detected{.summary = detection->summary()};
+  Detected detected{.summary = detection->summary};
   detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {
     detected.points.insert(detected.points.end(), block.begin(), block.end());
   });
   detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
-  for (std::size_t i = 0; i < detection->loops().size(); ++i)
-    detected.loops.push_back(detection->read_loop(i));
+  for (std::size_t i = 0; i < detection->loops.size(); ++i) detected.loops.push_back(detection->read_loop(i));
   return detected;
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("results come in blocks of consecutive points, each point once, the bo
   const test::ScratchFolder workspace;
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
-  Detected detected{.summary = detection->summary()};
+  Detected detected{.summary = detection->summary};
   std::size_t blocks = 0;
   detection->for_each_result_block([&](PointId first, std::span<const PointResult> block) {
     CHECK(value(first) == detected.points.size());
@@ -109,8 +109,7 @@ TEST_CASE("results come in blocks of consecutive points, each point once, the bo
     detected.points.insert(detected.points.end(), block.begin(), block.end());
   });
   detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
-  for (std::size_t i = 0; i < detection->loops().size(); ++i)
-    detected.loops.push_back(detection->read_loop(i));
+  for (std::size_t i = 0; i < detection->loops.size(); ++i) detected.loops.push_back(detection->read_loop(i));
   CHECK(blocks == 2);
   CHECK(detected.loops.size() == 2);
   check_published(detected, cloud);

@@ -33,8 +33,8 @@ Voxels voxels_of(const Cloud& cloud, Config config = {}) {
   MemoryScan scan(cloud);
   NoProgress quiet;
   const auto detection = detect(scan, config, folder.path(), quiet);
-  Voxels voxels{.lattice = detection->probability_lattice(),
-                .mean_edge_length = detection->summary().mean_edge_length};
+  Voxels voxels{.lattice = detection->probability_lattice,
+                .mean_edge_length = detection->summary.mean_edge_length};
   detection->for_each_probability_voxel([&](const ProbabilityVoxel& voxel) {
     voxels.repeated += !voxels.values.emplace(voxel.coord, voxel.probability).second;
   });

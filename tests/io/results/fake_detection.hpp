@@ -13,8 +13,7 @@
 namespace lacuna::test {
 
 // A run that has found what the test says.
-class FakeDetection final : public Detection {
- public:
+struct FakeDetection {
   Summary numbers;
   std::vector<LoopMeasures> measures;
   std::vector<Loop> found;  // the points of each loop
@@ -47,29 +46,30 @@ class FakeDetection final : public Detection {
     return *this;
   }
 
-  const Summary& summary() const override { return numbers; }
-  const std::vector<LoopMeasures>& loops() const override { return measures; }
-  void for_each_loop_point(std::size_t loop,
-                           const std::function<void(const LoopPoint&)>& visit) const override {
-    for (const LoopPoint& point : found.at(loop)) visit(point);
-  }
-  void for_each_boundary_point(const std::function<void(const BoundaryPoint&)>& visit) const override {
-    for (const BoundaryPoint& point : boundary) visit(point);
-  }
-  void for_each_result_block(
-      const std::function<void(PointId, std::span<const PointResult>)>& visit) const override {
-    for (std::size_t first = 0; first < results.size(); first += block) {
-      visit(PointId{first}, std::span(results).subspan(first, std::min(block, results.size() - first)));
-    }
-  }
-
-  std::uint64_t sampled_points() const override { return sample.size(); }
-  void for_each_sampled_point(const std::function<void(const SampledPoint&)>& visit) const override {
-    for (const SampledPoint& point : sample) visit(point);
-  }
-  ProbabilityLattice probability_lattice() const override { return lattice; }
-  void for_each_probability_voxel(const std::function<void(const ProbabilityVoxel&)>& visit) const override {
-    for (const ProbabilityVoxel& voxel : voxels) visit(voxel);
+  // Its streams read this, which must outlive them.
+  operator Detection() const {
+    const auto all_of = [](const auto& elements) {
+      return [&elements](const auto& visit) {
+        for (const auto& element : elements) visit(element);
+      };
+    };
+    return {.summary = numbers,
+            .loops = measures,
+            .for_each_loop_point =
+                [this](std::size_t loop, const auto& visit) {
+                  for (const LoopPoint& point : found.at(loop)) visit(point);
+                },
+            .for_each_boundary_point = all_of(boundary),
+            .for_each_result_block =
+                [this](const auto& visit) {
+                  for (std::size_t first = 0; first < results.size(); first += block)
+                    visit(PointId{first},
+                          std::span(results).subspan(first, std::min(block, results.size() - first)));
+                },
+            .sampled_points = sample.size(),
+            .for_each_sampled_point = all_of(sample),
+            .probability_lattice = lattice,
+            .for_each_probability_voxel = all_of(voxels)};
   }
 
   std::vector<SampledPoint> sample;
