@@ -69,27 +69,21 @@ struct UsedWorkspace {
   FolderLock alone;
 };
 
-// None where the name is empty. Says what is there of an earlier run, or removes it.
-std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out, WorkspaceUse use) {
-  if (name.empty()) {
-    if (use == WorkspaceUse::kRestart) throw UsageError("--restart needs --workspace");
-    return nullptr;
-  }
+// None where the name is empty.
+std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out) {
+  if (name.empty()) return nullptr;
   std::error_code error;
   if (fs::equivalent(name, out, error))
     throw UsageError(name + ": is the folder of the results, too; allowed: another one for --workspace");
   auto used = std::make_unique<UsedWorkspace>(name);
-  const fs::path& folder = used->folder.path();
-  for (const fs::path& left : find_folders(folder, "lacuna-")) fs::remove(left, error);  // if it is empty
-  if (use == WorkspaceUse::kRestart) {
-    end_update(folder);
-    for (const fs::path& file : workspace_files(folder)) remove_part(file);
-  } else if (use == WorkspaceUse::kUpdate) {
-    begin_update(folder);
-  } else if (const std::optional<WorkspaceState> state = state_of_workspace(folder)) {
-    spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
-  }
+  for (const fs::path& left : find_folders(used->folder.path(), "lacuna-"))
+    fs::remove(left, error);  // if it is empty
   return used;
+}
+
+void restart(const fs::path& workspace) {
+  end_update(workspace);
+  for (const fs::path& file : workspace_files(workspace)) remove_part(file);
 }
 
 fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
@@ -135,7 +129,7 @@ ResultArguments::ResultArguments(CLI::App& command) : RunArguments(command) {
 }
 
 std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config,
-                      const ResultArguments& arguments, WorkspaceUse use) {
+                      const ResultArguments& arguments, const WorkspaceSteps& steps) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
@@ -150,8 +144,14 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   watch_results(out, out / "holes.json");
   for (const fs::path& left : find_folders(out, kTemporaryPrefix))
     spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out, use);
-  if (workspace) watch_workspace(workspace->folder.path());
+  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out);
+  if (workspace) {
+    const fs::path& folder = workspace->folder.path();
+    watch_workspace(folder);
+    if (steps.begin) steps.begin();
+    if (const std::optional<WorkspaceState> state = state_of_workspace(folder))
+      spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
+  }
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
@@ -165,8 +165,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
   note_complete_results();
+  const std::string more = steps.end ? steps.end() : "";
   if (workspace) {
-    write_note(workspace->folder.path(), WorkspaceNote::kResults, fs::absolute(out).string());
+    write_note(workspace->folder.path(), WorkspaceNote::kResults, full_name(out).string());
     end_update(workspace->folder.path());
   }
   progress->end();
@@ -183,7 +184,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";
-  return summary;
+  return summary + more;
 }
 
 namespace {
@@ -199,8 +200,13 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   if (arguments.run.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");
   const ReadOptions options{.columns = config.input.columns,
                             .memory = Memory::share(config.run.memory_limit).reading};
-  const std::string summary = detect_to(expand_inputs(arguments.scans, options), config, arguments.run,
-                                        arguments.restart ? WorkspaceUse::kRestart : WorkspaceUse::kGoOn);
+  WorkspaceSteps steps;
+  if (arguments.restart) {
+    if (config.run.workspace.empty()) throw UsageError("--restart needs --workspace");
+    steps.begin = [&] { restart(config.run.workspace); };
+  }
+  const std::string summary =
+      detect_to(expand_inputs(arguments.scans, options), config, arguments.run, steps);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

@@ -6,6 +6,7 @@
 #include "tools/shown_progress.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,15 @@ struct ResultArguments : RunArguments {
   bool overwrite = false;
 };
 
-enum class WorkspaceUse {
-  kGoOn,
-  kRestart,  // without what it has
-  kUpdate,   // with the tiles of its run that have not changed
+// What a command does besides, with the workspace that this run alone uses.
+struct WorkspaceSteps {
+  std::function<void()> begin;       // before the run
+  std::function<std::string()> end;  // once the results are complete; returns what the summary says of it
 };
 
 // Finds the holes and writes the results; returns their summary.
 std::string detect_to(const std::vector<io::ScanInput>& inputs, const Config& config,
-                      const ResultArguments& arguments, WorkspaceUse use = WorkspaceUse::kGoOn);
+                      const ResultArguments& arguments, const WorkspaceSteps& steps = {});
 
 // It runs when parsed. Throws `Error` when the job fails, `CLI::Error` for wrong usage.
 void add_detect_command(CLI::App& app);

@@ -24,6 +24,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -154,6 +155,11 @@ void prepare_process() {
   std::signal(SIGXFSZ, SIG_IGN);
   start_log();
   show_output_visibly(stdout);
+  // A library may throw where nothing can catch it, such as for a thread that cannot be started.
+  std::set_terminate([] {
+    print_error("the system has no more memory or threads for this process");
+    std::_Exit(kFailed);
+  });
   handle_signals();
 }
 

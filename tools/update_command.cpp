@@ -10,10 +10,11 @@
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,10 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
+
+// What `read_result` reads.
+constexpr std::array<const char*, 5> kComparedFiles = {"loops.ply", "boundary.ply", "sample.ply", "run.json",
+                                                       "holes.json"};
 
 struct UpdateArguments {
   explicit UpdateArguments(CLI::App& command) : run(command) {}
@@ -62,43 +67,90 @@ std::vector<ScanInput> changed_inputs(const UpdateArguments& arguments, const St
   return inputs;
 }
 
-void write_changes(const Comparison& comparison, const fs::path& out, Overwrite overwrite) {
+bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
+  for (std::size_t at = 0; at + 6 <= boxes.size(); at += 6) {
+    if (std::ranges::equal(box, boxes.subspan(at, 6))) return true;
+  }
+  return false;
+}
+
+// The parameters of the run before and those of the command line. Boxes add up.
+Config changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
+  Config base = run.config;
+  base.input.leave_out.clear();
+  Config config = arguments.start(std::move(base));
+  const std::vector<double> boxes = std::exchange(config.input.leave_out, run.config.input.leave_out);
+  for (std::size_t at = 0; at < boxes.size(); at += 6) {
+    const auto box = std::span(boxes).subspan(at, 6);
+    if (is_left_out(box, run.config.input.leave_out))
+      throw Error(workspace.string() + ": a box of --leave-out is left out already");
+    config.input.leave_out.insert(config.input.leave_out.end(), box.begin(), box.end());
+  }
+  config.run.workspace = workspace.string();
+  return config;
+}
+
+// The folder that has the results of the run before; empty: none is known.
+fs::path results_of(const fs::path& workspace) {
+  for (const fs::path& folder : {earlier_parts(workspace), workspace}) {
+    if (const auto note = read_note(folder, WorkspaceNote::kResults)) return *note;
+  }
+  return {};
+}
+
+// Results that the update may replace are kept with the parts, as far as they are compared.
+void keep_results(const fs::path& results, const fs::path& kept) {
+  if (results.empty() || !fs::exists(results / "holes.json") || fs::exists(kept / "holes.json")) return;
+  fs::create_directories(kept);
+  for (const char* name : kComparedFiles) {  // holes.json comes last
+    if (fs::exists(results / name))
+      fs::copy_file(results / name, kept / name, fs::copy_options::overwrite_existing);
+  }
+}
+
+// What has changed, as a file and as text.
+std::string write_changes(const Comparison& comparison, const ResultArguments& to) {
   nlohmann::ordered_json json{{"lacuna", LACUNA_VERSION}};
   json.update(comparison.json());
-  OutputSet set(overwrite);
-  set.add(out / kChangesFile, kJsonMark).write(json.dump(2) + "\n");
+  OutputSet set(to.overwrite ? Overwrite::kAny : Overwrite::kOwn);
+  set.add(to.out / kChangesFile, kJsonMark).write(json.dump(2) + "\n");
   set.commit();
+  return "changes: " + comparison.print_counts() + "\n" + comparison.print_table();
 }
 
 void run_update(const UpdateArguments& arguments) {
   // An update that was stopped begins again with the run before it.
   const fs::path& folder = arguments.workspace;
-  const fs::path earlier = earlier_parts(folder);
-  const fs::path& source = workspace_files(earlier).empty() ? folder : earlier;
+  const fs::path source = is_workspace(earlier_parts(folder)) ? earlier_parts(folder) : folder;
   const StoredRun run = read_run(source);
-  Config base = run.config;
-  base.input.leave_out.clear();
-  Config config = arguments.run.start(std::move(base));
-  const std::vector<double> boxes = std::exchange(config.input.leave_out, run.config.input.leave_out);
-  config.input.leave_out.insert(config.input.leave_out.end(), boxes.begin(), boxes.end());
-  config.run.workspace = folder.string();
+  const Config config = changed_config(arguments.run, run, folder);
   const std::vector<ScanInput> inputs = changed_inputs(arguments, run, config);
-
-  const fs::path results = read_note(source, WorkspaceNote::kResults).value_or("");
   ResultArguments to = arguments.run;
-  if (to.out.empty()) to.out = results;
-  if (to.out.empty()) throw CLI::RequiredError("--out");
-  std::optional<ComparedResult> before;
-  if (fs::exists(results / "holes.json")) before = read_result(results);
+  if (to.out.empty()) to.out = results_of(folder);
+  if (to.out.empty())
+    throw Error(folder.string() + ": does not name the folder of its results; allowed: --out DIR");
 
-  std::string summary = detect_to(inputs, config, to, WorkspaceUse::kUpdate);
-  if (before) {
-    const Comparison comparison(*std::move(before), read_result(to.out));
-    write_changes(comparison, to.out, to.overwrite ? Overwrite::kAny : Overwrite::kOwn);
-    summary += "changes: " + comparison.print_counts() + "\n" + comparison.print_table();
-  } else {
-    spdlog::warn("the results of the run before are not there any more: what has changed is not said");
-  }
+  const fs::path kept = earlier_parts(folder) / "compared";
+  const WorkspaceSteps steps{
+      .begin =
+          [&] {
+            if (read_run(source).made_from != run.made_from)
+              throw Error(folder.string() + ": another update has changed it meanwhile");
+            keep_results(results_of(folder), kept);
+            begin_update(folder);
+          },
+      .end =
+          [&] {
+            std::string text;
+            if (fs::exists(kept / "holes.json")) {
+              text = write_changes(Comparison(read_result(kept), read_result(to.out)), to);
+            } else {
+              spdlog::warn("the results of the run before are gone: what has changed is not known");
+            }
+            fs::remove_all(kept);
+            return text;
+          }};
+  const std::string summary = detect_to(inputs, config, to, steps);
   if (!to.quiet) std::cout << summary;
 }
 

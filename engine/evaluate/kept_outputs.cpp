@@ -19,7 +19,7 @@ constexpr int kPartsOfRun = 64;
 }  // namespace
 
 KeptOutputs::KeptOutputs(std::size_t level, const Tiling& tiling, const std::string& made_from,
-                         const std::string& earlier, const Job& job)
+                         const std::string& earlier, PartReader::Check check, const Job& job)
     : level_(level),
       tiling_(tiling),
       made_from_(digest_of(made_from)),
@@ -28,11 +28,11 @@ KeptOutputs::KeptOutputs(std::size_t level, const Tiling& tiling, const std::str
       least_age_(job.is_unit ? kLeastAgeOfUnit : kLeastAge) {
   if (job.kept.empty()) return;
   prefix_ = tiles_prefix(job.kept, level);
-  // A unit needs to know only which tiles there are.
-  const auto check = job.is_unit ? PartReader::Check::kTable : PartReader::Check::kWhole;
   for (const fs::path& file : files_of(job.kept)) {
-    if (std::optional<PartReader> part = PartReader::open(file, made_from_, check)) {
-      for (const std::uint64_t tile : part->keys()) has_.at(tile) = 1;
+    std::optional<PartReader> part = PartReader::open(file, made_from_, check);
+    const auto is_tile = [&](std::uint64_t tile) { return tile < has_.size(); };
+    if (part && std::ranges::all_of(part->keys(), is_tile)) {
+      for (const std::uint64_t tile : part->keys()) has_[tile] = 1;
       parts_.push_back(*std::move(part));
     } else if (!job.is_unit) {
       remove_part(file);

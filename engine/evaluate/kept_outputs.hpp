@@ -28,7 +28,7 @@ class KeptOutputs {
   // `level`: its number. `tiling` must outlive it. `earlier`: what those of the run before an update were
   // made from; empty: there are none.
   KeptOutputs(std::size_t level, const Tiling& tiling, const std::string& made_from,
-              const std::string& earlier, const Job& job);
+              const std::string& earlier, PartReader::Check check, const Job& job);
 
   std::vector<TileIndex> missing() const;  // tiles of which nothing is kept, ascending
   // visit(tile, output), from several threads at once.

@@ -56,7 +56,7 @@ Totals evaluate_level(const Level& level, std::span<TileConsumer* const> consume
                       const TakeOutput& take) {
   Totals totals(level.extent);
   std::mutex mutex;
-  KeptOutputs kept = find_outputs(level, job);
+  KeptOutputs kept = find_outputs(level, PartReader::Check::kWhole, job);
   evaluate(level, kept.missing(), consumers, kept, job, [&](TileIndex t, const TileOutput& output) {
     take(t, output);
     const std::lock_guard lock(mutex);
@@ -67,7 +67,7 @@ Totals evaluate_level(const Level& level, std::span<TileConsumer* const> consume
 
 void evaluate_share(const Level& level, const TaskShare& share, std::span<TileConsumer* const> consumers,
                     Job& job) {
-  KeptOutputs kept = find_outputs(level, job);
+  KeptOutputs kept = find_outputs(level, PartReader::Check::kTable, job);
   const std::vector<TileIndex> tiles = tiles_in(share, kept.missing(), level.store.tiling());
   evaluate(level, tiles, consumers, kept, job, [](TileIndex, const TileOutput&) {});
 }

@@ -288,13 +288,13 @@ std::optional<TileGuide> find_guide(std::size_t number, const Job& job) {
   return guide_of(records.front(), *part);
 }
 
-KeptOutputs find_outputs(const Level& level, const Job& job) {
+KeptOutputs find_outputs(const Level& level, PartReader::Check check, const Job& job) {
   // Levels above the first one have no outputs but those of their loops.
   const std::string wanted = level.number == 0 ? output_parameters(job.config) : "";
   std::string earlier;
   if (const std::optional<PartReader> part = open_earlier(level.number, job))
     earlier = evaluation_of(part->checksum(), job) + wanted;
-  return KeptOutputs(level.number, level.store.tiling(), level.evaluation + wanted, earlier, job);
+  return KeptOutputs(level.number, level.store.tiling(), level.evaluation + wanted, earlier, check, job);
 }
 
 }  // namespace lacuna

@@ -29,6 +29,6 @@ std::optional<Level> find_level(std::size_t number, const Job& job);
 std::optional<TileGuide> find_guide(std::size_t number, const Job& job);
 
 // The outputs of the level's tiles that are sealed already, and those of the run before an update.
-KeptOutputs find_outputs(const Level& level, const Job& job);
+KeptOutputs find_outputs(const Level& level, PartReader::Check check, const Job& job);
 
 }  // namespace lacuna

@@ -61,17 +61,6 @@ Whereabouts whereabouts_of(const PointBatch& batch) {
   return place;
 }
 
-// The cell that holds the point is at `kMiddle` along each axis. Its bits alternate. So its distance to the
-// nearest border of a node of the tree is a third of the node's size, however often cells merge. A scan in
-// the middle of few nodes needs few of them.
-constexpr double kMiddle = 0x2aaaaaa;
-
-std::array<double, 3> origin_at(const Eigen::Vector3d& point, int finest) {
-  const double scale = std::ldexp(1.0, -finest);
-  const auto along = [&](double x) { return std::floor(x * scale) - kMiddle; };
-  return {along(point.x()), along(point.y()), along(point.z())};
-}
-
 constexpr std::size_t kMostRuns = 256;
 
 // visit(some): runs that are counted at a time.
@@ -163,9 +152,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
   // Cells below the last digit of the coordinates would divide nothing.
   const int digit = farthest > 0 ? std::ilogb(farthest) - std::numeric_limits<double>::digits : kMinExponent;
-  scan_.grid.finest =
-      std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
-  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
+  int finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
+  scan_.grid = CellGrid::around(place.middle, finest);
 
   // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
   const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
@@ -185,8 +173,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   const double most = 2 * points / kPointsPerCell;
   for (double cells = std::ldexp(static_cast<double>(sample.cells_in_company()), 2 * doublings); cells > most;
        cells /= 4)
-    ++scan_.grid.finest;
-  scan_.grid.origin = origin_at(place.middle, scan_.grid.finest);
+    ++finest;
+  scan_.grid = CellGrid::around(place.middle, finest);
   sized_ = true;
 }
 

@@ -143,7 +143,7 @@ fs::path earlier_parts(const fs::path& folder) {
 
 void begin_update(const fs::path& folder) {
   const fs::path earlier = earlier_parts(folder);
-  if (PartReader::is_part(earlier / kRun)) return;
+  if (is_workspace(earlier)) return;
   std::vector<fs::path> files = workspace_files(folder);
   // The part of the run goes last: with it, the folder is a workspace.
   std::partition(files.begin(), files.end(), [](const fs::path& file) { return file.filename() != kRun; });
@@ -157,8 +157,13 @@ void begin_update(const fs::path& folder) {
 
 void end_update(const fs::path& folder) {
   const fs::path earlier = earlier_parts(folder);
-  for (const fs::path& file : workspace_files(earlier)) remove_part(file);
   std::error_code error;
+  if (!fs::is_directory(earlier, error)) return;
+  // The part of the run goes first: without it, the update is at its end.
+  if (is_workspace(earlier)) remove_part(earlier / kRun);
+  for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
+    if (is_workspace_name(entry.path().filename().string())) remove_part(entry.path());
+  }
   fs::remove(earlier, error);  // unless it has other files
 }
 
@@ -194,9 +199,13 @@ std::optional<std::size_t> level_of_outputs(const fs::path& file) {
   return std::stoul(name.substr(kTiles.size()));
 }
 
+bool is_workspace(const fs::path& folder) {
+  return PartReader::is_part(folder / kRun);
+}
+
 std::vector<fs::path> workspace_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  if (!PartReader::is_part(folder / kRun)) return files;
+  if (!is_workspace(folder)) return files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (fs::is_regular_file(entry.symlink_status()) && is_workspace_name(entry.path().filename().string()))
       files.push_back(entry.path());
@@ -224,7 +233,7 @@ void open_workspace(const PointSource& scan, Job& job) {
                 "\" there, \"" + first_other(now, *before) +
                 "\" here; allowed: the same input and parameters, another folder, or --restart");
   }
-  if (!PartReader::is_part(folder / kRun)) refuse_others(folder);
+  if (!is_workspace(folder)) refuse_others(folder);
   for (const fs::path& file : workspace_files(folder)) {
     if (!job.is_unit && file.extension() == kUnsealed) remove_part(file);
   }
@@ -241,7 +250,7 @@ void open_workspace(const PointSource& scan, Job& job) {
     part.seal(digest_of(kRun));
   }
   job.kept = folder;
-  if (PartReader::is_part(earlier_parts(folder) / kRun)) job.earlier = earlier_parts(folder);
+  if (is_workspace(earlier_parts(folder))) job.earlier = earlier_parts(folder);
   job.made_from = joined(now);
 }
 

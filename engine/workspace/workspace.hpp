@@ -52,6 +52,8 @@ void begin_update(const std::filesystem::path& folder);
 void end_update(const std::filesystem::path& folder);
 std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // where they are, if they are
 
+bool is_workspace(const std::filesystem::path& folder);
+
 // Names of parts: the points of a level, and outputs of its tiles.
 std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);

@@ -105,6 +105,25 @@ TEST_CASE("units that are lost, done twice, out of order or at the same time cha
   }
 }
 
+TEST_CASE("a step does not trust damaged outputs of the step before") {
+  Random random(9);
+  for (int round = 0; round < 20; ++round) {
+    SharedRun run;
+    const std::vector<Step> steps = run.planned(2);
+    run.work_on(steps[0], 0);
+    for (std::size_t task = 0; task < 2; ++task) run.work_on(steps[1], task);
+    for (const fs::path& file : workspace_files(run.config.run.workspace)) {
+      if (!level_of_outputs(file)) continue;
+      std::string content = test::read_file(file);
+      content[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(content.size()) - 1))] ^= 8;
+      fs::rename(run.folder.write("damaged", content), file);
+    }
+    run.work_on(steps[2], 0);
+    INFO("round " << round);
+    CHECK(run.bytes() == run.expected());
+  }
+}
+
 TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
   SharedRun run;
   const std::vector<Step> steps = run.planned(5);

@@ -109,6 +109,18 @@ TEST_CASE("an update that is killed goes on with the same command") {
   scan.is_as({scan.first, scan.patch});
 }
 
+TEST_CASE("an update that was stopped knows what it compares with, also once the results are gone") {
+  const Updated scan;
+  const std::vector<std::string> arguments = scan.update({"--add", scan.patch, "--quiet"});
+  const fs::path kept = fs::path(scan.workspace) / "before" / "run";
+  test::run_program_until(arguments, SIGKILL, [&] { return fs::exists(kept); });
+  if (!fs::exists(kept)) return;  // it was done before
+  fs::remove_all(scan.out);
+  REQUIRE(run_program(arguments).exit_code == 0);
+  CHECK(scan.changes() == std::map<std::string, int>{{"closed", 1}, {"same", 1}});
+  CHECK_FALSE(fs::exists(fs::path(scan.workspace) / "before"));
+}
+
 TEST_CASE("what cannot be updated is said in a line") {
   const Updated scan;
   check_failure(run_program(scan.update({"--add", scan.first})), 1, "is an input of the run already");
@@ -116,11 +128,23 @@ TEST_CASE("what cannot be updated is said in a line") {
   check_failure(run_program(scan.update({"--replace", scan.patch + "=" + scan.first})), 1,
                 "is no input of the run");
   check_failure(run_program(scan.update({"--leave-out", "1,2,3"})), 2, "6 for each box");
-  check_failure(run_program(scan.update({"--leave-out", "1,2,3,0,5,6"})), 2, "min x = 1.0 is above max x = 0.0");
+  check_failure(run_program(scan.update({"--leave-out", "1,2,3,0,5,6"})), 2,
+                "min x = 1.0 is above max x = 0.0");
   check_failure(run_program(scan.update({"--add", "missing.txt"})), 1, "missing.txt");
   check_failure(run_program({"update", scan.folder.path().string(), "--out", scan.out}), 1,
                 "not the workspace of a run");
-  // The workspace is as it was.
+  fs::rename(fs::path(scan.workspace) / "results", scan.folder / "results");
+  check_failure(run_program(scan.update({"--add", scan.patch})), 1,
+                "does not name the folder of its results");
+  fs::rename(scan.folder / "results", fs::path(scan.workspace) / "results");
+  REQUIRE(scan.run(scan.update({"--leave-out", "20,20,-1,30,30,1"})).exit_code == 0);
+  check_failure(run_program(scan.update({"--leave-out", "20,20,-1,30,30,1"})), 1, "is left out already");
+}
+
+TEST_CASE("an update that is refused leaves the workspace as it was") {
+  const Updated scan;
+  check_failure(run_program(scan.update({"--add", "missing.txt"})), 1, "missing.txt");
+  CHECK_FALSE(fs::exists(fs::path(scan.workspace) / "before"));
   REQUIRE(scan.run({"detect", scan.first, "--workspace", scan.workspace, "--out", scan.out}).exit_code == 0);
 }
 

@@ -26,7 +26,7 @@ struct Kept {
 
   // The outputs that are there; each is one number.
   std::map<TileIndex, std::uint64_t> numbers(const std::string& made_from) const {
-    const KeptOutputs kept(3, tiling, made_from, "", job);
+    const KeptOutputs kept(3, tiling, made_from, "", check, job);
     std::map<TileIndex, std::uint64_t> numbers;
     std::mutex mutex;
     kept.for_each(job, [&](TileIndex tile, const TileOutput& output) {
@@ -37,7 +37,7 @@ struct Kept {
     return numbers;
   }
   void add(const std::string& made_from, const std::map<TileIndex, std::uint64_t>& numbers) const {
-    KeptOutputs kept(3, tiling, made_from, "", job);
+    KeptOutputs kept(3, tiling, made_from, "", check, job);
     for (const auto& [tile, number] : numbers) {
       TileOutput output;
       output.add("number", std::vector{number});
@@ -46,6 +46,7 @@ struct Kept {
     kept.finish();
   }
 
+  PartReader::Check check = PartReader::Check::kWhole;
   Tiling tiling;
   Config config;
   NoProgress quiet;
@@ -79,6 +80,7 @@ TEST_CASE("a unit takes no part away, and is content with the table of a part") 
   Kept kept(folder);
   kept.add("a", {{0, 10}});
   kept.job.is_unit = true;
+  kept.check = PartReader::Check::kTable;
   kept.add("b", {{1, 11}});
   CHECK(kept.numbers("a") == std::map<TileIndex, std::uint64_t>{{0, 10}});
   CHECK(kept.numbers("b") == std::map<TileIndex, std::uint64_t>{{1, 11}});
