@@ -49,6 +49,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_points", "40"},
     {"columns", "y x z classification return_number number_of_returns"},
     {"bounds", "2,2,100,300"},
+    {"leave_out", "2,2,-5,30,30,5"},
     {"classes", "2"},
     {"returns", "first"},
     {"crs", "EPSG:25832"},
