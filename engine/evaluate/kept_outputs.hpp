@@ -26,7 +26,7 @@ class KeptOutputs {
  public:
   // Finds the sealed outputs that are whole and made from this. Where no workspace is kept there are none.
   // `level`: its number. `tiling` must outlive it. `earlier`: what those of the run before an update were
-  // made from; empty: there are none.
+  // made from; empty: there are none. `check`: the table suffices where no output is read.
   KeptOutputs(std::size_t level, const Tiling& tiling, const std::string& made_from,
               const std::string& earlier, PartReader::Check check, const Job& job);
 

@@ -4,6 +4,7 @@
 #include "engine/halo/halo.hpp"
 #include "engine/levels/sealed_level.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -32,7 +33,7 @@ void evaluate(const Level& level, std::span<const TileIndex> tiles, std::span<Ti
   kept.finish();
 }
 
-// Whether the middle of the tile's points is in the share.
+// Those of which the middle point is in the share.
 std::vector<TileIndex> tiles_in(const TaskShare& share, std::span<const TileIndex> tiles,
                                 const Tiling& tiling) {
   std::vector<TileIndex> mine;
@@ -41,10 +42,11 @@ std::vector<TileIndex> tiles_in(const TaskShare& share, std::span<const TileInde
   auto next = tiles.begin();
   for (TileIndex t = 0; t < tiling.tiles.size() && next != tiles.end(); ++t) {
     const double middle = static_cast<double>(before) + static_cast<double>(tiling.tiles[t].points) / 2;
-    const auto task = static_cast<std::size_t>(middle / all * static_cast<double>(share.tasks));
+    const auto task =
+        static_cast<std::size_t>(middle / all * static_cast<double>(share.tasks));  // or `tasks`
     before += tiling.tiles[t].points;
     if (*next != t) continue;
-    if (task == share.task) mine.push_back(t);
+    if (std::min(task, share.tasks - 1) == share.task) mine.push_back(t);
     ++next;
   }
   return mine;
