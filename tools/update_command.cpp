@@ -130,7 +130,7 @@ void run_update(const UpdateArguments& arguments) {
   if (to.out.empty())
     throw Error(folder.string() + ": does not name the folder of its results; allowed: --out DIR");
 
-  const fs::path kept = earlier_parts(folder) / "compared";
+  const fs::path kept = earlier_results(folder);
   const WorkspaceSteps steps{
       .begin =
           [&] {
@@ -147,7 +147,6 @@ void run_update(const UpdateArguments& arguments) {
             } else {
               spdlog::warn("the results of the run before are gone: what has changed is not known");
             }
-            fs::remove_all(kept);
             return text;
           }};
   const std::string summary = detect_to(inputs, config, to, steps);

@@ -141,6 +141,10 @@ fs::path earlier_parts(const fs::path& folder) {
   return folder / "before";
 }
 
+fs::path earlier_results(const fs::path& folder) {
+  return earlier_parts(folder) / "compared";
+}
+
 void begin_update(const fs::path& folder) {
   const fs::path earlier = earlier_parts(folder);
   if (is_workspace(earlier)) return;
@@ -164,6 +168,7 @@ void end_update(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
     if (is_workspace_name(entry.path().filename().string())) remove_part(entry.path());
   }
+  fs::remove_all(earlier_results(folder), error);
   fs::remove(earlier, error);  // unless it has other files
 }
 

@@ -51,6 +51,8 @@ std::optional<std::string> read_note(const std::filesystem::path& folder, Worksp
 void begin_update(const std::filesystem::path& folder);
 void end_update(const std::filesystem::path& folder);
 std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // where they are, if they are
+// A folder for results of the run before, which `end_update` removes with the parts.
+std::filesystem::path earlier_results(const std::filesystem::path& folder);
 
 bool is_workspace(const std::filesystem::path& folder);
 

@@ -12,6 +12,8 @@
 #include <atomic>
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -123,15 +125,14 @@ TEST_CASE("tiles that lie apart from what has changed are not evaluated again, a
     MemoryScan input(cloud);
     Job job(config, scratch.path(), quiet);
     open_workspace(input, job);
-    std::optional<Level> level = first_level(input, job);
+    auto level = std::make_unique<Level>(first_level(input, job));
     while (level && counts.size() < 3) {
       Consumers consumers(*level, job);
       consumers.all.push_back(&counter);
       const Totals totals = evaluate_level(*level, consumers.all, job, [](TileIndex, const TileOutput&) {});
       counts.push_back({counter.take(), level->store.tiling().tiles.size()});
       std::optional<Level> above = level_above(*level, totals, job);
-      level.reset();
-      if (above) level.emplace(*std::move(above));
+      level = above ? std::make_unique<Level>(*std::move(above)) : nullptr;
     }
     return counts;
   };
