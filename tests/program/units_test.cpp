@@ -28,7 +28,7 @@ struct Shared {
     folder.write("b.txt", "0 0 9\n0 1 9\n1 0 9\n");
     folder.write("all.list", "a.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
   }
-  std::string list() const { return "@" + (folder / "all.list").string(); }
+  std::string list() const { return std::string("@").append((folder / "all.list").string()); }
   ProgramResult plan(std::vector<std::string> more = {}) const {
     std::vector<std::string> all = {"plan", list(), "--workspace", workspace, "--tasks", "3"};
     all.insert(all.end(), more.begin(), more.end());
