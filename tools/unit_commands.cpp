@@ -13,7 +13,6 @@
 #include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
 #include "tools/summary.hpp"
-#include "tools/visible_text.hpp"
 
 #include <algorithm>
 #include <cmath>

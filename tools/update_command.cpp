@@ -7,7 +7,6 @@
 #include "tools/compare_command.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/input_files.hpp"
-#include "tools/visible_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -123,6 +122,7 @@ void run_update(const UpdateArguments& arguments) {
   const fs::path& folder = arguments.workspace;
   const fs::path source = is_workspace(earlier_parts(folder)) ? earlier_parts(folder) : folder;
   const StoredRun run = read_run(source);
+  const auto made_from = made_from_of(source);
   const Config config = changed_config(arguments.run, run, folder);
   const std::vector<ScanInput> inputs = changed_inputs(arguments, run, config);
   ResultArguments to = arguments.run;
@@ -134,7 +134,7 @@ void run_update(const UpdateArguments& arguments) {
   const WorkspaceSteps steps{
       .begin =
           [&] {
-            if (read_run(source).made_from != run.made_from)
+            if (made_from_of(source) != made_from)
               throw Error(folder.string() + ": another update has changed it meanwhile");
             keep_results(results_of(folder), kept);
             begin_update(folder);

@@ -43,11 +43,8 @@ KeptOutputs::KeptOutputs(std::size_t level, const Tiling& tiling, const std::str
 
 // The parts of the level in a folder.
 std::vector<fs::path> KeptOutputs::files_of(const fs::path& folder) const {
-  const std::string prefix = tiles_prefix(folder, level_).string();
   std::vector<fs::path> files = workspace_files(folder);
-  std::erase_if(files, [&](const fs::path& file) {
-    return !file.string().starts_with(prefix) || file.has_extension();
-  });
+  std::erase_if(files, [&](const fs::path& file) { return level_of_outputs(file) != level_; });
   return files;
 }
 

@@ -155,7 +155,7 @@ bool PartReader::is_part(const fs::path& path) {
 
 std::optional<PartReader> PartReader::open(const fs::path& path, const std::optional<Digest>& made_from,
                                            Check check) {
-  std::optional<PartReader> part = open_unchecked(path);
+  std::optional<PartReader> part = open_table(path);
   if (!part) return std::nullopt;
   const Trailer trailer = *trailer_of(part->file_);
   if (made_from && trailer.made_from != *made_from) return std::nullopt;
@@ -168,7 +168,7 @@ std::optional<PartReader> PartReader::open(const fs::path& path, const std::opti
 }
 
 // An entry outside of the streams is left out.
-std::optional<PartReader> PartReader::open_unchecked(const fs::path& path) {
+std::optional<PartReader> PartReader::open_table(const fs::path& path) {
   std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (!file) return std::nullopt;
   const std::optional<Trailer> trailer = trailer_of(*file);

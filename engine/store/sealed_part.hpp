@@ -80,8 +80,6 @@ class PartReader {
                                         const std::optional<Digest>& made_from, Check check = Check::kWhole);
 
   const Digest& checksum() const { return checksum_; }
-  // Takes a part of whatever it was made; reads its table alone.
-  static std::optional<PartReader> open_unchecked(const std::filesystem::path& path);
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
@@ -101,6 +99,7 @@ class PartReader {
     std::uint64_t offset, bytes;
   };
   explicit PartReader(StoreFile file) : file_(std::move(file)) {}
+  static std::optional<PartReader> open_table(const std::filesystem::path& path);
   std::span<const Extent> extents(std::string_view stream, std::uint64_t key) const;
   [[noreturn]] void fail_record_size(std::string_view stream) const;
 

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION;
 constexpr const char* kRun = "run";  // the part that says whose workspace it is
 constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
@@ -56,7 +57,7 @@ bool is_of_outputs(const Parameter& p) {
 }
 
 Lines made_from(const Lines& identity, const Config& config) {
-  Lines lines = {"lacuna " LACUNA_VERSION};
+  Lines lines = {kProgram};
   for (const std::string& part : identity) lines.push_back("input: " + part);
   for (const std::string& line : parameter_lines(config, is_of_input)) lines.push_back(line);
   return lines;
@@ -85,12 +86,6 @@ Lines split(std::span<const char> text, char end) {
 
 std::optional<PartReader> open_run(const fs::path& folder) {
   return PartReader::open(folder / kRun, digest_of(kRun));
-}
-
-std::optional<Lines> lines_of(const fs::path& folder) {
-  const std::optional<PartReader> part = open_run(folder);
-  if (!part) return std::nullopt;
-  return split(part->records<char>("made from", 0), '\n');
 }
 
 bool is_workspace_name(const std::string& name) {
@@ -172,13 +167,21 @@ void end_update(const fs::path& folder) {
   fs::remove(earlier, error);  // unless it has other files
 }
 
+std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
+  const std::optional<PartReader> part = open_run(folder);
+  if (!part) return std::nullopt;
+  return split(part->records<char>("made from", 0), '\n');
+}
+
+bool is_of_this_program(const std::vector<std::string>& made_from) {
+  return !made_from.empty() && made_from.front() == kProgram;
+}
+
 StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'),
-                .made_from = split(part->records<char>("made from", 0), '\n'),
-                .config = {}};
+  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}};
   const std::vector<char> text = part->records<char>("config", 0);
   read_config_text({text.data(), text.size()}, folder / kRun, run.config);
   return run;
@@ -232,7 +235,7 @@ void open_workspace(const PointSource& scan, Job& job) {
   if (identity.empty())
     throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
   const Lines now = made_from(identity, job.config);
-  const std::optional<Lines> before = lines_of(folder);
+  const std::optional<Lines> before = made_from_of(folder);
   if (before && *before != now) {
     throw Error(folder.string() + ": the workspace of another run: \"" + first_other(*before, now) +
                 "\" there, \"" + first_other(now, *before) +

@@ -34,12 +34,15 @@ enum class WorkspaceNote {
 
 // What a workspace knows of its run, so that another process can do a part of it.
 struct StoredRun {
-  std::vector<std::string> names;      // `PointSource::names`
-  std::vector<std::string> made_from;  // what its parts are made from, a line each
+  std::vector<std::string> names;  // `PointSource::names`
   Config config;
 };
 // Throws `Error` where the folder is no workspace.
 StoredRun read_run(const std::filesystem::path& folder);
+// What the parts are made from, a line each. None where the part of the run is damaged: the run makes it
+// again.
+std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
+bool is_of_this_program(const std::vector<std::string>& made_from);  // so that it can read the run
 
 // A line of text as a part of its own; none where there is no such part.
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);

@@ -62,8 +62,7 @@ std::optional<double> seconds_left(const std::vector<LevelState>& levels, double
 std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
   const std::vector<fs::path> files = workspace_files(folder);
   if (files.empty()) return std::nullopt;
-  const StoredRun run = read_run(folder);
-  WorkspaceState state{.made_from = run.made_from,
+  WorkspaceState state{.made_from = made_from_of(folder).value_or(std::vector<std::string>{}),
                        .is_update = !workspace_files(earlier_parts(folder)).empty()};
   std::map<std::size_t, LevelParts> levels;
   std::vector<Sealed> sealed;
@@ -72,7 +71,8 @@ std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
     if (const std::uintmax_t bytes = fs::file_size(file, error); !error) state.bytes += bytes;
     const std::optional<std::size_t> of_points = level_of_part(file), of_tiles = level_of_outputs(file);
     const std::optional<PartReader> part =
-        of_points || of_tiles ? PartReader::open_unchecked(file) : std::nullopt;
+        of_points || of_tiles ? PartReader::open(file, std::nullopt, PartReader::Check::kTable)
+                              : std::nullopt;
     if (!part) continue;
     sealed.push_back({fs::last_write_time(file, error), of_tiles.has_value()});
     if (of_points) {
@@ -90,9 +90,10 @@ std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
       if (parts.evaluated.contains(t)) level.evaluated_points += parts.tiles[t].points;
     }
   }
-  if (!state.levels.empty())
-    state.seconds_left =
-        seconds_left(state.levels, seconds_of_outputs(std::move(sealed)), has_levels(run.config));
+  // Without the part of the run, how many levels there will be is not known.
+  if (!state.levels.empty() && is_of_this_program(state.made_from))
+    state.seconds_left = seconds_left(state.levels, seconds_of_outputs(std::move(sealed)),
+                                      has_levels(read_run(folder).config));
   return state;
 }
 

@@ -1,9 +1,9 @@
 // A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
 #include "engine/workspace/workspace.hpp"
-#include "engine/workspace/workspace_state.hpp"
 
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
+#include "engine/workspace/workspace_state.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
@@ -163,6 +163,19 @@ TEST_CASE("another input, and parameters that the parts depend on, are an error 
                     Contains("\"k = 15\" there, \"k = 20\" here") && Contains("--restart"));
   CHECK_THROWS_WITH(bytes_of(scan().translated({1, 0, 0}), small_tiles(), folder.path()),
                     Contains("the workspace of another run: \"input: "));
+}
+
+TEST_CASE("a run whose own part is damaged goes on, and the workspace keeps its state") {
+  const ScratchFolder folder;
+  const std::string expected = bytes_of(scan(), small_tiles(), folder.path());
+  std::string content = test::read_file(folder / "run");
+  content[content.size() / 2] ^= 1;
+  fs::rename(folder.write("damaged", content), folder / "run");
+  const auto state = state_of_workspace(folder.path());
+  REQUIRE(state);
+  CHECK(state->made_from.empty());
+  CHECK(state->levels.size() > 2);
+  CHECK(bytes_of(scan(), small_tiles(), folder.path()) == expected);
 }
 
 TEST_CASE("a folder with others' files of the names of parts is refused, and they stay") {
