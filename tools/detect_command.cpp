@@ -122,6 +122,18 @@ Config RunArguments::start(Config base) const {
   return config;
 }
 
+std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) const {
+  return make_progress(quiet ? ProgressStyle::kNone : progress, expected_stages(config));
+}
+
+std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const Config& config) {
+  auto scan =
+      std::make_unique<FileScan>(inputs, config.input, Memory::share(config.run.memory_limit).reading);
+  refuse_degrees(*scan);
+  for (const std::string& warning : input_warnings(*scan)) spdlog::warn("{}", warning);
+  return scan;
+}
+
 ResultArguments::ResultArguments(CLI::App& command) : RunArguments(command) {
   command.add_option("--out", out, "Folder for the results; created if missing")->type_name("DIR");
   command.add_flag("--overwrite", overwrite,
@@ -132,10 +144,8 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
                       const ResultArguments& arguments, const WorkspaceSteps& steps) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
-  FileScan scan(inputs, config.input, memory);
-  refuse_degrees(scan);
-  for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
+  const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
+  FileScan& scan = *opened;
 
   const MadeFolder out_folder(arguments.out);
   const fs::path& out = out_folder.path();
@@ -157,8 +167,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
   for (const std::string& warning : check_disks(scan, config, parent.path(), out))
     spdlog::warn("{}", warning);
-  const std::unique_ptr<Progress> progress =
-      make_progress(arguments.quiet ? ProgressStyle::kNone : arguments.progress, expected_stages(config));
+  const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
   const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
   const Clock::time_point writing = Clock::now();

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct RunArguments {
   // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
   Config start(Config base = {}) const;
 
+  std::unique_ptr<Progress> show_progress(const Config& config) const;
+
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
   std::filesystem::path log_file;
@@ -34,6 +37,9 @@ struct ResultArguments : RunArguments {
   std::filesystem::path out;
   bool overwrite = false;
 };
+
+// The files of a run as one scan. Warns of what is odd, and refuses degrees. Throws `Error`.
+std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs, const Config& config);
 
 // What a command does besides, with the workspace that this run alone uses.
 struct WorkspaceSteps {

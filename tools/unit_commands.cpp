@@ -8,9 +8,6 @@
 #include "tools/detect_command.hpp"
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
-#include "tools/overall_progress.hpp"
-#include "tools/scan_warnings.hpp"
-#include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
 #include "tools/summary.hpp"
 
@@ -21,8 +18,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -42,8 +37,8 @@ std::uint64_t about_points(const FileScan& scan) {
 
 // Whole minutes that a task takes at most, on a slow core.
 std::uint64_t minutes_of(const Step& step, std::int64_t threads) {
-  // Measured: 0.4 and 1.5 on rough scans.
-  const double of_point = step.evaluates ? 3e-6 : 2e-6;  // seconds of one thread
+  // Seconds of one thread. Measured on rough scans: 1.4e-6, and up to 0.7e-6 (bench/NOTES.md).
+  const double of_point = step.evaluates ? 3e-6 : 2e-6;
   const double share = static_cast<double>(step.points) / static_cast<double>(step.tasks);
   return static_cast<std::uint64_t>(
       std::ceil(1 + share * of_point / static_cast<double>(std::max<std::int64_t>(threads, 1)) / 60));
@@ -86,12 +81,11 @@ void run_plan(const PlanArguments& arguments) {
   if (workspace.empty()) throw CLI::RequiredError("--workspace");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
-  FileScan scan(expand_inputs(arguments.scans, {.columns = config.input.columns}), config.input);
-  refuse_degrees(scan);
-  for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
+  const std::unique_ptr<FileScan> scan =
+      open_inputs(expand_inputs(arguments.scans, {.columns = config.input.columns}), config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());
-  print_plan(arguments, plan(scan, config, arguments.tasks, about_points(scan)), config);
+  print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), config);
 }
 
 struct WorkArguments {
@@ -115,8 +109,7 @@ void run_work(const WorkArguments& arguments) {
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const TemporaryFolder scratch(parent, "lacuna-");
-  const std::unique_ptr<Progress> progress = make_progress(
-      arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, expected_stages(config));
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress(config);
   const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
   if (!arguments.run.quiet)
     std::cout << arguments.step << ", task " << arguments.task << (exists ? ": done\n" : ": nothing to do\n");
@@ -129,10 +122,9 @@ struct FinishArguments {
   ResultArguments run;
 };
 
-void run_finish(const CLI::App& command, const FinishArguments& arguments) {
+void run_finish(const FinishArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
   Config config = arguments.run.start(stored.config);
-  if (command.get_option("--out")->count() == 0) throw CLI::RequiredError("--out");
   config.run.workspace = arguments.workspace.string();
   const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
@@ -173,7 +165,8 @@ void add_finish_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("finish", "Do what a shared run still lacks, and write its results");
   const auto arguments = std::make_shared<FinishArguments>(*command);
   add_workspace(*command, arguments->workspace);
-  command->callback([command, arguments] { run_finish(*command, *arguments); });
+  command->get_option("--out")->required();
+  command->callback([arguments] { run_finish(*arguments); });
 }
 
 }  // namespace lacuna::tools

@@ -64,10 +64,8 @@ TEST_CASE("plan, work and finish give the files of detect") {
   const fs::path alone = run.folder / "alone";
   REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--k", "14", "--quiet"})
               .exit_code == 0);
-  for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "points.ply"}) {
-    INFO(name);
-    CHECK((test::read_file(run.folder / "out" / name) == test::read_file(alone / name)));
-  }
+  CHECK(fs::exists(alone / "points.ply"));
+  test::check_same_results(run.folder / "out", alone);
 }
 
 TEST_CASE("finish does what no unit has done") {

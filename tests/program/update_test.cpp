@@ -4,7 +4,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -52,15 +51,11 @@ struct Updated {
     const ProgramResult result = run(from_nothing);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"}) {
-      INFO(name);
-      CHECK((test::read_file(folder / "out" / name) == test::read_file(other / name)));
-    }
+    test::check_same_results(out, other);
   }
   std::map<std::string, int> changes() const {
     std::map<std::string, int> counts;
-    std::ifstream in(folder / "out" / "changes.json");
-    const nlohmann::json json = nlohmann::json::parse(in);
+    const nlohmann::json json = test::read_json(folder / "out" / "changes.json");
     for (const auto& change : json.at("changes")) ++counts[change.at("change")];
     return counts;
   }

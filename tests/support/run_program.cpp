@@ -101,6 +101,17 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   CHECK(count_lines(result.err) == 1);
 }
 
+void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected) {
+  for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"})
+    CHECK(std::filesystem::exists(expected / name));
+  for (const auto& entry : std::filesystem::directory_iterator(expected)) {
+    const std::filesystem::path name = entry.path().filename();
+    if (name == "run.json") continue;
+    INFO(name);
+    CHECK((read_file(folder / name) == read_file(entry.path())));
+  }
+}
+
 nlohmann::json read_json(const std::filesystem::path& file) {
   return nlohmann::json::parse(read_file(file));
 }

@@ -40,6 +40,9 @@ std::size_t count_lines(const std::string& text);
 // has `named` on stderr.
 void check_failure(const ProgramResult& result, int exit_code, const std::string& named);
 
+// Checks that a folder has all files of the results in `expected`, with the same bytes. run.json may differ.
+void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected);
+
 // The content of a result in JSON.
 nlohmann::json read_json(const std::filesystem::path& file);
 
