@@ -21,7 +21,7 @@ Consumers::Consumers(const Level& level, const Job& job) : boundary(boundary_met
   const TileStore& store = level.store;
   const OutputConfig& output = job.config.output;
   all.push_back(&candidates.emplace(store, job));
-  if (output.points) all.push_back(&points.emplace(level.input_points(), store, job));
+  if (output.points) all.push_back(&points.emplace(level.survey.points, store, job));
   if (output.vdb) all.push_back(&voxels.emplace(store, job));
   if (const std::int64_t most = output.sample_points; most > 0)
     all.push_back(&sample.emplace(static_cast<std::uint64_t>(most), store, job));

@@ -120,9 +120,9 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   const Counts& counts = estimate.summary.counts;
   RunSize size{.rows = counts.points,
                .points = tiling.points(),
-               .tile_points = level.guide.tile_points,
+               .tile_points = level.tile_points(),
                .precision = level.survey.precision(),
-               .is_thinned = level.thinned.has_value(),
+               .is_thinned = level.edge > 0,
                .has_levels = has_levels(config),
                .has_normals = scan.has_normals(),
                .reads_slowly = scan.reads_slowly()};

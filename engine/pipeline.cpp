@@ -98,8 +98,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
                        std::move(coherent), std::move(boundary_candidates), std::move(points),
                        std::move(probabilities), std::move(sample), std::move(opposed_normals)},
                       *candidates, store, job);
-  if (!first.thinned || !config.output.points) return detection;
-  return spread_results(std::move(detection), std::move(*first.thinned->represented), job);
+  if (!first.represented) return detection;
+  return spread_results(std::move(detection), *std::move(first.represented), job);
 }
 
 }  // namespace lacuna

@@ -6,7 +6,7 @@
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/scan_sample.hpp"
-#include "engine/thin/thin_scan.hpp"
+#include "engine/thin/choose_points.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +23,7 @@ constexpr double kListBytes = 12'000, kBeltBytes = 4'500;
 constexpr double kPointAtWork = 390, kCandidateAtWork = 400, kOrientedAtWork = 300;
 constexpr std::uint64_t kProgram = 18 << 20;  // while tiles are evaluated
 constexpr std::uint64_t kSpreadResult = 72;   // of a point that another one represents
-constexpr std::uint64_t kKeptBytes = 80;     // of a point, in the outputs of its tile: on rough surfaces
+constexpr std::uint64_t kKeptBytes = 80;      // of a point, in the outputs of its tile: on rough surfaces
 constexpr double kLevelAbove = 0.65;          // points of the level above the first one, for one of that
 
 std::uint64_t beyond(std::uint64_t bytes, std::uint64_t budget) {
@@ -91,15 +91,12 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const OutputConfig& output = job.config.output;
   const std::uint64_t store = size.points * stored_point(size);
 
-  std::uint64_t thinned = 0, chosen = 0, represented = 0;
-  if (size.is_thinned) {
-    thinned = size.points * sizeof(Representative);
-    chosen = beyond((output.points ? size.rows : size.points) * sizeof(Representative), spills / 2);
-    if (output.points) represented = beyond(size.rows * sizeof(Represented), spills / 8);
-  }
+  const std::uint64_t all = size.is_thinned ? size.rows * stored_point(size) : 0;  // before they are thinned
+  const std::uint64_t represented =
+      size.is_thinned && output.points ? beyond(size.rows * sizeof(Represented), spills / 8) : 0;
   const std::uint64_t sample = sampled_points(size, job) * sizeof(StoredSample);
   const std::uint64_t sorted_sample =
-      sorted_on_disk(sample_keys(size, job), spills / 8) + sorted_on_disk(sample, spills / 8);
+      beyond(sample_keys(size, job), spills / 8) + sorted_on_disk(sample, spills / 8);
   const std::uint64_t results = output.points ? beyond(size.rows * result_bytes(), spills / 8) : 0;
   const std::uint64_t voxels = output.vdb ? size.points * sizeof(ProbabilityVoxel) : 0;  // at most one each
   const std::uint64_t voxel_work =
@@ -116,9 +113,8 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
 
   const std::uint64_t above =
       size.has_levels
-          ? static_cast<std::uint64_t>(
-                kLevelAbove * static_cast<double>(exchanged + size.points * (sizeof(Representative) +
-                                                                             2 * stored_point(size))))
+          ? static_cast<std::uint64_t>(kLevelAbove *
+                                       static_cast<double>(exchanged + 2 * size.points * stored_point(size)))
           : 0;
 
   // The workspace also has the stores of levels above, and the outputs.
@@ -130,7 +126,7 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
                            (job.config.normals.orient ? sizeof(StoredNormal) + sizeof(OrientationEdge) : 0));
 
   DiskNeeds needs;
-  const std::uint64_t input = kept_bytes(size) + thinned + chosen + store;
+  const std::uint64_t input = std::max(kept_bytes(size) + (all > 0 ? all : store), all + store + represented);
   needs.last = sample + results + voxels + represented +
                (size.is_thinned && output.points ? beyond(size.rows * kSpreadResult, spills / 4) : 0);
   needs.most = std::max({input,

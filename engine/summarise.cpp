@@ -2,28 +2,21 @@
 
 #include "engine/bucket/strays.hpp"
 
-#include <optional>
-
 namespace lacuna {
 
 Summary summarise(const Level& level, const Job& job) {
-  const std::optional<ThinnedScan>& thinned = level.thinned;
   const SurveyedScan& survey = level.survey;
   const TileStore& store = level.store;
   Summary summary;
-  summary.counts.points = level.input_points();
+  summary.counts.points = survey.points;
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
-  if (thinned) {
-    summary.resolution = thinned->edge;
-    summary.counts.dropped = thinned->dropped;
-    summary.counts.thinned_out = thinned->points - thinned->dropped - thinned->left;
-    summary.bounds = thinned->bounds;
-  }
+  summary.resolution = level.edge;
+  if (level.edge > 0) summary.counts.thinned_out = survey.points - survey.dropped - store.tiling().points();
   summary.strays = find_strays(store);
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
   summary.tiles = store.tiling().tiles.size();
-  summary.tile_points = level.guide.tile_points;
+  summary.tile_points = level.tile_points();
   summary.threads = job.arena.threads();
   summary.memory_limit = job.memory.limit;
   return summary;

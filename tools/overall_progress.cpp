@@ -17,7 +17,7 @@ struct TypicalTime {
 
 // Percent of a run with default options, measured on scans of 0.8 to 3 million points (dragon_30scans,
 // balm_23scans, a made plane) with 2 threads. What only some runs have is in the same unit.
-constexpr std::array<TypicalTime, 14> kTypicalTimes{{{"survey", 3},
+constexpr std::array<TypicalTime, 15> kTypicalTimes{{{"survey", 3},
                                                      {"bucket", 11},
                                                      {"thin", 30},
                                                      {"halo", 6},
@@ -28,6 +28,7 @@ constexpr std::array<TypicalTime, 14> kTypicalTimes{{{"survey", 3},
                                                      {"coherence", 0.5},
                                                      {"measure", 0.5},
                                                      {"voxels", 13},
+                                                     {"sample", 4},
                                                      {"orient", 15},
                                                      {"collect", 0.5},
                                                      {"write", 3}}};
@@ -48,14 +49,14 @@ std::vector<ExpectedStage> expected_stages(const Config& config) {
   const auto add = [&stages](std::string_view name, double more = 0) {
     stages.push_back({std::string(name), typical_time(name) + more});
   };
-  const bool is_thinned = first_edge(config.scale) > 0;
-  if (is_thinned) add("thin");
   for (const char* name : {"survey", "bucket"}) add(name);
+  if (first_edge(config.scale) > 0) add("thin");
   for (const char* name : {"halo", "evaluate", "loops"}) add(name);
   if (has_levels(config)) add("levels");
   if (config.loops.method == LoopMethod::kTangential) add("track");
   for (const char* name : {"measure", "coherence"}) add(name);
   if (config.output.vdb) add("voxels");
+  if (config.output.sample_points > 0) add("sample");
   if (config.normals.orient) add("orient");
   add("collect");
   add("write", config.output.points ? kWritePoints : 0);

@@ -26,14 +26,14 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
 }
 
 // As the run before an update has cut the level, if that suits this one.
-std::optional<TileGuide> usable_guide(std::size_t number, const Job& job) {
-  std::optional<TileGuide> guide = find_guide(number, job);
+std::optional<TileGuide> usable_guide(const Job& job) {
+  std::optional<TileGuide> guide = find_guide(job);
   if (guide && job.tile_bytes(2 * guide->tile_points) > job.memory.tiles) guide.reset();
   return guide;
 }
 
-Level bucket_points(PointSource& scan, std::size_t number, Job& job) {
-  std::optional<TileGuide> guide = usable_guide(number, job);
+Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
+  std::optional<TileGuide> guide = usable_guide(job);
   SurveyedScan survey = survey_scan(scan, job, guide ? &guide->grid : nullptr);
   if (guide && survey.grid.shift != guide->grid.shift) guide.reset();
   const std::uint64_t points = survey.points - survey.dropped;
@@ -42,28 +42,43 @@ Level bucket_points(PointSource& scan, std::size_t number, Job& job) {
       split_tiles(std::move(survey.cells), survey.grid, points, tile_points, guide ? &*guide : nullptr);
   plan.cell_points = guide ? guide->cell_points : job.cell_points(points);
   require_space(job.workspace, least_store_bytes(plan, survey.precision()));
-  Level level{.number = number,
-              .guide = {survey.grid, plan.cuts, tile_points, plan.cell_points},
-              .store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(),
-                                   level_files(number, job), job)};
+  Level level{
+      .guide = {survey.grid, plan.cuts, tile_points, plan.cell_points},
+      .store = bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), std::move(files), job),
+      .represented = {}};
   level.survey = std::move(survey);
+  level.extent = extent_of(level.survey.bounds);
   return level;
 }
 
-Level bucket_representatives(ThinnedScan thinned, std::size_t number, Job& job) {
-  Level level = bucket_points(*read_representatives(thinned), number, job);
-  thinned.representatives.reset();
-  level.thinned.emplace(std::move(thinned));
-  return level;
+// As the tiles were put together before an update, if that suits these points.
+TileJoin join_for(std::size_t number, const Tiling& below, const ChosenPoints& chosen, const Job& job) {
+  std::optional<TileJoin> join = find_join(number, job);
+  if (join && job.tile_bytes(2 * join->tile_points) <= job.memory.tiles && suits(*join, below, chosen))
+    return *std::move(join);
+  return join_tiles(below, chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
+}
+
+// The chosen points as a level.
+Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, Job& job) {
+  TileJoin join = join_for(number, below.store.tiling(), chosen, job);
+  return {.number = number,
+          .edge = edge,
+          .survey = below.survey,
+          .extent = below.extent,
+          .guide = below.guide,
+          .join = join,
+          .store = store_chosen(below.store, chosen, join, level_files(number, job), job),
+          .represented = std::move(chosen.represented)};
 }
 
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
 // has no more at any resolution.
-void refuse_too_coarse(const ThinnedScan& thinned, const Config& config) {
-  const std::uint64_t left = thinned.left, finite = thinned.points - thinned.dropped;
+void refuse_too_coarse(std::uint64_t left, const SurveyedScan& survey, const Config& config) {
+  const std::uint64_t finite = survey.points - survey.dropped;
   const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
-  if (left > k || finite <= k || thinned.bounds.sizes().isZero(0)) return;
-  const Eigen::Vector3d size = thinned.bounds.sizes();
+  if (left > k || finite <= k || survey.bounds.sizes().isZero(0)) return;
+  const Eigen::Vector3d size = survey.bounds.sizes();
   const ScaleConfig& scale = config.scale;
   const bool is_of_hole = scale.resolution == 0;
   std::ostringstream message;
@@ -111,22 +126,24 @@ Level read_first_level(PointSource& input, Job& job) {
     return read_first_level(kept, job);
   }
   const double edge = first_edge(job.config.scale);
-  if (edge == 0) return bucket_points(input, 0, job);
-  ThinnedScan thinned = thin_scan(input, edge, job);
-  refuse_too_coarse(thinned, job.config);
-  return bucket_representatives(std::move(thinned), 0, job);
+  if (edge == 0) return bucket_points(input, level_files(0, job), job);
+  const Level all = bucket_points(input, temporary_files(job), job);
+  Phase phase(job, "thin", all.store.tiling().points());
+  ChosenPoints chosen = choose_points(all.store, edge, job.config.output.points ? all.survey.ids : 0, job);
+  refuse_too_coarse(chosen.count, all.survey, job.config);
+  return level_of(std::move(chosen), all, 0, edge, job);
 }
 
 std::optional<Level> thin_level(const Level& below, const Totals& totals, Job& job) {
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
   // Edges are rounded powers.
-  for (double edge = edge_above(totals.distances, below.edge() * 1.0001); edge > 0;
+  for (double edge = edge_above(totals.distances, below.edge * 1.0001); edge > 0;
        edge = power_above(edge * 1.0001)) {
-    ThinnedScan thinned = thin_store(below.store, edge, job);
-    if (thinned.left < kFewest) break;
-    if (thinned.left <= kMostLeft * static_cast<double>(points))
-      return bucket_representatives(std::move(thinned), below.number + 1, job);
+    ChosenPoints chosen = choose_points(below.store, edge, 0, job);
+    if (chosen.count < kFewest) break;
+    if (static_cast<double>(chosen.count) <= kMostLeft * static_cast<double>(points))
+      return level_of(std::move(chosen), below, below.number + 1, edge, job);
   }
   return std::nullopt;
 }
@@ -139,7 +156,6 @@ Level first_level(PointSource& input, Job& job) {
     return *std::move(kept);
   }
   Level level = read_first_level(input, job);
-  level.extent = extent_of(level.survey.bounds);
   level.input = input.pass_counts();
   seal_level(level, job.made_from, job);
   return level;
@@ -149,7 +165,6 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, Job& 
   if (std::optional<Level> kept = open_level(below.number + 1, below.evaluation, job)) return kept;
   std::optional<Level> level = thin_level(below, totals, job);
   if (!level) return std::nullopt;
-  level->extent = below.extent;
   seal_level(*level, below.evaluation, job);
   return level;
 }

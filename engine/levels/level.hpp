@@ -10,7 +10,7 @@
 #include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
-#include "engine/thin/thin_scan.hpp"
+#include "engine/thin/store_chosen.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,22 +21,24 @@
 namespace lacuna {
 
 struct Level {
-  std::size_t number = 0;              // from 0
-  std::optional<ThinnedScan> thinned;  // none: the level has every point
-  SurveyedScan survey;                 // of the points in the store
-  double extent = 0;                   // the largest distance between points of the scan
-  TileGuide guide;                     // how the points are cut into tiles
-  TileStore store;                     // distinct points
-  std::string evaluation;              // what its tiles are evaluated from; empty: no workspace is kept
-  std::vector<std::uint64_t> input;    // of the first level: `PointSource::pass_counts`
+  std::size_t number = 0;            // from 0
+  double edge = 0;                   // of its lattice; 0: the level has every point
+  SurveyedScan survey;               // of the whole scan
+  double extent = 0;                 // the largest distance between points of the scan
+  TileGuide guide;                   // how the points of the scan are cut into tiles
+  TileJoin join;                     // how those tiles, or those of the level below, are put together
+  TileStore store;                   // distinct points
+  std::string evaluation;            // what its tiles are evaluated from; empty: no workspace is kept
+  std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
+  // Which point represents which. Only for a first level on a lattice, with output.points.
+  std::optional<AppendLists<Represented>> represented;
 
-  std::uint64_t input_points() const { return thinned ? thinned->points : survey.points; }
-  double edge() const { return thinned ? thinned->edge : 0; }  // of its lattice
+  std::uint64_t tile_points() const { return edge > 0 ? join.tile_points : guide.tile_points; }
 };
 
-// Survey and bucket: all points or, where the config has a resolution, one for each cell of its lattice.
-// Reads the input twice, or once with a resolution. An input that reads slowly is read once, and kept in the
-// workspace meanwhile (engine/store/kept_scan.hpp). Where a kept workspace has the level, nothing is read.
+// Survey and bucket: all points. Where the config has a resolution, they are thinned to one for each cell of
+// its lattice. Reads the input twice. An input that reads slowly is read once, and kept in the workspace
+// meanwhile (engine/store/kept_scan.hpp). Where a kept workspace has the level, nothing is read.
 // Throws `Error`.
 Level first_level(PointSource& input, Job& job);
 

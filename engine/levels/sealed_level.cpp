@@ -40,16 +40,11 @@ struct StoredLevel {
   double middle[3], grid_origin[3];
   std::int64_t grid_finest, grid_shift;
   std::uint64_t points, dropped, ids, is_single;
-  double extent;
-  std::uint64_t tile_points, cell_points, has_normals;
+  double extent, edge;
+  std::uint64_t tile_points, cell_points, joined_tile_points, joined_cell_points, has_normals;
+  std::uint64_t represented;  // lists; 0: none
   std::uint64_t points_bytes, normals_bytes;
   Digest points_digest, normals_digest;
-};
-
-struct StoredThinning {
-  double edge;
-  StoredBox bounds;
-  std::uint64_t points, dropped, left, has_normals, lists;  // of represented points; 0: none
 };
 
 StoredLevel stored(const Level& level) {
@@ -62,9 +57,13 @@ StoredLevel stored(const Level& level) {
                      .ids = survey.ids,
                      .is_single = survey.is_single,
                      .extent = level.extent,
+                     .edge = level.edge,
                      .tile_points = level.guide.tile_points,
                      .cell_points = level.guide.cell_points,
-                     .has_normals = level.store.has_normals()};
+                     .joined_tile_points = level.join.tile_points,
+                     .joined_cell_points = level.join.cell_points,
+                     .has_normals = level.store.has_normals(),
+                     .represented = level.represented ? level.represented->lists() : 0};
   for (int axis = 0; axis < 3; ++axis) {
     stored.middle[axis] = survey.middle[axis];
     stored.grid_origin[axis] = survey.grid.origin[static_cast<std::size_t>(axis)];
@@ -92,6 +91,12 @@ TileGuide guide_of(const StoredLevel& stored, const PartReader& part) {
           .cell_points = stored.cell_points};
 }
 
+TileJoin join_of(const StoredLevel& stored, const PartReader& part) {
+  return {.first = part.records<TileIndex>("joined", 0),
+          .tile_points = stored.joined_tile_points,
+          .cell_points = stored.joined_cell_points};
+}
+
 Tiling tiling_of(const PartReader& part) {
   Tiling tiling;
   tiling.tiles = part.records<Tile>("tiles", 0);
@@ -117,42 +122,15 @@ void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key,
   if (!block.empty()) write();
 }
 
-void add_thinning(const ThinnedScan& thinned, PartWriter& part) {
-  const StoredThinning stored{.edge = thinned.edge,
-                              .bounds = StoredBox(thinned.bounds),
-                              .points = thinned.points,
-                              .dropped = thinned.dropped,
-                              .left = thinned.left,
-                              .has_normals = thinned.has_normals,
-                              .lists = thinned.represented ? thinned.represented->lists() : 0};
-  part.add("thinning", 0, std::span<const StoredThinning>(&stored, 1));
-  for (std::uint64_t list = 0; list < stored.lists; ++list) {
-    add_in_blocks<Represented>(part, "represented", list,
-                               [&](auto&& visit) { thinned.represented->for_each(list, visit); });
+std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored, const PartReader& part,
+                                                       const Job& job) {
+  if (stored.represented == 0) return std::nullopt;
+  AppendLists<Represented> represented(job.file("represented"), stored.represented, job.memory.spills / 8);
+  for (std::uint64_t list = 0; list < stored.represented; ++list) {
+    part.for_each<Represented>("represented", list,
+                               [&](std::span<const Represented> some) { represented.append(list, some); });
   }
-}
-
-std::optional<ThinnedScan> thinning_of(const PartReader& part, const Job& job) {
-  const std::vector<StoredThinning> stored = part.records<StoredThinning>("thinning", 0);
-  if (stored.empty()) return std::nullopt;
-  const StoredThinning& s = stored.front();
-  ThinnedScan thinned{.representatives = {},
-                      .left = s.left,
-                      .edge = s.edge,
-                      .has_normals = s.has_normals != 0,
-                      .bounds = s.bounds.box(),
-                      .points = s.points,
-                      .dropped = s.dropped,
-                      .represented = {}};
-  if (s.lists > 0) {
-    thinned.represented.emplace(job.file("represented"), s.lists, job.memory.spills / 8);
-    for (std::uint64_t list = 0; list < s.lists; ++list) {
-      part.for_each<Represented>("represented", list, [&](std::span<const Represented> represented) {
-        thinned.represented->append(list, represented);
-      });
-    }
-  }
-  return thinned;
+  return represented;
 }
 
 // A file that is as it was sealed.
@@ -166,6 +144,12 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, co
 std::optional<PartReader> open_earlier(std::size_t number, const Job& job) {
   if (job.earlier.empty()) return std::nullopt;
   return PartReader::open(level_path(job.earlier, number), std::nullopt);
+}
+
+std::optional<StoredLevel> record_of(const PartReader& part) {
+  const std::vector<StoredLevel> records = part.records<StoredLevel>("level", 0);
+  if (records.size() != 1) return std::nullopt;
+  return records.front();
 }
 
 bool fits(const Tiling& tiling, const Job& job) {
@@ -199,13 +183,16 @@ std::string evaluation_of(const Digest& checksum, const Job& job) {
 }  // namespace
 
 StoreFiles level_files(std::size_t number, const Job& job) {
-  const fs::path duplicates = job.file("duplicates");
-  if (job.kept.empty()) return {StoreFile(job.file("points")), StoreFile(job.file("normals")), duplicates};
+  if (job.kept.empty()) return temporary_files(job);
   const auto create = [&](const char* extension) {
     return StoreFile(level_path(job.kept, number).string() + "-" + random_digits() + extension + kUnsealed,
                      StoreFile::Name::kKept);
   };
-  return {create(kPoints), create(kNormals), duplicates};
+  return {create(kPoints), create(kNormals), job.file("duplicates")};
+}
+
+StoreFiles temporary_files(const Job& job) {
+  return {StoreFile(job.file("points")), StoreFile(job.file("normals")), job.file("duplicates")};
 }
 
 void seal_level(Level& level, const std::string& made_from, const Job& job) {
@@ -230,12 +217,16 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
     cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
   part.add("cells", 0, std::span<const StoredCell>(cells));
   part.add("cuts", 0, std::span<const Cut>(level.guide.cuts));
+  part.add("joined", 0, std::span<const TileIndex>(level.join.first));
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     add_in_blocks<Duplicate>(part, "duplicates", t,
                              [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });
   }
   part.add("input", 0, std::span<const std::uint64_t>(level.input));
-  if (level.thinned) add_thinning(*level.thinned, part);
+  for (std::uint64_t list = 0; list < record.represented; ++list) {
+    add_in_blocks<Represented>(part, "represented", list,
+                               [&](auto&& visit) { level.represented->for_each(list, visit); });
+  }
   level.evaluation = evaluation_of(part.seal(digest_of(made_from)), job);
   if (!job.is_unit) remove_other_columns(level.number, level, job);
 }
@@ -244,9 +235,9 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
   if (job.kept.empty()) return std::nullopt;
   const std::optional<PartReader> part = PartReader::open(level_path(job.kept, number), digest_of(made_from));
   if (!part) return std::nullopt;
-  const std::vector<StoredLevel> records = part->records<StoredLevel>("level", 0);
-  if (records.size() != 1) return std::nullopt;
-  const StoredLevel& record = records.front();
+  const std::optional<StoredLevel> stored = record_of(*part);
+  if (!stored) return std::nullopt;
+  const StoredLevel& record = *stored;
   Tiling tiling = tiling_of(*part);
   if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
   std::optional<StoreFile> points = open_file(column_of(number, record.points_digest, kPoints, job),
@@ -260,13 +251,15 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
     part->for_each<Duplicate>(
         "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
   return Level{.number = number,
-               .thinned = thinning_of(*part, job),
+               .edge = record.edge,
                .survey = survey_of(record),
                .extent = record.extent,
                .guide = guide_of(record, *part),
+               .join = join_of(record, *part),
                .store = std::move(store),
                .evaluation = evaluation_of(part->checksum(), job),
-               .input = part->records<std::uint64_t>("input", 0)};
+               .input = part->records<std::uint64_t>("input", 0),
+               .represented = represented_of(record, *part, job)};
 }
 
 std::optional<Level> find_level(std::size_t number, const Job& job) {
@@ -280,12 +273,20 @@ std::optional<Level> find_level(std::size_t number, const Job& job) {
   return open_level(number, made_from, job);
 }
 
-std::optional<TileGuide> find_guide(std::size_t number, const Job& job) {
+std::optional<TileGuide> find_guide(const Job& job) {
+  const std::optional<PartReader> part = open_earlier(0, job);
+  if (!part) return std::nullopt;
+  const std::optional<StoredLevel> record = record_of(*part);
+  if (!record) return std::nullopt;
+  return guide_of(*record, *part);
+}
+
+std::optional<TileJoin> find_join(std::size_t number, const Job& job) {
   const std::optional<PartReader> part = open_earlier(number, job);
   if (!part) return std::nullopt;
-  const std::vector<StoredLevel> records = part->records<StoredLevel>("level", 0);
-  if (records.size() != 1) return std::nullopt;
-  return guide_of(records.front(), *part);
+  const std::optional<StoredLevel> record = record_of(*part);
+  if (!record) return std::nullopt;
+  return join_of(*record, *part);
 }
 
 KeptOutputs find_outputs(const Level& level, PartReader::Check check, const Job& job) {

@@ -12,8 +12,9 @@
 
 namespace lacuna {
 
-// Empty files for the store of a level: with names where the workspace is kept.
+// Empty files for a store: of a level, with names where the workspace is kept; or of this run alone.
 StoreFiles level_files(std::size_t number, const Job& job);
+StoreFiles temporary_files(const Job& job);
 
 // Seals a level whose store is finished, and sets its `evaluation`. Does nothing where no workspace is kept.
 void seal_level(Level& level, const std::string& made_from, const Job& job);
@@ -25,8 +26,10 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
 // The level of a workspace, whatever the levels below it were made from. None as for `open_level`.
 std::optional<Level> find_level(std::size_t number, const Job& job);
 
-// How the run before an update has cut the level into tiles. None where there was none.
-std::optional<TileGuide> find_guide(std::size_t number, const Job& job);
+// How the run before an update has cut the scan into tiles, and has put tiles together for a level. None
+// where there was none.
+std::optional<TileGuide> find_guide(const Job& job);
+std::optional<TileJoin> find_join(std::size_t number, const Job& job);
 
 // The outputs of the level's tiles that are sealed already, and those of the run before an update.
 KeptOutputs find_outputs(const Level& level, PartReader::Check check, const Job& job);

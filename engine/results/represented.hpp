@@ -3,7 +3,7 @@
 
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
-#include "engine/thin/thin_scan.hpp"
+#include "engine/thin/choose_points.hpp"
 
 #include <memory>
 

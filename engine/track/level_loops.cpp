@@ -7,8 +7,8 @@ namespace lacuna {
 LevelLoops level_loops(const Level& level, const Totals& totals, const FoundLoops& found,
                        const BoundaryMethod& boundary, Job& job) {
   LevelLoops loops{
-      .edge = level.edge(),
-      .cell_edge = level.edge() > 0 ? level.edge() : totals.median_distance() / kDistanceOverSpacing,
+      .edge = level.edge,
+      .cell_edge = level.edge > 0 ? level.edge : totals.median_distance() / kDistanceOverSpacing,
       .points = totals.points,
       .loops = place_loops(found.loops, boundary.loop_points(), level.store.tiling(), job),
       .evidence = {}};

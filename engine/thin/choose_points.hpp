@@ -1,0 +1,40 @@
+// choose: one point for each occupied cell of a lattice.
+#pragma once
+
+#include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/row_set.hpp"
+#include "engine/store/tile_store.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lacuna {
+
+// A point of the input and the one that represents it: itself, at times.
+struct Represented {
+  PointId representative;
+  PointId id;
+};
+
+// Ids of representatives per list of represented points.
+inline constexpr std::uint64_t kRepresentedBlock = 1 << 17;
+
+struct ChosenPoints {
+  RowSet rows;
+  std::vector<std::uint32_t> in_cell;  // how many of each cell of the store
+  std::uint64_t count = 0;
+  // By block of the representative's id: all stored points and their copies. Only where wanted.
+  std::optional<AppendLists<Represented>> represented;
+};
+
+// The point nearest to the middle of a cell represents it. Of several, it is the one with the lowest
+// coordinates, by x first. So the choice depends on the points alone, and parts of a scan may be thinned
+// apart, and their representatives again. Each tile chooses among its points. Then those chosen in other
+// tiles are compared, where they lie in the same cells. Throws `Error` where a coordinate is too large for
+// the edge. Cost: linear; memory: that of the tiles at work, a bit a row and 4 bytes a cell.
+// `represented_ids`: where all ids are below; 0: nobody wants to know which point represents which.
+ChosenPoints choose_points(const TileStore& store, double edge, std::uint64_t represented_ids, Job& job);
+
+}  // namespace lacuna

@@ -1,0 +1,186 @@
+#include "engine/thin/store_chosen.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+// How many points are left in each node.
+std::vector<std::uint64_t> count_nodes(const Tiling& below, const ChosenPoints& chosen) {
+  std::vector<std::uint64_t> counts(below.nodes.size());
+  for (std::size_t n = below.nodes.size(); n-- > 0;) {  // children stand behind their parents
+    const CellNode& node = below.nodes[n];
+    counts[n] = node.left != 0 ? counts[node.left] + counts[node.right]
+                               : std::accumulate(chosen.in_cell.begin() + node.first,
+                                                 chosen.in_cell.begin() + node.last, std::uint64_t{0});
+  }
+  return counts;
+}
+
+std::uint64_t count_tiles(const Tiling& below, const ChosenPoints& chosen, TileIndex first, TileIndex last) {
+  const auto begin = chosen.in_cell.begin();
+  return first == last ? 0
+                       : std::accumulate(begin + below.tiles[first].first_cell,
+                                         begin + below.tiles[last - 1].last_cell, std::uint64_t{0});
+}
+
+// Behind the last tile below.
+TileIndex end_of(const TileJoin& join, std::size_t t, const Tiling& below) {
+  return t + 1 < join.first.size() ? join.first[t + 1] : static_cast<TileIndex>(below.tiles.size());
+}
+
+// The cells of the store below that become one. All are of one tile below.
+struct JoinedCells {
+  std::uint32_t first, last;
+  std::uint64_t points;
+};
+
+// Goes down the tree over the cells below until nodes are as small as tiles and cells are to be.
+class Joiner {
+ public:
+  Joiner(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
+         std::uint64_t cell_points)
+      : below_(below),
+        in_cell_(chosen.in_cell),
+        counts_(count_nodes(below, chosen)),
+        tile_points_(tile_points),
+        cell_points_(cell_points) {}
+
+  std::vector<TileIndex> first_tiles() {
+    if (!below_.nodes.empty()) add_tiles(0);
+    return std::move(tiles_);
+  }
+  std::vector<JoinedCells> cells() {
+    if (!below_.nodes.empty()) add_cells(0);
+    return std::move(cells_);
+  }
+
+ private:
+  void add_tiles(std::uint32_t n) {
+    const CellNode& node = below_.nodes[n];
+    const TileIndex first = below_.tile_of_cell(node.first), last = below_.tile_of_cell(node.last - 1);
+    if (counts_[n] <= tile_points_ || first == last) {
+      tiles_.push_back(first);
+    } else if (node.left != 0) {
+      add_tiles(node.left);
+      add_tiles(node.right);
+    } else {
+      for (TileIndex t = first; t <= last; ++t) tiles_.push_back(t);
+    }
+  }
+
+  void add_cells(std::uint32_t n) {
+    const CellNode& node = below_.nodes[n];
+    if (node.left != 0 && counts_[n] > cell_points_) {
+      add_cells(node.left);
+      add_cells(node.right);
+      return;
+    }
+    const std::size_t before = cells_.size();
+    for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
+      if (in_cell_[cell] == 0) continue;
+      const bool fits = cells_.size() > before && cells_.back().points + in_cell_[cell] <= cell_points_ &&
+                        below_.tile_of_cell(cells_.back().first) == below_.tile_of_cell(cell);
+      if (!fits) cells_.push_back({cell, cell, 0});
+      cells_.back().last = cell + 1;
+      cells_.back().points += in_cell_[cell];
+    }
+  }
+
+  const Tiling& below_;
+  const std::vector<std::uint32_t>& in_cell_;
+  std::vector<std::uint64_t> counts_;  // of nodes
+  std::uint64_t tile_points_, cell_points_;
+  std::vector<TileIndex> tiles_;
+  std::vector<JoinedCells> cells_;
+};
+
+// The points of one tile, as they are put into the store.
+struct TilePoints {
+  std::vector<StoredPoint> points;
+  std::vector<StoredNormal> normals;
+  std::vector<Cell> cells;
+};
+
+void add_chosen(const TileStore& below, TileIndex t, const RowSet& rows, TilePoints& to) {
+  const Tile& tile = below.tiling().tiles[t];
+  const std::vector<Eigen::Vector3d> normals = below.normals(t);
+  LocalIndex owned = 0;
+  below.for_each_point(t, [&](const StoredPoint& p) {
+    if (rows.contains(tile.row(owned))) {
+      to.points.push_back(p);
+      if (below.has_normals()) {
+        const Eigen::Vector3d& n = normals[owned];
+        to.normals.push_back({n.x(), n.y(), n.z()});
+      }
+    }
+    ++owned;
+  });
+}
+
+void add_cells(std::span<const JoinedCells> joined, TilePoints& to) {
+  std::size_t next = 0;
+  for (const JoinedCells& cells : joined) {
+    Cell cell{.points = cells.points};
+    for (std::uint64_t i = 0; i < cell.points; ++i) cell.box.extend(to.points[next++].position());
+    to.cells.push_back(cell);
+  }
+}
+
+}  // namespace
+
+TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
+                    std::uint64_t cell_points) {
+  return {Joiner(below, chosen, tile_points, cell_points).first_tiles(), tile_points, cell_points};
+}
+
+bool suits(const TileJoin& join, const Tiling& below, const ChosenPoints& chosen) {
+  const std::size_t tiles = join.first.size();
+  if (tiles == 0 || join.first[0] != 0 || join.first.back() >= below.tiles.size()) return false;
+  if (!std::is_sorted(join.first.begin(), join.first.end(), std::less_equal<>())) return false;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    if (count_tiles(below, chosen, join.first[t], end_of(join, t, below)) > 2 * join.tile_points)
+      return false;
+  }
+  return true;
+}
+
+TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const TileJoin& join,
+                       StoreFiles files, Job& job) {
+  constexpr std::uint64_t kBytesPerPoint = 128;  // while it is put
+  const Tiling& tiling = below.tiling();
+  std::vector<Tile> tiles;
+  std::vector<std::uint64_t> needs;
+  std::uint64_t row = 0;
+  for (std::size_t t = 0; t < join.first.size(); ++t) {
+    const std::uint64_t points = count_tiles(tiling, chosen, join.first[t], end_of(join, t, tiling));
+    tiles.push_back({.first_row = Row{row}, .raw = points});
+    row = aligned_row(row + points);
+    needs.push_back(points * kBytesPerPoint);
+  }
+  const std::vector<JoinedCells> cells = Joiner(tiling, chosen, join.tile_points, join.cell_points).cells();
+  TileStore store(std::move(files), std::move(tiles), join.first.size(), below.precision(),
+                  below.has_normals(), 0);
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+    TilePoints to;
+    to.points.reserve(needs[t] / kBytesPerPoint);
+    const TileIndex first = join.first[t], last = end_of(join, t, tiling);
+    for (TileIndex b = first; b < last; ++b) add_chosen(below, b, chosen.rows, to);
+    const auto lies_before = [](const JoinedCells& joined, std::uint32_t cell) {
+      return joined.first < cell;
+    };
+    const auto begin =
+        std::lower_bound(cells.begin(), cells.end(), tiling.tiles[first].first_cell, lies_before);
+    const auto end = std::lower_bound(begin, cells.end(), tiling.tiles[last - 1].last_cell, lies_before);
+    add_cells({begin, end}, to);
+    store.put(static_cast<TileIndex>(t), to.points, to.normals, std::move(to.cells));
+  });
+  store.finish();
+  return store;
+}
+
+}  // namespace lacuna
