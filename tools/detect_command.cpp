@@ -15,6 +15,7 @@
 #include "tools/log_file.hpp"
 #include "tools/overall_progress.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/process_memory.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
@@ -119,6 +120,7 @@ Config RunArguments::start(Config base) const {
   if (quiet) quiet_log();
   if (!log_file.empty()) start_log_file(log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  prepare_memory(config.run.memory_limit);
   return config;
 }
 

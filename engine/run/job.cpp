@@ -65,17 +65,7 @@ Job::Job(const Config& config, std::filesystem::path workspace, Progress& progre
       workspace(std::move(workspace)),
       progress(progress),
       arena(static_cast<std::size_t>(config.run.threads)),
-      memory(Memory::share(config.run.memory_limit)) {
-  // Large arrays come from the system and go back to it; small ones share few arenas. Without this, what
-  // threads free stays with them and the process grows beyond its limit. Where the limit is far, memory is
-  // kept and used again: fresh pages have to be cleared by the system.
-  ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 256, kMiB, 32 * kMiB)));
-  ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(std::clamp(memory.limit / 32, kMiB, 512 * kMiB)));
-  // An arena keeps up to several MiB that nobody uses.
-  const std::uint64_t arenas = std::clamp<std::uint64_t>(memory.limit / (32 * kMiB), 1, 4);
-  ::mallopt(M_ARENA_MAX, static_cast<int>(std::min<std::uint64_t>(arena.threads(), arenas)));
-  release_symbol_tables();
-}
+      memory(Memory::share(config.run.memory_limit)) {}
 
 std::uint64_t Job::tile_bytes(std::uint64_t points) const {
   return points * bytes_per_tile_point(config) + kTileBytes;

@@ -27,7 +27,6 @@ struct Memory {
   static Memory share(std::uint64_t limit);
 };
 
-// Sets the allocator of the whole process up for the limit, too.
 struct Job {
   Job(const Config& config, std::filesystem::path workspace, Progress& progress);
 

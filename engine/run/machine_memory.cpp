@@ -8,8 +8,6 @@
 #include <string>
 
 #include <fcntl.h>
-#include <link.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -54,21 +52,6 @@ std::uint64_t peak_memory() {
     if (words >> key && key == "VmHWM:" && words >> kilobytes) return kilobytes * 1024;
   }
   return 0;
-}
-
-void release_symbol_tables() {
-  const auto release = [](dl_phdr_info* library, std::size_t, void*) {
-    const std::uintptr_t page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-    for (int i = 0; i < library->dlpi_phnum; ++i) {
-      const auto& segment = library->dlpi_phdr[i];
-      if (segment.p_type != PT_LOAD || segment.p_flags != PF_R) continue;  // neither code nor data
-      const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
-      ::madvise(reinterpret_cast<void*>(begin),
-                library->dlpi_addr + segment.p_vaddr + segment.p_memsz - begin, MADV_DONTNEED);
-    }
-    return 0;
-  };
-  ::dl_iterate_phdr(release, nullptr);
 }
 
 std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {

@@ -23,8 +23,4 @@ ResidentMemory resident_memory();
 // The most bytes of this process that were in memory so far; 0 where the system does not say.
 std::uint64_t peak_memory();
 
-// Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The
-// system reads them again if they are needed.
-void release_symbol_tables();
-
 }  // namespace lacuna
