@@ -5,9 +5,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'TEXT'
-usage: tools/check.sh [--all | --sanitize | --odr]
+usage: tools/check.sh [--all | --sanitize | --threads | --odr]
   --all        the slow tests too, and the check of --odr: more than an hour
   --sanitize   the fast tests, built in build-sanitize to check memory accesses and undefined behaviour
+  --threads    the fast tests that run in the test program itself, built in build-threads to find data races. Needs
+               oneTBB built in the same way: fetched as source from Debian, and built there
   --odr        no test: links the program with link time optimisation, in build-odr, and fails where a name is
                defined twice in different ways
 TEXT
@@ -30,7 +32,7 @@ case "$*" in
   --all) labels='^(fast|slow)$' ;;
   --sanitize)
     build=build-sanitize
-    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=ON)  # warnings are no errors: GCC's can be wrong here
+    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=address)  # warnings are no errors: GCC's can be wrong here
     # These measure memory and threads, of which the sanitizers take their own.
     excluded='within the memory limit|stay within|threads that cannot be started'
     export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0

@@ -1,6 +1,7 @@
 #include "engine/results/scan_sample.hpp"
 
 #include "engine/store/column_writer.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -38,7 +39,9 @@ std::uint32_t bin_of(double key) {
 }  // namespace
 
 ScanSample::ScanSample(std::uint64_t most_points, const TileStore& store, const Job& job)
-    : store_(store), most_points_(most_points), candidates_(job.file("sample-keys"), job.memory.spills / 8) {}
+    : store_(store),
+      most_points_(most_points),
+      candidates_(job.file("sample-keys"), 1, job.memory.spills / 8) {}
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<EmittedSample> samples;
@@ -65,12 +68,10 @@ void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
     if (bin_of(key) <= last) samples.push_back({key, {p, probability, {normal[0], normal[1], normal[2]}}});
   });
   const std::lock_guard lock(mutex_);
-  for (const KeyedSample& sample : samples) {
-    if (bin_of(sample.key) > last_bin_) continue;
-    candidates_.add(sample);
-    ++bins_[bin_of(sample.key)];
-    ++binned_;
-  }
+  std::erase_if(samples, [&](const KeyedSample& sample) { return bin_of(sample.key) > last_bin_; });
+  candidates_.append(0, samples);
+  for (const KeyedSample& sample : samples) ++bins_[bin_of(sample.key)];
+  binned_ += samples.size();
   // A bin goes where those before it are enough.
   while (!bins_.empty() && binned_ - bins_.rbegin()->second >= most_points_) {
     binned_ -= bins_.rbegin()->second;
@@ -79,14 +80,30 @@ void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
   if (binned_ >= most_points_) last_bin_ = bins_.rbegin()->first;
 }
 
+// The largest rank in the sample. Only those of the last bin are to be ordered.
+ScanSample::Rank ScanSample::last_rank(Job& job) const {
+  Rank last{std::numeric_limits<double>::infinity(), PointId{0}};
+  if (binned_ < most_points_) return last;
+  SortedRuns<Rank> of_last_bin(job.file("sample-ranks"), job.memory.spills / 8);
+  candidates_.for_each(0, [&](const KeyedSample& candidate) {
+    if (bin_of(candidate.key) == last_bin_) of_last_bin.add(rank_of(candidate));
+  });
+  std::uint64_t taken = binned_ - of_last_bin.size();  // all of the bins before
+  of_last_bin.for_each([&](const Rank& rank) {
+    if (taken++ < most_points_) last = rank;
+  });
+  return last;
+}
+
 Column<StoredSample> ScanSample::finish(Job& job) {
+  Phase phase(job, "sample", binned_);
   struct ById {
     bool operator()(const StoredSample& a, const StoredSample& b) const { return a.point.id < b.point.id; }
   };
   SortedRuns<StoredSample, ById> sorted(job.file("sample-sort"), job.memory.spills / 8);
-  std::uint64_t taken = 0;
-  candidates_.for_each([&](const KeyedSample& candidate) {
-    if (taken++ < most_points_) sorted.add(candidate.sample);
+  const Rank last = last_rank(job);
+  candidates_.for_each(0, [&](const KeyedSample& candidate) {
+    if (rank_of(candidate) <= last) sorted.add(candidate.sample);
   });
   Column<StoredSample> column(job.file("sample"));
   ColumnWriter<StoredSample> writer(column);

@@ -4,11 +4,12 @@
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
-#include "engine/store/sorted_runs.hpp"
 #include "engine/store/tile_store.hpp"
 
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -25,10 +26,6 @@ struct StoredSample {
 struct KeyedSample {
   double key;
   StoredSample sample;
-
-  friend bool operator<(const KeyedSample& a, const KeyedSample& b) {
-    return a.key != b.key ? a.key < b.key : a.sample.point.id < b.sample.point.id;
-  }
 };
 
 // Sequential Poisson sampling (Ohlsson, 1998): a point of weight w has the key u / w, with u drawn from its
@@ -55,13 +52,21 @@ class ScanSample final : public TileConsumer {
     std::uint32_t padding;
   };
 
+  struct Rank {
+    double key;
+    PointId id;
+    friend auto operator<=>(const Rank&, const Rank&) = default;
+  };
+  static Rank rank_of(const KeyedSample& candidate) { return {candidate.key, candidate.sample.point.id}; }
+  Rank last_rank(Job& job) const;
+
   const TileStore& store_;
   const std::uint64_t most_points_;
   std::mutex mutex_;
   std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
   std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin
   std::uint64_t binned_ = 0;                     // in all bins
-  SortedRuns<KeyedSample> candidates_;           // those of the sample, and others
+  AppendLists<KeyedSample> candidates_;          // one list: those of the sample, and others
 };
 
 }  // namespace lacuna

@@ -23,7 +23,13 @@ bool is_any_inconsistent(std::span<const Consistency> consistencies) {
 class TileRadii {
  public:
   TileRadii(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config)
-      : tile_(tile), found_(found), config_(config) {}
+      : tile_(tile), found_(found), config_(config), of_star_(tile.points.size(), kUnknown) {}
+
+  const StarRadii& of_star(LocalIndex p) {
+    StarRadii& radii = of_star_[p];
+    if (radii.radii[0] < 0) radii = smallest_radii(found_.stars[p].link, config_);
+    return radii;
+  }
 
   // Mean surface share of a point's neighbours.
   float surface_around(LocalIndex p) const {
@@ -35,19 +41,18 @@ class TileRadii {
 
   SamplingRadius& around(LocalIndex p) {
     radii_.clear();
-    add(p);
-    for (const LocalIndex q : tile_.neighbourhoods[p]) add(q);
+    radii_.add(of_star(p), found_.samplings[p].distance);
+    for (const LocalIndex q : tile_.neighbourhoods[p]) radii_.add(of_star(q), found_.samplings[q].distance);
     return radii_;
   }
 
  private:
-  void add(LocalIndex q) {
-    radii_.add(smallest_radii(found_.stars[q].link, config_), found_.samplings[q].distance);
-  }
+  static constexpr StarRadii kUnknown{{-1}};
 
   const EvaluatedTile& tile_;
   const TileStars& found_;
   const TangentialConfig& config_;
+  std::vector<StarRadii> of_star_;
   SamplingRadius radii_;
 };
 
@@ -64,10 +69,9 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
 }
 
 // Wedges where all triangles are decided; else the star stays open. Returns which points have any of these.
-std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars& found,
+std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii,
                                       const TangentialConfig& config, TileOutput& output) {
   const std::vector<Row>& rows = tile.points.rows;
-  TileRadii radii(tile, found, config);
   std::vector<std::uint8_t> is_vertex(tile.points.owned);
   std::vector<LocalIndex> active;
   std::vector<Wedge> wedges;
@@ -109,8 +113,7 @@ std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars
 }
 
 // The belt, and the sites and samplings that its stars need, here and in other tiles.
-void emit_belt(const EvaluatedTile& tile, const TileStars& found, const TangentialConfig& config,
-               TileOutput& output) {
+void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii, TileOutput& output) {
   const auto is_around = with_neighbours(tile, [&](LocalIndex p) { return is_in_belt(found.states[p]); });
   std::vector<LocalIndex> around;
   for (LocalIndex p = 0; p < tile.points.size(); ++p) {
@@ -151,8 +154,7 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, const Tangenti
     if (!is_around[p]) continue;
     owned.push_back(p);
     sites.push_back(site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]));
-    samples.push_back(
-        {found.samplings[p], smallest_radii(found.stars[p].link, config), tile.evaluations[p].surface_share});
+    samples.push_back({found.samplings[p], radii.of_star(p), tile.evaluations[p].surface_share});
   }
   output.add("sampled", std::move(owned));
   output.add("sites", std::move(sites));
@@ -165,8 +167,9 @@ std::vector<std::uint8_t> emit_stars(const EvaluatedTile& tile, const Tangential
                                      TileOutput& output) {
   const TileStars found =
       find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates, tile.is_border, config);
-  std::vector<std::uint8_t> is_vertex = emit_wedges(tile, found, config, output);
-  emit_belt(tile, found, config, output);
+  TileRadii radii(tile, found, config);
+  std::vector<std::uint8_t> is_vertex = emit_wedges(tile, found, radii, config, output);
+  emit_belt(tile, found, radii, output);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) is_vertex[p] |= is_in_belt(found.states[p]);
   return is_vertex;
 }

@@ -8,7 +8,8 @@ namespace lacuna::tangential {
 
 void SamplingRadius::add(const StarRadii& star, double distance) {
   for (const float radius : star.radii) {
-    if (radius <= std::numeric_limits<float>::max()) radii_.push_back(radius * distance);
+    if (radius > std::numeric_limits<float>::max()) break;  // the others are infinite, too
+    radii_.push_back(radius * distance);
   }
 }
 

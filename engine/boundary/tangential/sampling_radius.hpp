@@ -18,7 +18,7 @@
 namespace lacuna::tangential {
 
 // The smallest circumradii of a star that do not lie in a hole (`hole_radius`), in units of
-// `Sampling::distance`. They are infinite where there are fewer.
+// `Sampling::distance`. Where there are fewer, the last ones are infinite.
 struct StarRadii {
   static constexpr std::size_t kMost = 8;
   std::array<float, kMost> radii;
