@@ -8,8 +8,8 @@ usage() {
 usage: tools/check.sh [--all | --sanitize | --threads | --odr]
   --all        the slow tests too, and the check of --odr: more than an hour
   --sanitize   the fast tests, built in build-sanitize to check memory accesses and undefined behaviour
-  --threads    the fast tests that run in the test program itself, built in build-threads to find data races. Needs
-               oneTBB built in the same way: fetched as source from Debian, and built there
+  --threads    the fast tests but a few, built in build-threads to find data races, with oneTBB from Debian's source
+               built in the same way: about an hour
   --odr        no test: links the program with link time optimisation, in build-odr, and fails where a name is
                defined twice in different ways
 TEXT
@@ -20,6 +20,22 @@ check_odr() {
   cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF \
     -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON "-DCMAKE_CXX_FLAGS=-Werror=odr -Werror=lto-type-mismatch"
   cmake --build build-odr --parallel "$(nproc)" --target lacuna
+}
+
+# ThreadSanitizer knows the order of tasks only where oneTBB was built for it. Debian's was not.
+build_tbb() {
+  local folder=$PWD/build-threads/tbb
+  [[ ! -e $folder/lib/libtbb.so ]] || return 0
+  mkdir -p "$folder/lists/partial"
+  echo "deb-src http://deb.debian.org/debian bookworm main" >"$folder/sources.list"
+  local apt=(apt-get -q -o "Dir::Etc::SourceList=$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
+    -o "Dir::State::Lists=$folder/lists" -o APT::Sandbox::User=root)
+  "${apt[@]}" update
+  (cd "$folder" && "${apt[@]}" source --download-only onetbb && tar --strip-components=1 -xf onetbb_*.orig.tar.*)
+  cmake -G Ninja -S "$folder" -B "$folder/build" -DCMAKE_BUILD_TYPE=Release -DTBB_TEST=OFF -DTBB_STRICT=OFF \
+    -DTBBMALLOC_BUILD=OFF -DCMAKE_CXX_FLAGS=-fsanitize=thread -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib
+  cmake --build "$folder/build"
+  cmake --install "$folder/build"
 }
 
 build=build
@@ -38,6 +54,16 @@ case "$*" in
     export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
     export LACUNA_DRAWN_SHARE=${LACUNA_DRAWN_SHARE:-0.1}       # of the cases that the longest tests draw
     ;;
+  --threads)
+    build=build-threads
+    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=thread)
+    # What starts scripts or browsers takes too long, and tests no more threads.
+    excluded='within the memory limit|stay within|threads that cannot be started|accuracy|schema|GDAL|browser'
+    excluded+='|documentation|installed library'
+    export LD_LIBRARY_PATH=$PWD/build-threads/tbb/lib
+    export TSAN_OPTIONS=suppressions=$PWD/tests/support/races_of_others.txt:exitcode=66
+    export LACUNA_DRAWN_SHARE=${LACUNA_DRAWN_SHARE:-0.05}
+    ;;
   *)
     usage >&2
     exit 2
@@ -47,6 +73,7 @@ esac
 tools/install.sh
 [[ $* != --odr && $* != --all ]] || check_odr
 [[ $* != --odr ]] || exit 0
+[[ $* != --threads ]] || build_tbb
 cmake -G Ninja -S . -B "$build" -DLACUNA_TESTS=ON "${options[@]}"
 cmake --build "$build" --parallel "$(nproc)"
 
