@@ -3,6 +3,7 @@
 // stages and with a whole run. Counters of other names are per thing that the stage goes through.
 #include "bench/sample.hpp"
 #include "engine/boundary/coherence.hpp"
+#include "engine/boundary/paper/cycles.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
@@ -135,7 +136,7 @@ void trace(const SampleComponent& component, Report&& report) {
   Scratch scratch(std::filesystem::temp_directory_path(), kBudget);
   paper::Spanning spanning(component.ids, component.e, scratch);
   for (const LocalEdge edge : component.edges) spanning.add(edge);
-  paper::find_loops(spanning.finish(), scratch, report);
+  paper::find_loops(paper::keep_cycles(spanning.finish(), scratch), scratch, report);
 }
 
 std::vector<Loop> loops() {

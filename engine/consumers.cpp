@@ -24,7 +24,7 @@ Consumers::Consumers(const Level& level, const Job& job) : boundary(boundary_met
   if (output.points) all.push_back(&points.emplace(level.survey.points, store, job));
   if (output.vdb) all.push_back(&voxels.emplace(store, job));
   if (const std::int64_t most = output.sample_points; most > 0)
-    all.push_back(&sample.emplace(static_cast<std::uint64_t>(most), store, job));
+    all.push_back(&sample.emplace(static_cast<std::uint64_t>(most), level.survey.ids, store, job));
   if (job.config.normals.orient) all.push_back(&orientation.emplace(store, job));
 }
 

@@ -95,8 +95,7 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t represented =
       size.is_thinned && output.points ? beyond(size.rows * sizeof(Represented), spills / 8) : 0;
   const std::uint64_t sample = sampled_points(size, job) * sizeof(StoredSample);
-  const std::uint64_t sorted_sample =
-      beyond(sample_keys(size, job), spills / 8) + sorted_on_disk(sample, spills / 8);
+  const std::uint64_t sorted_sample = beyond(sample_keys(size, job), spills / 8) + beyond(sample, spills / 8);
   const std::uint64_t results = output.points ? beyond(size.rows * result_bytes(), spills / 8) : 0;
   const std::uint64_t voxels = output.vdb ? size.points * sizeof(ProbabilityVoxel) : 0;  // at most one each
   const std::uint64_t voxel_work =

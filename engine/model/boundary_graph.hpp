@@ -4,7 +4,6 @@
 #include "engine/model/ids.hpp"
 
 #include <cstdint>
-#include <tuple>
 
 namespace lacuna {
 
@@ -15,15 +14,11 @@ struct Vertex {
   friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
-// An edge of the boundary graph of the paper; a.id < b.id. Edges are taken in ascending order of (weight,
-// lower id, higher id).
+// An edge of the boundary graph of the paper, as tiles pass it on.
 struct BoundaryEdge {
   double weight;
   Vertex a, b;
-
-  friend bool operator<(const BoundaryEdge& x, const BoundaryEdge& y) {
-    return std::tie(x.weight, x.a.id, x.b.id) < std::tie(y.weight, y.a.id, y.b.id);
-  }
+  std::uint64_t is_taken;  // 1: it is in the spanning graph for certain; 0: not known
 };
 
 // An edge between numbered vertices.

@@ -1,6 +1,6 @@
 #include "engine/results/scan_sample.hpp"
 
-#include "engine/store/column_writer.hpp"
+#include "engine/store/outbox.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -38,9 +38,10 @@ std::uint32_t bin_of(double key) {
 
 }  // namespace
 
-ScanSample::ScanSample(std::uint64_t most_points, const TileStore& store, const Job& job)
+ScanSample::ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job)
     : store_(store),
       most_points_(most_points),
+      ids_(ids),
       candidates_(job.file("sample-keys"), 1, job.memory.spills / 8) {}
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
@@ -97,18 +98,30 @@ ScanSample::Rank ScanSample::last_rank(Job& job) const {
 
 Column<StoredSample> ScanSample::finish(Job& job) {
   Phase phase(job, "sample", binned_);
-  struct ById {
-    bool operator()(const StoredSample& a, const StoredSample& b) const { return a.point.id < b.point.id; }
-  };
-  SortedRuns<StoredSample, ById> sorted(job.file("sample-sort"), job.memory.spills / 8);
+  constexpr std::uint64_t kBlock = 1 << 16;  // ids: a block is sorted in memory
+  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids_ / kBlock + 1, job.memory.spills / 8);
+  Outbox<StoredSample> outbox(blocks);
   const Rank last = last_rank(job);
   candidates_.for_each(0, [&](const KeyedSample& candidate) {
-    if (rank_of(candidate) <= last) sorted.add(candidate.sample);
+    const StoredSample& sample = candidate.sample;
+    if (rank_of(candidate) <= last)
+      outbox.add(static_cast<TileIndex>(value(sample.point.id) / kBlock), sample);
   });
+  outbox.send();
+  std::vector<std::uint64_t> first_rows(blocks.lists()), needs(blocks.lists());
+  std::uint64_t row = 0;
+  for (std::size_t b = 0; b < blocks.lists(); ++b) {
+    first_rows[b] = row;
+    row += blocks.count(b);
+    needs[b] = blocks.count(b) * sizeof(StoredSample);
+  }
   Column<StoredSample> column(job.file("sample"));
-  ColumnWriter<StoredSample> writer(column);
-  sorted.for_each([&](const StoredSample& sample) { writer.add(sample); });
-  writer.finish();
+  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t b) {
+    std::vector<StoredSample> samples = blocks.read(b);
+    std::sort(samples.begin(), samples.end(),
+              [](const StoredSample& x, const StoredSample& y) { return x.point.id < y.point.id; });
+    column.write(first_rows[b], samples);
+  });
   return column;
 }
 

@@ -34,7 +34,8 @@ struct KeyedSample {
 // that, by its probability. The sample depends on the points alone, not on tiles or threads.
 class ScanSample final : public TileConsumer {
  public:
-  ScanSample(std::uint64_t most_points, const TileStore& store, const Job& job);
+  // `ids`: all ids are below.
+  ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job);
 
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
   void absorb(TileIndex tile, const TileOutput& output) override;
@@ -61,7 +62,7 @@ class ScanSample final : public TileConsumer {
   Rank last_rank(Job& job) const;
 
   const TileStore& store_;
-  const std::uint64_t most_points_;
+  const std::uint64_t most_points_, ids_;
   std::mutex mutex_;
   std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
   std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin

@@ -310,7 +310,7 @@ def run_again(slot, case, row, count, note, may_fail=False):
                 return count.wrong(row, "%s: again: changes.json is another: %r" % (
                     note, re.findall(rb'"counts".*?}', changes.replace(b"\n", b" "))))
         return count.add(row, again=1)
-    if was_complete and run.is_clear_failure() and re.search("is an input of the run already|is no input", run.err):
+    if was_complete and run.is_clear_failure() and re.search("is an input of the run already|is no input|is left out already", run.err):
         if not os.path.exists(os.path.join(slot.out, "changes.json")):
             return count.wrong(row, "%s: again: complete before, but without changes.json" % note)
         return count.add(row, done_before=1, again_line=1)

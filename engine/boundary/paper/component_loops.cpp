@@ -1,45 +1,17 @@
 #include "engine/boundary/paper/component_loops.hpp"
 
-#include "engine/boundary/paper/order_edges.hpp"
+#include "engine/boundary/paper/cycles.hpp"
+#include "engine/boundary/paper/span_whole.hpp"
 #include "engine/store/row_numbers.hpp"
-#include "engine/store/sorted_runs.hpp"
 
 #include <functional>
 
 namespace lacuna::paper {
 
 // Vertices are numbered by row: near in space, near in memory.
-void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
-                          RawLoops& loops) {
-  if (edges.size() <= static_cast<std::uint64_t>(e)) return;  // a loop has more
-  RowNumbers rows;
-  rows.collect(edges.size(), [&](auto&& add) {
-    for (const BoundaryEdge& edge : edges) {
-      add(edge.a.row);
-      add(edge.b.row);
-    }
-  });
-  if (rows.size() <= static_cast<std::uint64_t>(e)) return;
-  std::vector<PointId> ids(rows.size());
-  std::vector<WeightedEdge> sorted;
-  sorted.reserve(edges.size());
-  for (const BoundaryEdge& edge : edges) {
-    const LocalIndex a = rows.number(edge.a.row), b = rows.number(edge.b.row);
-    ids[a] = edge.a.id;
-    ids[b] = edge.b.id;
-    sorted.push_back({a, b, edge.weight});
-  }
-  order_edges(sorted, ids);
-  Scratch scratch(job.workspace, job.memory.limit);
-  Spanning spanning(ids, e, scratch);
-  for (const WeightedEdge& edge : sorted) spanning.add({edge.a, edge.b});
-  std::vector<WeightedEdge>().swap(sorted);
-  find_loops_of(
-      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
-}
-
-void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
-                                std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops) {
+void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
+                          std::int64_t e, std::uint64_t memory, const Job& job, RawLoops& loops) {
+  if (edge_count <= static_cast<std::uint64_t>(e)) return;  // a loop has more
   RowNumbers rows;
   rows.collect(edge_count, [&](auto&& add) {
     for_each_edge([&](const BoundaryEdge& edge) {
@@ -47,21 +19,27 @@ void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_e
       add(edge.b.row);
     });
   });
-  SortedRuns<BoundaryEdge> sorted(job.file("large-edges"), job.memory.global / 8);
-  Scratch scratch(job.workspace, job.memory.global * 5 / 8);
+  if (rows.size() <= static_cast<std::uint64_t>(e)) return;
+  Scratch scratch(job.workspace, memory / 3);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {
     scratch.trim();
-    sorted.add(edge);
     ids[rows.number(edge.a.row)] = edge.a.id;
     ids[rows.number(edge.b.row)] = edge.b.id;
   });
-  Spanning spanning(ids, e, scratch);
-  sorted.for_each([&](const BoundaryEdge& edge) {
-    spanning.add({rows.number(edge.a.row), rows.number(edge.b.row)});
-  });
+  const auto for_each_passed = [&](const std::function<void(const PassedEdge&)>& visit) {
+    for_each_edge([&](const BoundaryEdge& edge) {
+      visit({rows.number(edge.a.row), rows.number(edge.b.row), edge.weight, edge.is_taken != 0});
+    });
+  };
+  SpanningGraph cycles;
+  {
+    Scratch work(job.workspace, memory / 2);
+    cycles = keep_cycles(span_whole(ids, for_each_passed, e, memory / 6, work), scratch);
+  }
+  Scratch search(job.workspace, memory / 3 * 2);
   find_loops_of(
-      spanning.finish(), [&](LocalIndex v) { return rows.row(v); }, scratch, loops);
+      cycles, [&](LocalIndex v) { return rows.row(v); }, search, loops);
 }
 
 }  // namespace lacuna::paper

@@ -26,12 +26,9 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
   });
 }
 
-// `edges`: of a whole component, in any order. `e`: an edge may close a loop of more than e edges.
-void find_component_loops(std::span<const BoundaryEdge> edges, std::int64_t e, const Job& job,
-                          RawLoops& loops);
-
-// Does this for a component that does not fit in memory: it is sorted on disk and spanned in mapped arrays.
-void find_large_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge,
-                                std::uint64_t edge_count, std::int64_t e, const Job& job, RawLoops& loops);
+// `edge_count`: of a whole component, in any order. `e`: an edge may close a loop of more than e edges.
+// `memory`: bytes, beyond which arrays are mapped from files.
+void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
+                          std::int64_t e, std::uint64_t memory, const Job& job, RawLoops& loops);
 
 }  // namespace lacuna::paper

@@ -112,7 +112,8 @@ void mark_reached(const SpanningGraph& graph, LocalIndex from, std::span<std::ui
 }  // namespace
 
 SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch) {
-  const Cycles cycles(graph, scratch);
+  Scratch work(scratch.folder(), scratch.budget() / 2);
+  const Cycles cycles(graph, work);
   const auto offsets = scratch.array<std::uint64_t>(std::size_t{graph.size()} + 1);
   const auto indices = scratch.array<LocalIndex>(graph.indices.size());
   std::uint64_t end = 0;

@@ -23,10 +23,6 @@ std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) 
   return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
 }
 
-BoundaryEdge boundary_edge(double weight, const Vertex& a, const Vertex& b) {
-  return a.id < b.id ? BoundaryEdge{weight, a, b} : BoundaryEdge{weight, b, a};
-}
-
 // The vertices that a tile knows of. First come its own ends of eligible edges, in ascending row, then those
 // of other tiles at the ends of its crossing edges.
 class TileVertices {
@@ -154,10 +150,14 @@ void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>&
   GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = spanned.links};
   for (const EligibleCrossing& c : crossings)
     part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
-  for (const WeightedEdge& edge : spanned.passed_on) {
-    part.records.push_back(boundary_edge(edge.weight, vertices[edge.a], vertices[edge.b]));
-    part.vertex_of.push_back(edge.a);
-  }
+  const auto pass_on = [&](std::span<const WeightedEdge> some, std::uint64_t is_taken) {
+    for (const WeightedEdge& edge : some) {
+      part.records.push_back({edge.weight, vertices[edge.a], vertices[edge.b], is_taken});
+      part.vertex_of.push_back(edge.a);
+    }
+  };
+  pass_on(spanned.taken, 1);
+  pass_on(spanned.undecided, 0);
   stitch.add(t, std::move(part));
 }
 
@@ -178,9 +178,15 @@ FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
     span_tile(static_cast<TileIndex>(t), e, stitch, found, job);
   });
   stitch.for_each_component(
-      [&](std::span<const BoundaryEdge> edges) { find_component_loops(edges, e, job, found.loops); },
+      [&](std::span<const BoundaryEdge> edges) {
+        constexpr std::uint64_t kAsMuchAsItTakes = UINT64_MAX;
+        const auto for_each_edge = [&](const auto& visit) {
+          std::for_each(edges.begin(), edges.end(), visit);
+        };
+        find_component_loops(for_each_edge, edges.size(), e, kAsMuchAsItTakes, job, found.loops);
+      },
       [&](const auto& for_each_edge, std::uint64_t count) {
-        find_large_component_loops(for_each_edge, count, e, job, found.loops);
+        find_component_loops(for_each_edge, count, e, job.memory.global / 4 * 3, job, found.loops);
       });
   found.components = stitch.components();
   found.loops.sort();

@@ -24,20 +24,22 @@ PartialSpanning span_partially(const PartVertices& vertices, std::vector<Weighte
     if (decision == EdgeDecision::left_out && !vertices.reports(edge)) is_open[edge.a] = 1;
     return decision != EdgeDecision::taken;
   });
-  edges.insert(edges.end(), undecided.begin(), undecided.end());
   const std::span<LocalIndex> links = scratch.array<LocalIndex>(vertices.size());
   UnionFind connected(links);
   for (const WeightedEdge& edge : edges) connected.unite(edge.a, edge.b);
+  for (const WeightedEdge& edge : undecided) connected.unite(edge.a, edge.b);
 
   std::vector<LocalIndex> open;
   for (LocalIndex v = 0; v < vertices.size(); ++v) {
     if (is_open[v] || spanning.is_open(v)) open.push_back(v);
   }
   const PartCycles cycles = split_cycles(spanning.finish(), open, scratch);
-  std::erase_if(edges, [&](const WeightedEdge& edge) {
+  const auto is_not_wanted = [&](const WeightedEdge& edge) {
     return !cycles.leads_out[edge.a] || !cycles.leads_out[edge.b] || !vertices.reports(edge);
-  });
-  return {cycles.complete, std::move(edges), links};
+  };
+  std::erase_if(edges, is_not_wanted);
+  std::erase_if(undecided, is_not_wanted);
+  return {cycles.complete, std::move(edges), std::move(undecided), links};
 }
 
 }  // namespace lacuna::paper

@@ -23,12 +23,13 @@ struct PartVertices {
 };
 
 struct PartialSpanning {
-  SpanningGraph complete;               // whose loops are loops of the whole
-  std::vector<WeightedEdge> passed_on;  // in any order
-  std::span<LocalIndex> links;          // of a UnionFind: vertices that all edges of the part connect
+  SpanningGraph complete;  // whose loops are loops of the whole
+  // Passed on, in any order: edges that are in the graph for certain, and those that may be.
+  std::vector<WeightedEdge> taken, undecided;
+  std::span<LocalIndex> links;  // of a UnionFind: vertices that all edges of the part connect
 };
 
-// `edges`: all that have an owned end, in any order; a: owned. The edges passed on are spanned again with
+// `edges`: all that have an owned end, in any order; a: owned. `span_whole` joins the edges passed on with
 // those of other parts. That gives a graph whose loops are those of the whole, without the complete ones.
 // Most edges are certainly left out, and are not passed on. Trees, and cycles beyond a bridge, are not passed
 // on either: no loop needs them. Without foreign vertices nothing is passed on. The graph lives in `scratch`.

@@ -1,7 +1,6 @@
 #include "engine/boundary/paper/spanning.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 namespace lacuna::paper {
@@ -56,13 +55,13 @@ void Spanning::approach(LocalIndex v, std::int64_t nearness) {
   const auto raise = [&](LocalIndex w, std::int64_t to) {
     if (to <= nearness_[w]) return;
     nearness_[w] = static_cast<std::uint32_t>(to);
-    next_.push_back(w);
+    approached_.push_back(w);
   };
-  next_.clear();
+  approached_.clear();
   raise(v, nearness);
-  for (std::size_t i = 0; i < next_.size(); ++i) {
-    for_each_neighbour(nodes_[next_[i]],
-                       [&](LocalIndex w) { raise(w, std::int64_t{nearness_[next_[i]]} - 2); });
+  for (std::size_t i = 0; i < approached_.size(); ++i) {
+    for_each_neighbour(nodes_[approached_[i]],
+                       [&](LocalIndex w) { raise(w, std::int64_t{nearness_[approached_[i]]} - 2); });
   }
 }
 
@@ -95,45 +94,10 @@ void Spanning::for_each_neighbour(const Node& node, Visit&& visit) const {
   }
 }
 
-// Is there a path of at most `limit` edges? Two balls grow towards each other, the smaller front first.
 bool Spanning::connects(LocalIndex a, LocalIndex b, std::int64_t limit) {
-  if (stamp_ > std::numeric_limits<std::uint32_t>::max() - 4) {  // every mark is used up
-    for (Node& node : nodes_) node.mark = 0;
-    stamp_ = 0;
-  }
-  stamp_ += 2;
-  std::uint32_t here = stamp_, there = stamp_ + 1;
-  near_.assign(1, a);
-  far_.assign(1, b);
-  nodes_[a].mark = here;
-  nodes_[b].mark = there;
-  for (std::int64_t length = 0; length < limit && !near_.empty() && !far_.empty(); ++length) {
-    if (near_.size() > far_.size()) {
-      near_.swap(far_);
-      std::swap(here, there);
-    }
-    if (advance(here, there)) return true;
-  }
-  return false;
-}
-
-// One step of the near front; true if it touches the far ball.
-bool Spanning::advance(std::uint32_t here, std::uint32_t there) {
-  bool touches = false;
-  next_.clear();
-  for (const LocalIndex v : near_) {
-    scratch_.trim();
-    for_each_neighbour(nodes_[v], [&](LocalIndex w) {
-      std::uint32_t& mark = nodes_[w].mark;
-      if (mark == there) touches = true;
-      if (mark >= stamp_) return;
-      mark = here;
-      next_.push_back(w);
-    });
-    if (touches) return true;
-  }
-  near_.swap(next_);
-  return false;
+  return search_.connects(
+      a, b, limit, [&](LocalIndex v) -> std::uint32_t& { return nodes_[v].mark; },
+      [&](LocalIndex v, auto&& visit) { for_each_neighbour(nodes_[v], visit); });
 }
 
 bool Spanning::is_open(LocalIndex v) const {

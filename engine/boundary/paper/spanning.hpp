@@ -1,6 +1,7 @@
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 
+#include "engine/boundary/paper/path_search.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "engine/store/scratch.hpp"
@@ -62,7 +63,6 @@ class Spanning {
   };
 
   bool connects(LocalIndex a, LocalIndex b, std::int64_t limit);
-  bool advance(std::uint32_t here, std::uint32_t there);
   void link(LocalIndex from, LocalIndex to);
   bool may_connect_outside(LocalIndex a, LocalIndex b) const;
   void approach(LocalIndex v, std::int64_t nearness);
@@ -76,8 +76,8 @@ class Spanning {
   std::span<Node> nodes_;
   std::vector<MoreNeighbours> more_;  // of the few vertices with many edges
   std::uint64_t half_edges_ = 0;
-  std::uint32_t stamp_ = 0;
-  std::vector<LocalIndex> near_, far_, next_;  // fronts of a search
+  PathSearch search_;
+  std::vector<LocalIndex> approached_;
   // By vertex, in half steps, how far below `horizon_` its way to what is not known is; empty: all is known.
   std::span<std::uint32_t> nearness_;
   std::int64_t horizon_;

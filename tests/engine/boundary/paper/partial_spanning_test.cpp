@@ -2,6 +2,7 @@
 
 #include "engine/boundary/paper/loops.hpp"
 #include "engine/boundary/paper/order_edges.hpp"
+#include "engine/boundary/paper/span_whole.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
@@ -45,7 +46,7 @@ Loops loops_of(const std::vector<PointId>& ids, std::vector<WeightedEdge> edges,
 Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int parts, std::int64_t e,
                      std::size_t* passed_on = nullptr) {
   Loops loops;
-  std::vector<WeightedEdge> rest;
+  std::vector<PassedEdge> rest;
   for (int part = 0; part < parts; ++part) {
     std::vector<LocalIndex> vertices;  // owned ones first
     for (LocalIndex v = 0; v < whole.ids.size(); ++v) {
@@ -67,11 +68,16 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
     Scratch scratch(folder / "", 1 << 20);
     const PartialSpanning spanned = span_partially({ids, owned}, edges, e, scratch);
     add_loops(spanned.complete, scratch, loops);
-    for (const WeightedEdge& edge : spanned.passed_on)
-      rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight});
+    for (const WeightedEdge& edge : spanned.taken)
+      rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight, true});
+    for (const WeightedEdge& edge : spanned.undecided)
+      rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight, false});
   }
   if (passed_on) *passed_on += rest.size();
-  for (const auto& loop : loops_of(whole.ids, rest, e)) loops.push_back(loop);
+  const test::ScratchFolder folder;
+  Scratch scratch(folder / "", 1 << 20);
+  const auto for_each = [&](const auto& visit) { std::for_each(rest.begin(), rest.end(), visit); };
+  add_loops(span_whole(whole.ids, for_each, e, 1 << 20, scratch), scratch, loops);
   std::sort(loops.begin(), loops.end());
   return loops;
 }
@@ -155,7 +161,8 @@ TEST_CASE("a part without vertices passes nothing on") {
   Scratch scratch(folder / "", 1 << 20);
   const PartialSpanning part = span_partially({{}, 0}, {}, 14, scratch);
   CHECK(part.complete.size() == 0);
-  CHECK(part.passed_on.empty());
+  CHECK(part.taken.empty());
+  CHECK(part.undecided.empty());
 }
 
 }  // namespace
