@@ -61,7 +61,7 @@ std::uint64_t sample_keys(const RunSize& size, const Job& job) {
   const double sample = static_cast<double>(sampled_points(size, job));
   if (sample == 0) return 0;
   return static_cast<std::uint64_t>(sample * (1 + std::log(static_cast<double>(size.points) / sample))) *
-         sizeof(KeyedSample);
+         sizeof(ScanSample::Candidate);
 }
 
 std::uint64_t result_bytes() {

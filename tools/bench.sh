@@ -2,6 +2,7 @@
 # Measures `lacuna detect` from scan file to results, next to other tools where wanted. See bench/README.md.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/options.sh"
+source tools/packages.sh
 
 usage() {
   cat <<'END'
@@ -68,22 +69,6 @@ done
 [[ -z $against || -x $against ]] || fail "$against is no program"
 
 # ---- programs
-
-install_packages() {
-  local missing=() package status as_root=()
-  for package in "$@"; do
-    status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
-    [[ $status == installed ]] || missing+=("$package")
-  done
-  ((${#missing[@]} > 0)) || return 0
-  if ((EUID != 0)); then
-    command -v sudo >/dev/null || fail "missing: ${missing[*]}; run as root, or install sudo"
-    as_root=(sudo)
-  fi
-  echo "bench.sh: installing ${missing[*]}" >&2
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
-}
 
 tools/install.sh
 install_packages libbenchmark-dev liblzf-dev gnuplot-nox python3 time

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what the build needs from Debian 12. Quick, and without the network, where all is there already.
+# Installs what the build needs from Debian 12.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
 packages=(
   g++ cmake ninja-build dpkg-dev
@@ -13,23 +14,4 @@ packages=(
   python3-selenium chromium chromium-driver  # the test of the report
 )
 
-missing=()
-for package in "${packages[@]}"; do
-  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
-  [[ $status == installed ]] || missing+=("$package")
-done
-if ((${#missing[@]} == 0)); then
-  exit 0
-fi
-
-as_root=()
-if ((EUID != 0)); then
-  if ! command -v sudo >/dev/null; then
-    echo "install.sh: missing: ${missing[*]}; run as root, or install sudo" >&2
-    exit 1
-  fi
-  as_root=(sudo)
-fi
-echo "install.sh: installing ${missing[*]}" >&2
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+install_packages "${packages[@]}"

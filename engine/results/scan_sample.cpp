@@ -14,7 +14,8 @@
 namespace lacuna {
 namespace {
 
-constexpr double kBoundaryWeight = 3;  // added to a weight of 1 at the probability 1
+constexpr std::uint64_t kBlock = 1 << 16;  // ids of a block of the sample, which is ordered in memory
+constexpr double kBoundaryWeight = 3;      // added to a weight of 1 at the probability 1
 
 // Uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
 double drawn_from(PointId id) {
@@ -36,16 +37,28 @@ std::uint32_t bin_of(double key) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key) >> 48);
 }
 
+// In ascending id. All ids are in one block.
+void order(std::vector<StoredSample>& samples) {
+  std::vector<LocalIndex> places(kBlock, kNoIndex);
+  for (LocalIndex i = 0; i < samples.size(); ++i) places[value(samples[i].point.id) % kBlock] = i;
+  std::vector<StoredSample> ordered;
+  ordered.reserve(samples.size());
+  for (const LocalIndex place : places) {
+    if (place != kNoIndex) ordered.push_back(samples[place]);
+  }
+  samples.swap(ordered);
+}
+
 }  // namespace
 
 ScanSample::ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job)
     : store_(store),
       most_points_(most_points),
       ids_(ids),
-      candidates_(job.file("sample-keys"), 1, job.memory.spills / 8) {}
+      candidates_(job.file("sample-keys"), store.tiling().tiles.size(), job.memory.spills / 8) {}
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  std::vector<EmittedSample> samples;
+  std::vector<Candidate> samples;
   const std::uint32_t last = last_bin_;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const Evaluation& e = tile.evaluations[p];
@@ -58,21 +71,13 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
 }
 
 void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
-  std::vector<KeyedSample> samples;
-  const std::span<const EmittedSample> emitted = output.read<EmittedSample>("sample");
-  auto next = emitted.begin();
-  LocalIndex point = 0;
-  const std::uint32_t last = last_bin_;
-  store_.for_each_point(tile, [&](const StoredPoint& p) {
-    if (next == emitted.end() || next->point != point++) return;
-    const auto& [key, probability, normal, place, padding] = *next++;
-    if (bin_of(key) <= last) samples.push_back({key, {p, probability, {normal[0], normal[1], normal[2]}}});
-  });
+  const std::span<const Candidate> emitted = output.read<Candidate>("sample");
+  std::vector<Candidate> candidates(emitted.begin(), emitted.end());
   const std::lock_guard lock(mutex_);
-  std::erase_if(samples, [&](const KeyedSample& sample) { return bin_of(sample.key) > last_bin_; });
-  candidates_.append(0, samples);
-  for (const KeyedSample& sample : samples) ++bins_[bin_of(sample.key)];
-  binned_ += samples.size();
+  std::erase_if(candidates, [&](const Candidate& candidate) { return bin_of(candidate.key) > last_bin_; });
+  candidates_.append(tile, candidates);
+  for (const Candidate& candidate : candidates) ++bins_[bin_of(candidate.key)];
+  binned_ += candidates.size();
   // A bin goes where those before it are enough.
   while (!bins_.empty() && binned_ - bins_.rbegin()->second >= most_points_) {
     binned_ -= bins_.rbegin()->second;
@@ -81,45 +86,55 @@ void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
   if (binned_ >= most_points_) last_bin_ = bins_.rbegin()->first;
 }
 
-// The largest rank in the sample. Only those of the last bin are to be ordered.
-ScanSample::Rank ScanSample::last_rank(Job& job) const {
-  Rank last{std::numeric_limits<double>::infinity(), PointId{0}};
-  if (binned_ < most_points_) return last;
-  SortedRuns<Rank> of_last_bin(job.file("sample-ranks"), job.memory.spills / 8);
-  candidates_.for_each(0, [&](const KeyedSample& candidate) {
-    if (bin_of(candidate.key) == last_bin_) of_last_bin.add(rank_of(candidate));
-  });
+// The largest key of the sample. Only those of the last bin are to be ordered.
+double ScanSample::last_key(Job& job) const {
+  if (binned_ <= most_points_) return std::numeric_limits<double>::max();
+  SortedRuns<double> of_last_bin(job.file("sample-last"), job.memory.spills / 8);
+  for (std::size_t t = 0; t < candidates_.lists(); ++t) {
+    candidates_.for_each(t, [&](const Candidate& candidate) {
+      if (bin_of(candidate.key) == last_bin_) of_last_bin.add(candidate.key);
+    });
+  }
+  // Of equal keys, all are in the sample or none.
+  const double first_of_bin = std::bit_cast<double>(std::uint64_t{last_bin_} << 48);
+  double last = std::nextafter(first_of_bin, -1), key_before = last;
   std::uint64_t taken = binned_ - of_last_bin.size();  // all of the bins before
-  of_last_bin.for_each([&](const Rank& rank) {
-    if (taken++ < most_points_) last = rank;
+  of_last_bin.for_each([&](double key) {
+    if (key != key_before && taken <= most_points_) last = key_before;
+    key_before = key;
+    ++taken;
   });
   return last;
 }
 
 Column<StoredSample> ScanSample::finish(Job& job) {
-  Phase phase(job, "sample", binned_);
-  constexpr std::uint64_t kBlock = 1 << 16;  // ids: a block is sorted in memory
+  Phase phase(job, "sample", 0);
   AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids_ / kBlock + 1, job.memory.spills / 8);
-  Outbox<StoredSample> outbox(blocks);
-  const Rank last = last_rank(job);
-  candidates_.for_each(0, [&](const KeyedSample& candidate) {
-    const StoredSample& sample = candidate.sample;
-    if (rank_of(candidate) <= last)
-      outbox.add(static_cast<TileIndex>(value(sample.point.id) / kBlock), sample);
+  const double last = last_key(job);
+  job.arena.for_each(candidates_.lists(), [&](std::size_t t) {
+    Outbox<StoredSample> outbox(blocks);
+    std::vector<Candidate> sampled = candidates_.read(t);
+    std::erase_if(sampled, [&](const Candidate& candidate) { return candidate.key > last; });
+    auto next = sampled.begin();
+    LocalIndex point = 0;
+    store_.for_each_point(static_cast<TileIndex>(t), [&](const StoredPoint& p) {
+      if (next == sampled.end() || next->point != point++) return;
+      outbox.add(static_cast<TileIndex>(value(p.id) / kBlock), {p, next->probability, next->normal});
+      ++next;
+    });
+    outbox.send();
   });
-  outbox.send();
   std::vector<std::uint64_t> first_rows(blocks.lists()), needs(blocks.lists());
   std::uint64_t row = 0;
   for (std::size_t b = 0; b < blocks.lists(); ++b) {
     first_rows[b] = row;
     row += blocks.count(b);
-    needs[b] = blocks.count(b) * sizeof(StoredSample);
+    needs[b] = 2 * blocks.count(b) * sizeof(StoredSample) + kBlock * sizeof(LocalIndex);
   }
   Column<StoredSample> column(job.file("sample"));
   job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t b) {
     std::vector<StoredSample> samples = blocks.read(b);
-    std::sort(samples.begin(), samples.end(),
-              [](const StoredSample& x, const StoredSample& y) { return x.point.id < y.point.id; });
+    order(samples);
     column.write(first_rows[b], samples);
   });
   return column;

@@ -8,8 +8,8 @@
 #include "engine/store/column.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <array>
 #include <atomic>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -20,20 +20,25 @@ namespace lacuna {
 struct StoredSample {
   StoredPoint point;
   float probability;
-  float normal[3];
-};
-
-struct KeyedSample {
-  double key;
-  StoredSample sample;
+  std::array<float, 3> normal;
 };
 
 // Sequential Poisson sampling (Ohlsson, 1998): a point of weight w has the key u / w, with u drawn from its
-// id, uniform in (0, 1). The points with the smallest keys are the sample. A weight is the area that the
-// point stands for: the square of its mean distance to its neighbours. Near a boundary it is up to four times
-// that, by its probability. The sample depends on the points alone, not on tiles or threads.
+// id, uniform in (0, 1). The points with the smallest keys are the sample. Where keys are equal at its end,
+// it has fewer points than wanted. A weight is the area that the point stands for: the square of its mean
+// distance to its neighbours. Near a boundary it is up to four times that, by its probability. The sample
+// depends on the points alone, not on tiles or threads.
 class ScanSample final : public TileConsumer {
  public:
+  // As a tile puts it out, in ascending point.
+  struct Candidate {
+    double key;
+    float probability;
+    std::array<float, 3> normal;
+    LocalIndex point;
+    std::uint32_t padding;
+  };
+
   // `ids`: all ids are below.
   ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job);
 
@@ -44,22 +49,7 @@ class ScanSample final : public TileConsumer {
   Column<StoredSample> finish(Job& job);
 
  private:
-  // As a tile puts it out, in ascending point.
-  struct EmittedSample {
-    double key;
-    float probability;
-    float normal[3];
-    LocalIndex point;
-    std::uint32_t padding;
-  };
-
-  struct Rank {
-    double key;
-    PointId id;
-    friend auto operator<=>(const Rank&, const Rank&) = default;
-  };
-  static Rank rank_of(const KeyedSample& candidate) { return {candidate.key, candidate.sample.point.id}; }
-  Rank last_rank(Job& job) const;
+  double last_key(Job& job) const;
 
   const TileStore& store_;
   const std::uint64_t most_points_, ids_;
@@ -67,7 +57,7 @@ class ScanSample final : public TileConsumer {
   std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
   std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin
   std::uint64_t binned_ = 0;                     // in all bins
-  AppendLists<KeyedSample> candidates_;          // one list: those of the sample, and others
+  AppendLists<Candidate> candidates_;            // of each tile: points of the sample, and others
 };
 
 }  // namespace lacuna
