@@ -95,7 +95,7 @@ double ScanSample::last_key(Job& job) const {
       if (bin_of(candidate.key) == last_bin_) of_last_bin.add(candidate.key);
     });
   }
-  // Of equal keys, all are in the sample or none.
+  // All of several equal keys are in the sample, or none.
   const double first_of_bin = std::bit_cast<double>(std::uint64_t{last_bin_} << 48);
   double last = std::nextafter(first_of_bin, -1), key_before = last;
   std::uint64_t taken = binned_ - of_last_bin.size();  // all of the bins before

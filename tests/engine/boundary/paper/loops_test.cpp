@@ -1,5 +1,6 @@
 #include "engine/boundary/paper/loops.hpp"
 
+#include "engine/boundary/paper/cycles.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -38,7 +39,7 @@ std::vector<Cycle> loops_of(LocalIndex vertices, const Edges& edges, std::uint64
   std::vector<Cycle> loops;
   std::vector<PointId> ids;
   for (LocalIndex v = 0; v < vertices; ++v) ids.push_back(PointId{v});
-  find_loops({ids, offsets, indices}, scratch,
+  find_loops(keep_cycles({ids, offsets, indices}, scratch), scratch,
              [&](std::span<const LocalIndex> loop) { loops.emplace_back(loop.begin(), loop.end()); });
   return loops;
 }
