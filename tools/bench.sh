@@ -12,7 +12,7 @@ Builds a release, makes the scans, runs the programs in turns, each twice of whi
 bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg).
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
-  --positions LIST      near a grid or anywhere: jittered, random     default "jittered random"
+  --positions LIST      near a grid or anywhere: jittered, random     default "random jittered"
   --orders LIST         of the points in the file: scanline, random   default "scanline random"
   --threads LIST        default: one per core
   --memory-limit LIST   as for lacuna: 1GiB; or default               default "default"
@@ -20,6 +20,7 @@ bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (D
   --real                the real scans, too
   --data DIR            where they are                                default ../shared/data
   --peers               PCL and Open3D too (installs about 1 GB of packages)
+  --peer-programs LIST  which of them                             default "pcl open3d"
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
   --timeout SECONDS     for one run; what takes longer is left out    default 3600
   --against PROGRAM     another build of lacuna in turns with this one, called "against"
@@ -36,7 +37,7 @@ END
 # ---- what the options request
 
 points=(1 4)
-positions=(jittered random)
+positions=(random jittered)
 orders=(scanline random)
 threads=("$(nproc)")
 memory_limit=(default)
@@ -44,6 +45,7 @@ runs=5
 real=0
 data=$root/../shared/data
 peers=0
+peer_programs=(pcl open3d)
 peer_points=4
 timeout=3600
 against=
@@ -76,13 +78,11 @@ cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLACUNA_BENCH=ON >/d
 cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna_stages lacuna_formats
 lacuna=$build/lacuna
 
-peer_programs=()
 if ((peers)); then
   install_packages libpcl-dev libopen3d-dev
   cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release
-  cmake --build "$build/peers" --parallel "$(nproc)"
-  for name in pcl open3d; do
-    [[ -x $build/peers/${name}_boundary ]] && peer_programs+=("$name")
+  for name in "${peer_programs[@]}"; do
+    cmake --build "$build/peers" --parallel "$(nproc)" --target "${name}_boundary"
   done
 fi
 
@@ -141,6 +141,7 @@ run_once() {
 }
 
 failures=()
+load_before=$(cut -d ' ' -f 1-3 /proc/loadavg)
 
 # Runs all programs on one case in turns, A A B B A A B B. So a slow minute of the machine affects all. The first run of
 # a turn warms up. When a program of many gigabytes ends, a virtual machine gives them back to its host, and the next
@@ -153,7 +154,7 @@ run_case() {
     turns+=("lacuna $limit")
     [[ -z $against ]] || turns+=("against $limit")
   done
-  if ((with_peers)); then
+  if ((with_peers && peers)); then
     for program in "${peer_programs[@]}"; do turns+=("$program default"); done
   fi
   for ((run = 1; run <= runs; ++run)); do
@@ -215,6 +216,7 @@ fi
   echo "$(date +%Y-%m-%d), commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown)"
   lscpu | sed -n 's/^Model name: */processor: /p; s/^CPU(s): */cores: /p'
   awk '/^MemTotal/ { printf "memory: %.1f GiB\n", $2 / 1048576 }' /proc/meminfo
+  echo "load before and after: $load_before; $(cut -d ' ' -f 1-3 /proc/loadavg)"
   ((${#detect_options[@]} == 0)) || echo "detect options: ${detect_options[*]}"
   echo
   for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
