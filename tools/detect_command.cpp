@@ -174,7 +174,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  const std::vector<fs::path> written = write_results(*detection, scan, config, out, overwrite);
+  const std::vector<fs::path> written = write_results(*detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
   const std::string more = steps.end ? steps.end() : "";
   if (workspace) {

@@ -38,7 +38,10 @@ struct Updated {
     arguments.insert(arguments.end(), {"--quiet", "--points", "--tile-points", "600"});
     return run_program(arguments);
   }
-  Updated() { REQUIRE(run({"detect", first, "--workspace", workspace, "--out", out}).exit_code == 0); }
+  explicit Updated(std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"detect", first, "--workspace", workspace, "--out", out});
+    REQUIRE(run(options).exit_code == 0);
+  }
 
   std::vector<std::string> update(std::vector<std::string> more) const {
     more.insert(more.begin(), {"update", workspace});
@@ -92,6 +95,12 @@ TEST_CASE("update replaces a file in its place") {
   const std::string moved = scan.folder.write("moved.txt", test::sheet(118));
   REQUIRE(scan.run(scan.update({"--replace", scan.first + "=" + moved})).exit_code == 0);
   scan.is_as({moved, scan.patch});
+}
+
+TEST_CASE("an update of a thinned scan has the bytes of a run from nothing") {
+  const Updated scan({"--min-hole", "6"});
+  REQUIRE(scan.run(scan.update({"--add", scan.patch})).exit_code == 0);
+  scan.is_as({scan.first, scan.patch, "--min-hole", "6"});
 }
 
 TEST_CASE("an update that is killed goes on with the same command") {
