@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -100,13 +101,13 @@ class Joiner {
 };
 
 // The points of one tile, as they are put into the store.
-struct TilePoints {
+struct JoinedTile {
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;
   std::vector<Cell> cells;
 };
 
-void add_chosen(const TileStore& below, TileIndex t, const RowSet& rows, TilePoints& to) {
+void add_chosen(const TileStore& below, TileIndex t, const RowSet& rows, JoinedTile& to) {
   const Tile& tile = below.tiling().tiles[t];
   const std::vector<Eigen::Vector3d> normals = below.normals(t);
   LocalIndex owned = 0;
@@ -122,7 +123,7 @@ void add_chosen(const TileStore& below, TileIndex t, const RowSet& rows, TilePoi
   });
 }
 
-void add_cells(std::span<const JoinedCells> joined, TilePoints& to) {
+void add_cells(std::span<const JoinedCells> joined, JoinedTile& to) {
   std::size_t next = 0;
   for (const JoinedCells& cells : joined) {
     Cell cell{.points = cells.points};
@@ -166,7 +167,7 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
   TileStore store(std::move(files), std::move(tiles), join.first.size(), below.precision(),
                   below.has_normals(), 0);
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
-    TilePoints to;
+    JoinedTile to;
     to.points.reserve(needs[t] / kBytesPerPoint);
     const TileIndex first = join.first[t], last = end_of(join, t, tiling);
     for (TileIndex b = first; b < last; ++b) add_chosen(below, b, chosen.rows, to);
