@@ -19,7 +19,10 @@ struct Origin {
 class Search {
  public:
   Search(const SpanningGraph& graph, Scratch& scratch)
-      : graph_(graph), scratch_(scratch), reached_(scratch.array<Reached>(graph.size())) {}
+      : graph_(graph),
+        scratch_(scratch),
+        reached_(scratch.array<Reached>(graph.size())),
+        queue_(scratch.array<LocalIndex>(graph.size())) {}
 
   bool is_on_loop(LocalIndex v) const { return reached_[v].is_on_loop != 0; }
 
@@ -28,15 +31,16 @@ class Search {
     ++stamp_;
     loop_.clear();
     reached_[origin].stamp = stamp_;
-    queue_.assign(1, origin);
-    for (std::size_t head = 0; head < queue_.size(); ++head) {
+    std::size_t tail = 0;
+    queue_[tail++] = origin;
+    for (std::size_t head = 0; head < tail; ++head) {
       scratch_.trim();
       const LocalIndex v = queue_[head];
       for (const LocalIndex w : graph_[v]) {
         Reached& there = reached_[w];
         if (there.stamp != stamp_) {
           there = {stamp_, v, v == origin ? w : reached_[v].branch, there.is_on_loop};
-          queue_.push_back(w);
+          queue_[tail++] = w;
         } else if (v != origin && w != origin && reached_[v].branch != there.branch) {
           trace(origin, v, w);
           for (const LocalIndex on_loop : loop_) reached_[on_loop].is_on_loop = 1;
@@ -68,8 +72,9 @@ class Search {
   const SpanningGraph& graph_;
   Scratch& scratch_;
   std::span<Reached> reached_;
+  std::span<LocalIndex> queue_;  // as long as the component, at worst
   LocalIndex stamp_ = 0;
-  std::vector<LocalIndex> queue_, loop_;
+  std::vector<LocalIndex> loop_;
 };
 
 }  // namespace
