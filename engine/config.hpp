@@ -66,6 +66,9 @@ struct LoopsConfig {
 // Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
 // and doubled.
 struct TangentialConfig {
+  // Candidates of a higher probability are seeds. Along a boundary they all become active from one seed, so
+  // chance gaps below it need no stars.
+  double seed_probability = 0.7;
   // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing line.
   double max_radius = 1.5;
   // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is

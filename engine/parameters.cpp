@@ -81,7 +81,7 @@ std::vector<Parameter> parameters(Config& config) {
   }
   const std::vector<Parameter> others = {
       {"coherence", "threshold", &coherence.threshold, 0, 1, "a number from 0 to 1",
-       "Boundary probability above which a point is a candidate; tangential loops are searched from these.",
+       "Boundary probability above which a point is a candidate.",
        kNothing},
 
       {"loops", "method", named(loops.method, kMethods), 0, 1, "tangential or paper",
@@ -99,6 +99,8 @@ std::vector<Parameter> parameters(Config& config) {
        "neighbours.",
        kPaper},
 
+      {"tangential", "seed_probability", &tangential.seed_probability, 0, 1, "a number from 0 to 1",
+       "Boundary probability above which a candidate is a seed; loops are searched from these.", kTangential},
       {"tangential", "max_radius", &tangential.max_radius, 0.5, 4, "a number from 0.5 to 4",
        "Largest circumradius of a triangle, in medians of those around it; their spread is added.",
        kTangential},

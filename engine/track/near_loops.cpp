@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -71,8 +74,8 @@ void add_cells(const LevelLoops& level, std::uint32_t first, double edge, CellSo
 }
 
 // All cells of all loops, each once, in order.
-Column<LoopCell> sorted_cells(CellSort& cells, const Job& job) {
-  Column<LoopCell> sorted(job.file("sorted-loop-cells"));
+Column<LoopCell> sorted_cells(CellSort& cells, std::filesystem::path path) {
+  Column<LoopCell> sorted(std::move(path));
   ColumnWriter<LoopCell> writer(sorted);
   std::optional<LoopCell> last;
   cells.for_each([&](const LoopCell& c) {
@@ -136,9 +139,8 @@ void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse,
 }
 
 // Both directions of a pair are wanted at a time, so pairs are sorted again by their lower loop.
-void add_pairs(SharedSort& shared, const std::vector<std::uint32_t>& own_cells,
-               std::vector<NearLoops>& pairs) {
-  const std::size_t begin = pairs.size();
+std::vector<NearLoops> pairs_of(SharedSort& shared, const std::vector<std::uint32_t>& own_cells) {
+  std::vector<NearLoops> pairs;
   std::optional<SharedCell> last;
   std::uint32_t count = 0;
   const auto add = [&] {
@@ -158,37 +160,43 @@ void add_pairs(SharedSort& shared, const std::vector<std::uint32_t>& own_cells,
     ++count;
   });
   add();
-  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.end());
-  std::size_t kept = begin;
-  for (std::size_t i = begin; i < pairs.size(); ++i) {
-    if (kept > begin && pairs[kept - 1].a == pairs[i].a && pairs[kept - 1].b == pairs[i].b) {
-      pairs[kept - 1].of_a += pairs[i].of_a;
-      pairs[kept - 1].of_b += pairs[i].of_b;
+  std::sort(pairs.begin(), pairs.end());
+  std::size_t kept = 0;
+  for (const NearLoops& pair : pairs) {
+    if (kept > 0 && pairs[kept - 1].a == pair.a && pairs[kept - 1].b == pair.b) {
+      pairs[kept - 1].of_a += pair.of_a;
+      pairs[kept - 1].of_b += pair.of_b;
     } else {
-      pairs[kept++] = pairs[i];
+      pairs[kept++] = pair;
     }
   }
   pairs.resize(kept);
+  return pairs;
 }
 
 }  // namespace
 
 std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job) {
-  std::vector<NearLoops> pairs;
   std::vector<std::uint32_t> first = {0};
   for (const LevelLoops& level : levels)
     first.push_back(first.back() + static_cast<std::uint32_t>(level.loops.size()));
-  for (std::size_t coarse = 0; coarse < levels.size(); ++coarse) {
-    CellSort cells(job.file("loop-cells"), job.memory.global / 4);
+  const std::uint64_t budget = job.memory.global / 4 / std::min(job.arena.threads(), levels.size());
+  std::vector<std::vector<NearLoops>> pairs(levels.size());  // by the coarser level
+  job.arena.for_each(levels.size(), [&](std::size_t coarse) {
+    const auto file = [&](const char* name) { return job.file(name + std::to_string(coarse)); };
+    CellSort cells(file("loop-cells-"), budget);
     for (std::size_t l = coarse - std::min(coarse, kBridged + 1); l <= coarse; ++l)
       add_cells(levels[l], first[l], levels[coarse].cell_edge, cells);
     std::vector<std::uint32_t> own_cells(first.back());
-    SharedSort shared(job.file("shared-cells"), job.memory.global / 4);
-    add_shared(sorted_cells(cells, job), first[coarse], own_cells, shared);
-    add_pairs(shared, own_cells, pairs);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+    SharedSort shared(file("shared-cells-"), budget);
+    add_shared(sorted_cells(cells, file("sorted-loop-cells-")), first[coarse], own_cells, shared);
+    pairs[coarse] = pairs_of(shared, own_cells);
+  });
+  std::vector<NearLoops> all;
+  for (const std::vector<NearLoops>& of_level : pairs)
+    all.insert(all.end(), of_level.begin(), of_level.end());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 }  // namespace lacuna

@@ -33,6 +33,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"max_prob_weight", "0.5"},
     {"max_total_weight", "1.8"},
     {"e", "40"},
+    {"seed_probability", "0.99"},
     {"max_radius", "2.5"},
     {"hole_radius", "0.4"},
     {"most_radius", "0.2"},

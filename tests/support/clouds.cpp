@@ -385,6 +385,7 @@ Config random_config(std::uint64_t seed, double spacing) {
   if (varied()) config.selection.min_confidence = random.uniform();
   if (random.chance(0.3)) {
     TangentialConfig& tangential = config.tangential;
+    tangential.seed_probability = random.uniform(0.2, 0.9);
     tangential.max_radius = random.uniform(1, 3);
     tangential.hole_radius = random.uniform(0.5, 2);
     tangential.most_radius = random.uniform(0.2, 0.8);

@@ -778,9 +778,10 @@ bool is_agreed(PointId p, std::size_t i, const std::set<PointId>& rough, Stars& 
          (!rough.contains(b) || has_triangle(stars[b], p, a, scale));
 }
 
-// Candidates (method.md, 4), and, again and again, the corners of triangles in their stars that are not
+// Seeds (method.md, C.4), and, again and again, the corners of triangles in their stars that are not
 // agreed.
-std::set<PointId> rough_points(const Detection& result, double threshold, Stars& stars) {
+std::set<PointId> rough_points(const Detection& result, const Config& config, Stars& stars) {
+  const double threshold = std::max(config.coherence.threshold, config.tangential.seed_probability);
   std::set<PointId> rough;
   for (const PointId p : result.distinct) {
     if (result.points[value(p)].probability > threshold) rough.insert(p);
@@ -943,7 +944,7 @@ struct Level {
 // The loops of a level, of which `result` has the evaluated points.
 Loops loops_of(const Level& level, std::size_t number, const Config& config, Detection& result) {
   Stars stars(level.positions, config.tangential, result, level.names);
-  const std::set<PointId> rough = rough_points(result, config.coherence.threshold, stars);
+  const std::set<PointId> rough = rough_points(result, config, stars);
   std::size_t coarse_edges = 0;
   Loops loops;
   find_curves(level.positions, result, config.tangential, rough, 0, stars, result.boundary_edges, loops);

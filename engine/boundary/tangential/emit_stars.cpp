@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -55,6 +56,14 @@ class TileRadii {
   std::vector<StarRadii> of_star_;
   SamplingRadius radii_;
 };
+
+// Ascending.
+std::vector<LocalIndex> seeds_of(const EvaluatedTile& tile, double seed_probability) {
+  std::vector<LocalIndex> seeds;
+  std::copy_if(tile.candidates.begin(), tile.candidates.end(), std::back_inserter(seeds),
+               [&](LocalIndex p) { return tile.evaluations[p].probability > seed_probability; });
+  return seeds;
+}
 
 // Marks points, by is_wanted(p) of the owned ones, and all of their neighbours.
 template <class Wanted>
@@ -165,8 +174,8 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
 
 std::vector<std::uint8_t> emit_stars(const EvaluatedTile& tile, const TangentialConfig& config,
                                      TileOutput& output) {
-  const TileStars found =
-      find_stars(tile.points, tile.neighbourhoods, tile.evaluations, tile.candidates, tile.is_border, config);
+  const TileStars found = find_stars(tile.points, tile.neighbourhoods, tile.evaluations,
+                                     seeds_of(tile, config.seed_probability), tile.is_border, config);
   TileRadii radii(tile, found, config);
   std::vector<std::uint8_t> is_vertex = emit_wedges(tile, found, radii, config, output);
   emit_belt(tile, found, radii, output);
