@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast each format is read from the page cache, as the engine reads it: positions, in batches. Counters:
 // points and bytes of the file per second. `lacuna_formats write FOLDER POINTS` writes one file in each
 // format instead, for whole runs.

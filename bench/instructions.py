@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Compares instructions of functions, as callgrind_annotate prints them, with those in a CSV file.
 
     instructions.py FUNCTIONS CSV [--update]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Appends the rows of one run to the results: one per phase, and `total`."""
 
 import argparse

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scan in memory for the kernel benchmarks: a wavy surface with holes, all of it in one tile.
 #pragma once
 

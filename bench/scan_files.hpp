@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One sample in each format that is read, to measure the readers.
 #pragma once
 

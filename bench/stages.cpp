@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What each stage costs per point, alone, on one thread, on one tile of 65,536 points: 15 neighbours, every
 // other parameter at its default. Counter `per_point` is the time per point of the tile, comparable between
 // stages and with a whole run. Counters of other names are per thing that the stage goes through.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Medians of the runs in files of results: as tables, as the table of the README, or as gnuplot's data."""
 
 import csv

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the confidence of every loop is computed from, at every level of one scan, with default parameters. Of
 // two files for bench/accuracy/calibrate.py, one has the loops as `lacuna evaluate` reads them. The other has
 // their numbers, in the same order.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Adds what Debian wants of a package, and `cmake --install` does not write: changelog.gz and copyright.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()

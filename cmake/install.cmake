@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` writes: the program with its manual and completions, the library, configs and documentation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

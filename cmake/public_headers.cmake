@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The public headers: those that engine/lacuna.hpp includes, directly or not.
 
 # Copies `header` and every header of the project that it includes to `to`/lacuna. There, #include "engine/x.hpp" reads

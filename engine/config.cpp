@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/config.hpp"
 
 #include "engine/criteria/criteria.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own struct
 // as const. `parameters()` lists them all once: the config file, the command line, the errors and the printed
 // config come from that list.

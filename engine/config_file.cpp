@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The config file: TOML, each key in its section.
 #include "engine/config.hpp"
 #include "engine/config_text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/config_text.hpp"
 
 #include "engine/run/utf8.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks of a config file before toml++ reads it.
 #pragma once
 

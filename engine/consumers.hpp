@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who takes the evaluated tiles of a level.
 #pragma once
 

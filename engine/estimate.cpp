@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/estimate.hpp"
 
 #include "engine/halo/eps_balls.hpp"

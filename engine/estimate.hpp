@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a run takes, found by its first steps and a sample of the others.
 #pragma once
 

@@ -1,26 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/lacuna.hpp"
 
-#include "engine/points_in_memory.hpp"
-#include "engine/store/temporary_folder.hpp"
+#include "engine/store/scratch_place.hpp"
 
-#include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace lacuna {
-namespace {
 
-using Vectors = std::span<const Eigen::Vector3d>;
-
-}  // namespace
-
-Holes find_holes(PointSource& scan, const Config& config) {
-  namespace fs = std::filesystem;
-  const fs::path parent =
-      config.run.scratch.empty() ? fs::temp_directory_path() : fs::path(config.run.scratch);
-  const TemporaryFolder scratch(parent, "lacuna-");
+Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
+  Config config = given;
+  config.output.sample_points = 0;
+  config.output.vdb = false;
+  const ScratchPlace scratch(scan, config.run);
   NoProgress silence;
-  const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), silence);
+  const std::unique_ptr<Detection> detection =
+      detect(scan, config, scratch.path(), progress == nullptr ? silence : *progress);
 
   Holes holes;
   holes.summary = detection->summary;
@@ -35,18 +31,19 @@ Holes find_holes(PointSource& scan, const Config& config) {
   return holes;
 }
 
-Holes find_holes(Vectors points, Vectors normals, const Config& config) {
+Holes find_holes(const PointArray& points, const PointArray& normals, const Config& config,
+                 Progress* progress) {
   if (normals.size() != points.size()) {
     throw Error(std::to_string(normals.size()) + " normals for " + std::to_string(points.size()) +
                 " points; allowed: one for each point");
   }
   PointsInMemory scan(points, normals);
-  return find_holes(scan, config);
+  return find_holes(scan, config, progress);
 }
 
-Holes find_holes(Vectors points, const Config& config) {
+Holes find_holes(const PointArray& points, const Config& config, Progress* progress) {
   PointsInMemory scan(points, {});
-  return find_holes(scan, config);
+  return find_holes(scan, config, progress);
 }
 
 }  // namespace lacuna

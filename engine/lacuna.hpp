@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lacuna as a library: `#include <lacuna/lacuna.hpp>`. Everything that a user needs is in this header and in
 // those that it includes.
 //
@@ -17,13 +18,11 @@
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/points_in_memory.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/progress.hpp"
 
-#include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace lacuna {
 
@@ -36,25 +35,29 @@ struct Holes {
 
 // Finds the loops around the holes of the surface that `points` sample, in any unit of length. All lengths of
 // the results are in the same unit. Non-finite points are dropped and counted. Empty input, and fewer points
-// than a hole needs, give no loops.
+// than a hole needs, give no loops. A vector or span of Eigen::Vector3d or Vector3f is a `PointArray`; so are
+// records with three coordinates at fixed strides.
 //
 // `config`: `input` is for files and has no effect; of `output`, `points` alone counts.
+// `progress`: is called as in engine/run/progress.hpp; an exception that it throws ends the run.
 // Throws `Error` for parameters that contradict each other, for a coordinate beyond `kFarthest`, and where
-// the workspace cannot be made or written to. The folder `run.workspace`, else that for temporary files,
-// holds the workspace, which is gone at the end.
+// the scratch folder cannot be made or written to.
+//
+// What a run puts aside stays in memory where it fits within half of `run.memory_limit`. Else it goes to a
+// folder in `run.scratch`, or in that for temporary files, which is gone at the end.
 //
 // Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
-// `run.memory_limit` allows. The disk takes some 100 bytes per point (docs/usage.md says how many). Calls
+// `run.memory_limit` allows. A folder takes some 100 bytes per point (docs/usage.md says how many). Calls
 // from several threads are independent of each other.
-Holes find_holes(std::span<const Eigen::Vector3d> points, const Config& config = {});
+Holes find_holes(const PointArray& points, const Config& config = {}, Progress* progress = nullptr);
 
 // Finds the loops with known normals, one per point, of any length; NaN or zero where one is not known.
 // Throws `Error` too where their number is not that of the points.
-Holes find_holes(std::span<const Eigen::Vector3d> points, std::span<const Eigen::Vector3d> normals,
-                 const Config& config = {});
+Holes find_holes(const PointArray& points, const PointArray& normals, const Config& config = {},
+                 Progress* progress = nullptr);
 
 // Finds the loops of any source. It may be larger than memory where its loops are not, and where
 // `output.points` is off.
-Holes find_holes(PointSource& scan, const Config& config = {});
+Holes find_holes(PointSource& scan, const Config& config = {}, Progress* progress = nullptr);
 
 }  // namespace lacuna

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one list of all parameters.
 #include "engine/config.hpp"
 #include "engine/criteria/criteria.hpp"
@@ -81,8 +82,7 @@ std::vector<Parameter> parameters(Config& config) {
   }
   const std::vector<Parameter> others = {
       {"coherence", "threshold", &coherence.threshold, 0, 1, "a number from 0 to 1",
-       "Boundary probability above which a point is a candidate.",
-       kNothing},
+       "Boundary probability above which a point is a candidate.", kNothing},
 
       {"loops", "method", named(loops.method, kMethods), 0, 1, "tangential or paper",
        "How loops are found: tangential, as the boundary of the triangles on which neighbouring points "

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole method, from a scan to its holes, in bounded memory.
 #pragma once
 
@@ -12,7 +13,8 @@
 namespace lacuna {
 
 // Finds the boundary probability of every point and the loops around every hole of `scan`. What does not
-// fit in memory goes to `scratch`, an existing empty folder that must outlive the result. Throws `Error`. The
+// fit in memory goes to `scratch`, an existing empty folder that must outlive the result. An empty path stands
+// for files in memory. Throws `Error`, and what `progress` throws. The
 // result is the same, bit for bit, for every `config.run`.
 //
 // Where the config names a workspace, an existing folder, what is done is kept there. A later call with the

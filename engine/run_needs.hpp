@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a run takes of the disk and of memory, from its size and its options.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/summarise.hpp"
 
 #include "engine/bucket/strays.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/unit.hpp"
 
 #include "engine/consumers.hpp"

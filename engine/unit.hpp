@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run as units that several processes do, on one machine or many, in one workspace.
 //
 // A unit makes parts of the run: the points of a level, or the outputs of some of its tiles. It does nothing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/file_scan.hpp"
 
 #include "engine/run/error.hpp"
@@ -34,7 +35,8 @@ std::filesystem::path full_name(const std::filesystem::path& file) {
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
   for (ScanInput& input : inputs) {
-    states_.push_back(file_state(input.file));
+    states_.push_back(input.arrays ? FileState() : file_state(input.file));
+    arrays_.push_back(std::move(input.arrays));
     files_.push_back(std::move(input.file));
     poses_.push_back(std::move(input.pose));
     const auto reader = open(files_.size() - 1);
@@ -71,6 +73,7 @@ void FileScan::choose_crs() {
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
+  if (arrays_[file]) return read_arrays(*arrays_[file]);
   io::check_unchanged(files_[file], states_[file]);
   auto reader = open_scan(files_[file], {.columns = config_.columns, .memory = memory_});
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
@@ -82,7 +85,9 @@ std::size_t FileScan::batch_rows(std::size_t file) const {
 }
 
 void FileScan::check_unchanged() const {
-  for (std::size_t i = 0; i < files_.size(); ++i) io::check_unchanged(files_[i], states_[i]);
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    if (!arrays_[i]) io::check_unchanged(files_[i], states_[i]);
+  }
 }
 
 // The engine does so too, but knows no files.
@@ -147,6 +152,7 @@ bool FileScan::reads_slowly() const {
 
 std::vector<std::string> FileScan::identity() const {
   std::vector<std::string> lines;
+  if (std::any_of(arrays_.begin(), arrays_.end(), std::identity())) return lines;
   const std::vector<std::string> names = this->names();
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::ostringstream line;

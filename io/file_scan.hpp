@@ -1,4 +1,5 @@
-// Several scan files as one registered scan: the engine's view of the input.
+// SPDX-License-Identifier: Apache-2.0
+// Several scan files, or arrays, as one registered scan: the engine's view of the input.
 #pragma once
 
 #include "engine/model/points.hpp"
@@ -6,6 +7,7 @@
 #include "io/file_state.hpp"
 #include "io/pose.hpp"
 #include "io/row_filter.hpp"
+#include "io/scan_arrays.hpp"
 #include "io/scan_reader.hpp"
 
 #include <concepts>
@@ -23,9 +25,12 @@ struct ScanInput {
   template <std::convertible_to<std::filesystem::path> Name>
   ScanInput(Name&& name, std::optional<Pose> pose = {})
       : file(std::forward<Name>(name)), pose(std::move(pose)) {}
+  ScanInput(std::string name, ScanArrays arrays)
+      : file(std::move(name)), arrays(std::make_shared<const ScanArrays>(std::move(arrays))) {}
 
   std::filesystem::path file;
-  std::optional<Pose> pose;  // of its coordinates in the registered scan
+  std::optional<Pose> pose;                  // of its coordinates in the registered scan
+  std::shared_ptr<const ScanArrays> arrays;  // read in place of a file, of which it has the name
 };
 
 std::filesystem::path full_name(const std::filesystem::path& file);  // absolute, without dots
@@ -48,7 +53,7 @@ class FileScan : public PointSource {
   std::optional<std::uint64_t> expected_points() const override;
   bool has_normals() const override;   // any file has nx ny nz
   bool reads_slowly() const override;  // any file does
-  // Name, size, time and a sample of each file, and its pose.
+  // Name, size, time and a sample of each file, and its pose. None where there are arrays.
   std::vector<std::string> identity() const override;
   // Three of each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;
@@ -96,10 +101,11 @@ class FileScan : public PointSource {
   void refuse_too_far(const PointBatch& batch) const;
 
   std::vector<std::filesystem::path> files_;
-  std::vector<std::optional<Pose>> poses_;  // one per file
+  std::vector<std::optional<Pose>> poses_;                 // one per file
+  std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null: it is one
   InputConfig config_;
   std::uint64_t memory_;
-  std::vector<FileState> states_;
+  std::vector<FileState> states_;  // of arrays: nothing
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, formats_;
   std::vector<bool> is_geographic_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/gis_module.hpp"
 
 #include "engine/run/error.hpp"
@@ -13,10 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The folder of the program, or of the library that holds this code, such as a module of Python.
+fs::path own_folder() {
+  Dl_info self{};
+  const bool is_known = ::dladdr(reinterpret_cast<const void*>(&own_folder), &self) != 0;
+  const fs::path file = is_known ? self.dli_fname : "";
+  std::error_code error;
+  const bool is_library =
+      file.is_absolute() && file.extension() == ".so";  // a program's name may be anything
+  return (is_library ? file : fs::read_symlink("/proc/self/exe", error)).parent_path();
+}
+
 fs::path find_module(const char* user) {
   std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const fs::path installed = folder.parent_path() / "lib" / "lacuna";
+  const fs::path folder = own_folder();
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path installed = program.parent_path() / "lib" / "lacuna";
   for (const fs::path& place : {folder, installed}) {
     if (fs::exists(place / "lacuna_gis.so", error)) return place / "lacuna_gis.so";
   }

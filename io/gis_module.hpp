@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna_gis.so: what needs GDAL, found and loaded where it is wanted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file read front to back through one buffer: bytes, lines or words, whatever the format needs next.
 // Memory is bounded by the buffer, so that a line without an end is an error.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/length_unit.hpp"
 
 #include "io/crs/crs_text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The unit of length of a scan, where its file names one.
 #pragma once
 

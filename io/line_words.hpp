@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The words of one line of a text format, taken one after the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers at any byte of a record, in the byte order of LAS files.
 #pragma once
 

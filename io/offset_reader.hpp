@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file with local coordinates, read in the coordinates of the scan.
 #pragma once
 

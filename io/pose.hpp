@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a scan stands in the registered scan: a rotation, a scale and a translation.
 #pragma once
 

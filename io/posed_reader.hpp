@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scan moved to where it stands in the registered scan.
 #pragma once
 

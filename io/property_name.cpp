@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/property_name.hpp"
 
 namespace lacuna::io {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names of properties, the same whatever the format they come from.
 #pragma once
 

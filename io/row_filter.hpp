@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which rows of a scan take part: the user's choice by place, class and return.
 #pragma once
 

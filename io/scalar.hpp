@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What can be done with a `Scalar` known only at run time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading a scan file: every format delivers rows of scalars in bounded batches.
 #pragma once
 

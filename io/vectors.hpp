@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of rows as numbers: one by one, and three together as positions or normals.
 #pragma once
 

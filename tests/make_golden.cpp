@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the golden results in tests/data anew. See tests/support/made_golden.hpp.
 #include "tests/support/made_golden.hpp"
 

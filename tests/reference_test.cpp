@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/reference.hpp"
 
 #include "engine/run/error.hpp"

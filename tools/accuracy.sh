@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Measures how well `lacuna detect` finds holes that are known. See bench/accuracy/README.md.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/options.sh"

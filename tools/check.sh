@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs, builds and runs the tests. The last line counts them. Fails if a test fails, or if none ran.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tools/packages.sh
 
 usage() {
   cat <<'TEXT'
@@ -71,6 +73,7 @@ case "$*" in
 esac
 
 tools/install.sh
+install_packages python3-pandas python3-matplotlib python3-geopandas  # whose tests would be skipped
 [[ $* != --odr && $* != --all ]] || check_odr
 [[ $* != --odr ]] || exit 0
 [[ $* != --threads ]] || build_tbb

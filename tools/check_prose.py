@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks the English of documentation and comments: long sentences, retired words, and comments without a verb.
 
     tools/check_prose.py [FILE...]     # default: every file of the repository that it can read
@@ -23,6 +24,8 @@ RETIRED = re.compile(
 ALLOWED = re.compile(r"\ba room, a court\b|\broom and court\b")
 WITHOUT_VERB = re.compile(
     r"(The same|Likewise)\b(?!.*\b(is|are|was|were|has|have|can|must|may|does|do|gives?|holds?|appl(y|ies)|goes|takes?)\b)")
+
+LICENCE = re.compile(r"^(?://|#) SPDX-License-Identifier: .*$", re.MULTILINE)
 
 SLASHES = {".cpp", ".hpp", ".h", ".js", ".cjs"}
 HASHES = {".sh", ".cmake", ".toml", ".txt"}
@@ -68,7 +71,7 @@ def python_comments(text):
 
 
 def lines_of(path):
-    text = path.read_text(encoding="utf-8")
+    text = LICENCE.sub("", path.read_text(encoding="utf-8"))
     if path.suffix == ".md":
         return markdown(text)
     if path.suffix == ".py":

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna compare`: which holes of two results are closed, new, changed or the same.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configs by name: those that are installed with the program.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # From a fresh Debian 12 to the holes of a scan. It installs, builds, generates a scan of about 400,000 points in demo/,
 # finds its holes, and compares them with the true ones. A build folder that exists keeps its options.
 set -euo pipefail

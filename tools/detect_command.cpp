@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/detect_command.hpp"
 
 #include "engine/config.hpp"
@@ -15,7 +16,7 @@
 #include "tools/log_file.hpp"
 #include "tools/overall_progress.hpp"
 #include "tools/parameter_options.hpp"
-#include "tools/process_memory.hpp"
+#include "tools/own_process.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
@@ -120,7 +121,7 @@ Config RunArguments::start(Config base) const {
   if (quiet) quiet_log();
   if (!log_file.empty()) start_log_file(log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-  prepare_memory(config.run.memory_limit);
+  prepare_process(config.run);
   return config;
 }
 

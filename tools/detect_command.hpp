@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 

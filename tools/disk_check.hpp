@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the disks hold what a run writes, before it runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluate_command.hpp"
 
 #include "tools/accuracy/evaluation.hpp"

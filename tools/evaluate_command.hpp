@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna evaluate`: how much of the truth a result has found.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All that `lacuna evaluate` knows, as tables.
 #include "tools/evaluate_text.hpp"
 #include "tools/summary.hpp"

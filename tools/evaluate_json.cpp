@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `lacuna evaluate --json` prints.
 #include "tools/accuracy/loop_size.hpp"
 #include "tools/evaluate_text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `lacuna evaluate` prints: for people, and as JSON.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first that `lacuna evaluate` prints.
 #include "engine/model/loop.hpp"
 #include "tools/accuracy/loop_size.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The folders that the user names: made if missing, and locked.
 #pragma once
 

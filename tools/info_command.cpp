@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/info_command.hpp"
 
 #include "engine/config.hpp"
@@ -12,7 +13,7 @@
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
 #include "tools/parameter_options.hpp"
-#include "tools/process_memory.hpp"
+#include "tools/own_process.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
@@ -209,7 +210,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 
 void run_info(const InfoArguments& arguments) {
   const Config config = arguments.parameters.read().config;
-  prepare_memory(config.run.memory_limit);
+  prepare_process(config.run);
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
   const ReadOptions options{.columns = config.input.columns, .memory = memory};
   FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna info`: what scan files hold, and what a run on them would take.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scan files that the user names, one by one, by folder or in a list.
 #pragma once
 

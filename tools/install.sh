@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs what the build needs from Debian 12.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
@@ -10,6 +11,7 @@ packages=(
   libjs-three  # a report's 3D view: put into the program by the build
   # OpenVDB's headers include Boost's, and its CMake module needs these:
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev
+  python3-dev python3-numpy pybind11-dev  # the Python package
   python3 python3-jsonschema gdal-bin  # scripts of tests and benchmarks
   python3-selenium chromium chromium-driver  # the test of the report
 )

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Counts the instructions of `lacuna detect`, which do not depend on the load of the machine.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/options.sh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The log of runs in a file, for --log-file. It has what the log on stderr says, the times of stages and
 // errors, each line with its time. Runs are appended.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lengths, areas and places as a person reads them. `unit` is that of the scan's coordinates, such as "m";
 // empty: not known.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by scripts that have options: goes to the project's folder, and reads the command line as their `usage` says.
 # shellcheck shell=bash
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a run is, over all of its stages, and how long it still takes.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Makes build-package/lacuna_VERSION_ARCHITECTURE.deb for the Debian that it runs on, and prints its name. Takes further
 # arguments for CMake.
 set -euo pipefail

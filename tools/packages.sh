@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by scripts that need packages of Debian.
 # shellcheck shell=bash
 

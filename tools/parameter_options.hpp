@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line's view of the parameters: one option each, generated from the list in engine/config.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program `lacuna`: its subcommands and what its exit codes mean.
 #pragma once
 

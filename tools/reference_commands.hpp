@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands `lacuna manual`, `lacuna completion` and `lacuna help`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna render: a picture of a finished run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/report_command.hpp"
 
 #include "io/report/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna report: the page of a finished run.
 #pragma once
 

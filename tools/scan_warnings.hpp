@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is odd about a scan: not wrong, but hardly meant.
 #pragma once
 

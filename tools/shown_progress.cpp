@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/shown_progress.hpp"
 
 #include "tools/log_file.hpp"
@@ -68,7 +69,7 @@ class ShownProgress : public Progress {
     next_ = now + interval_.count();
     show_now(state());
   }
-  void end() final {
+  void end() noexcept final {
     const std::lock_guard lock(mutex_);
     if (!is_running_) return;
     is_running_ = false;

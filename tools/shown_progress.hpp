@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The progress of a run on stderr, and the times of its stages in the log file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ctrl-C and kill: the program ends at once, but not before what it keeps on disk meanwhile is gone.
 #pragma once
 

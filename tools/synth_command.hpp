@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna synth`: makes scans to try Lacuna on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the program shows on stderr while it works: progress, the log, errors. All of it passes through one
 // place, so that a log line never tears the progress bar.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna plan, work and finish: a run that several processes share, such as a job array of Slurm.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna update: a run whose input has changed in places.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Options whose values are checked before they are used: an error says what is allowed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The words of `lacuna evaluate` for its decision on a loop, as docs/evaluate.md defines them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/visible_text.hpp"
 
 #include "engine/run/utf8.hpp"

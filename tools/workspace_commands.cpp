@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/workspace_commands.hpp"
 
 #include "engine/run/disk_space.hpp"

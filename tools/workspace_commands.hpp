@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna status and lacuna clean: what a workspace has, and its end.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Fits the confidence of the method `tangential`, so that it is a probability. Of the loops said to be 0.7 sure, 7 in
 10 are true. Prints the five coefficients of `tracked` in engine/track/confidence.cpp, and how well they hold on the
 scans of the fit. Likewise it prints how well the program's own confidence holds on these scans, and on those of run.py.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """How the results change when each constant of the method `tangential` is halved and doubled. The table has one line for
 each value, and one column for each group of sets (see bench/accuracy/README.md). Values are set by a config file, so
 that a new constant needs no change here. The constants are the section [tangential] of `lacuna detect --print-config`."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scans with what real ones suffer from: points that are missing, doubled or strewn about. Each function returns a
 scan anew; `draw` is a random.Random."""
 

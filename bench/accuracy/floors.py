@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What must be found at least, and false at most: floors.csv."""
 
 import csv

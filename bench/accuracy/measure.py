@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds the holes of a set, with Lacuna and with its peers, and evaluates them: one row for each method."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes for the accuracy sets: read from PLY, cut, and written as PLY. Plain Python, no packages."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Which holes does `--min-hole 1` report? The rule behind it rests on this (docs/method.md, D).
 
 A wavy surface has round holes of one diameter, four units apart. A hole is reported if a loop around its middle encloses

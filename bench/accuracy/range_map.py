@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Range maps for the accuracy sets: a scene sampled from one place along a grid of rays, and the mesh of that grid. The
 boundary of the mesh is known. Plain Python, no packages.
 

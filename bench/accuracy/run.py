@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs `lacuna detect` on scans whose holes are known, evaluates what it finds, and prints one table. See
 bench/accuracy/README.md; tools/accuracy.sh builds what it needs and calls it."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The scans whose holes are known, group by group: how each is made, or where it lies. See README.md."""
 
 import functools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One table of all results: a line for each set, and one for the sums of each group. A column is a title and what it
 shows of a list of sets, where a set is the list of its rows. So a line and a line of sums are the same columns."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Uneven scans, thinned from a surface of `lacuna synth surface`."""
 
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a
 // text that `lacuna evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
 #include "bench/peers/border_loops.hpp"

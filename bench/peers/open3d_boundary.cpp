@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary points as Open3D finds them, by its tensor interface on the CPU. Normals come from the nearest
 // neighbours. ComputeBoundaryPoints then takes a radius, and uses the nearest neighbours within it. The
 // radius is the median distance of the last of those neighbours, so that half of the points have them all.

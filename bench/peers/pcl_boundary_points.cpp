@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The boundary points that the Point Cloud Library flags, as a result that `lacuna evaluate` reads.
 #include "bench/peers/pcl_steps.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bench/peers/pcl_steps.hpp"
 
 #include "bench/peers/read_ply.hpp"

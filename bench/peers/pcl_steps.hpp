@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two steps of the Point Cloud Library that lead to boundary points.
 #pragma once
 

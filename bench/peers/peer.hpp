@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What both peers share: their command line, and how they report what they took.
 #pragma once
 

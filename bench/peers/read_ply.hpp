@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small, fast PLY reader for the peers, so that their own readers do not count against them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes the points of a plane with a round hole, finds the hole, and prints it.
 #include <cmath>
 #include <cstdio>

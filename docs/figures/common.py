@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Part A of docs/method.md, plainly and in memory, for the figures: a few hundred points, no library.
 
 Names are those of docs/method.md. Creases (A.2) are left out.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Compares the loops of the program, their confidence and their scales, with those of the plain method in this folder. It takes
 synthetic scans and both methods. So what docs/method.md states, what the figures show and what the program does are the same.
 

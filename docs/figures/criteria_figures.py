@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of part A: neighbourhood, angle, halfdisc, shape."""
 
 import math

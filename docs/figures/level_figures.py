@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of part D: the loops of a hole at the levels of a scan, and which holes `--min-hole` reports."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws the figures of docs/method.md, as SVG, into this folder. Each is computed from a small synthetic scan with the method
 itself, so that a figure cannot contradict the text. Needs Python 3 and no package.
 

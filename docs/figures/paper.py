@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Part B of docs/method.md, plainly and in memory, for the figures. Coherence (B.1) is left out."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of parts B and C: graph and loop of method `paper`, stars, triangles, wedges of method `tangential`."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A drawing in SVG: shapes in data coordinates, mapped to a panel of the page. Numbers have one decimal, so that
 the files are the same on every machine."""
 

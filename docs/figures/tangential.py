@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Part C of docs/method.md, plainly and in memory, for the figures."""
 
 import math

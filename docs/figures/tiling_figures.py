@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figure of part D: tiles, the halo of one, and the bound on the k-th neighbour's distance."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Part D of docs/method.md, plainly and in memory, for the figures: levels, tracks, confidence and choice."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Draws the pictures of README.md, choosing.md and examples.md into this folder, and prints what `lacuna evaluate` says
 # of each synthetic scan.
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the two methods have in common: each takes boundary edges from the evaluated tiles, stitches them
 // across tiles, and finds loops in the components.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Candidates: points whose Pi exceeds the threshold (paper, 5.1), and which of them belong to the boundary.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // coherence: a candidate stays boundary only while both of its gap neighbours are (paper, 5.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bucket: the points sorted into tiles on disk.
 #pragma once
 

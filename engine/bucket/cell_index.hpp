@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a place to the cell that holds it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // order_tile: a tile's points in store order, without exact copies, and the cells that they form.
 #pragma once
 

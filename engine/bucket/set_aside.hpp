@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points of cells that hold more points than a tile may, and of cells without end. They are far denser, or
 // far farther away, than the survey's cells are made for.
 #pragma once

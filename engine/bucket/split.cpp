@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/split.hpp"
 
 #include "engine/survey/cell_tree.hpp"

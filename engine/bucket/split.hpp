@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // split: orders the counted cells as a kd-tree and cuts them into tiles.
 #pragma once
 

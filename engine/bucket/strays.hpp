@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strays: a few points far from all others, such as returns at 0 0 0 in a scan of map coordinates.
 #pragma once
 

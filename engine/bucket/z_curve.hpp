@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // z_curve: an order of points that keeps neighbours together at any density.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Angle criterion (paper, 4.2): the neighbours of a boundary point lie on one side only.
 #if defined(LACUNA_CRITERIA_ANGLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_ANGLE_INL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The criteria: how likely a point is to lie on a boundary, from its neighbourhood (paper, 4.2 to 4.5).
 // To add one: write its formula over a `Surface` in a header of its own, and its line in `table-inl.hpp`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The criteria of the points of a batch (paper, 4.2 to 4.6).
 #pragma once
 

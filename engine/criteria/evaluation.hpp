@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the criteria are combined to, at one point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One point of a batch, in double precision throughout: where the kernels find that rounding may decide. Each
 // way is another algorithm than the kernel's, since the kernel's own loses digits there in any precision.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Halfdisc criterion (paper, 4.3): the neighbours of a boundary point fill half a disc.
 #if defined(LACUNA_CRITERIA_HALFDISC_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_HALFDISC_INL

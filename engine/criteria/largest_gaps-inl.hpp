@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest gaps between the directions of a batch's neighbours in their tangent planes (paper, 4.2).
 //
 // Directions are sorted in single precision. Where the largest gap exceeds all others by more than the

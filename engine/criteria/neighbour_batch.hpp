@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The neighbourhoods of eight points side by side: what the criteria of a batch are computed from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shape criterion (paper, 4.4): the eigenvalues of the neighbourhood's covariance show what shape it has.
 #if defined(LACUNA_CRITERIA_SHAPE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_SHAPE_INL

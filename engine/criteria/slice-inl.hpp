@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // As many points of a batch as a vector holds.
 #if defined(LACUNA_CRITERIA_SLICE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_SLICE_INL

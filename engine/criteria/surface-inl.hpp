@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface around a point, estimated from its neighbours: what the criteria are formulas of. A `V` holds
 // the numbers of several points.
 #if defined(LACUNA_CRITERIA_SURFACE_INL) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // evaluate: normals and criteria of a tile's points (paper, 4.2 to 4.6).
 #pragma once
 

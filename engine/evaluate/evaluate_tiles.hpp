@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // evaluate, over all tiles: every point evaluated from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 

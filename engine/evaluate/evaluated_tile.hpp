@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the evaluation of a tile hands on, and who takes it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/evaluate/kept_outputs.hpp"
 
 #include "engine/workspace/workspace.hpp"

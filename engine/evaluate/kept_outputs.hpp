@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The outputs of a level's tiles in a workspace that is kept.
 //
 // Outputs gather in a part, which is sealed from time to time. So a run that is stopped loses the tiles of

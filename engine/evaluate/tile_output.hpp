@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the steps behind the evaluation need of one tile: named streams of plain records.
 //
 // It is all that is left of an evaluated tile: the neighbour graph never touches the disk. A run whose

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/distance_bound.hpp"
 
 #include "engine/model/least_first.hpp"

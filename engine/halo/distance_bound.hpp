@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bounds on the distance to the k-th neighbour, from the counted cells alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Neighbourhoods of a given radius: its length, how many points they hold, and whether these fit in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // halo: the points of other tiles that a tile needs, and the edges to them.
 #pragma once
 

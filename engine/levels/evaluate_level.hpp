@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every tile of a level evaluated, or taken from the workspace.
 #pragma once
 

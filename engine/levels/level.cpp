@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/levels/level.hpp"
 
 #include "engine/bucket/bucket_scan.hpp"

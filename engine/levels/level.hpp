@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Levels: the scan, and the scan thinned on ever coarser lattices (method.md, D).
 //
 // Where points are dense, a level makes them even; where they are sparse, it leaves them as they are. So each

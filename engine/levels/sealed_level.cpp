@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/levels/sealed_level.hpp"
 
 #include "engine/store/sealed_part.hpp"

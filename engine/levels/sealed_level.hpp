@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A level in a workspace that is kept: its store, and all else that the steps behind it need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points that may lie on a loop, with what measuring a loop needs of them. They are a small part of the
 // scan, so measuring loops does not read the tile store again.
 #pragma once

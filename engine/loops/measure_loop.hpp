@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // measure_loop: what a user sorts and filters loops by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // measure_loops: what a user sorts and filters the found loops by.
 #pragma once
 

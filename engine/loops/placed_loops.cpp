@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/placed_loops.hpp"
 
 #include "engine/run/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops of one level, each point joined with what the evaluation found of it. From then on, nothing else
 // of the level is needed.
 #pragma once

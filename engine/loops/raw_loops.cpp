@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/raw_loops.hpp"
 
 #include "engine/store/column_writer.hpp"

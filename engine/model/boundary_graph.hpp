@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vertices and edges of the boundary graph.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/model/cell_grid.hpp"
 
 #include "engine/simd/vectorised.hpp"

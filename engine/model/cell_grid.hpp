@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a survey counts points: cubes of one size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The three ways to name a point. They are different types so that they cannot be mixed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The best-first walk over the cells of a scan.
 #pragma once
 

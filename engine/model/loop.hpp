@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops: what the method returns for each hole.
 #pragma once
 

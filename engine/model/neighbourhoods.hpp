@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of a tile and its halo, and the proximity graph over them.
 #pragma once
 

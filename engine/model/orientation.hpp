@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the orientation of normals is decided by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points on their way from the input to the tile store.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the points are: cells that hold them, a tree over the cells, and tiles cut from it.
 #pragma once
 

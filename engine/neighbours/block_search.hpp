@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // block_search: the k nearest neighbours of points in store order, many at a time.
 #pragma once
 

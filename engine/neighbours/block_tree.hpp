@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree over points in store order: its leaves are blocks of sixteen consecutive points. Points
 // near in the order are near in space, so the tree needs no building beyond its boxes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/neighbours/candidates.cpp"
 // Each target includes what follows foreach_target.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The search in blocks spends most of its time here. It computes distances from one query to the points of
 // many blocks, and ranks the nearest of sixteen queries at once. Plain arrays, compiled for each instruction
 // set.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // N_p^k of many points, in whole cache lines, since the most frequent query is whether a list holds a point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/neighbours/neighbourhoods.hpp"
 
 #include "engine/neighbours/block_search.hpp"

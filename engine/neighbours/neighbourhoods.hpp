@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // neighbourhoods: the symmetric k-neighbourhoods of a tile's points, widened by the eps ball (paper, 4.1).
 #pragma once
 

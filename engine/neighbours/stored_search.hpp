@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stored_search: the k nearest neighbours of single points of the tile store.
 #pragma once
 

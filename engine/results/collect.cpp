@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/collect.hpp"
 
 #include "engine/store/column_writer.hpp"

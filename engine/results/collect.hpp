@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results in the order of the input, ready to be written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/loop_rows.hpp"
 
 #include "engine/halo/distance_bound.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // loop_rows: where the loops of all levels pass in the store of the first one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/orient.hpp"
 
 #include "engine/stitch/union_find.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // orient: consistent orientation of normals by a minimum spanning tree of G (Hoppe et al. 1992).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Consistent orientation of the normals over all tiles (Hoppe et al. 1992), exact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results of every point of the input, for points.ply.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/probability_voxels.hpp"
 
 #include "engine/results/voxel_sizes.hpp"

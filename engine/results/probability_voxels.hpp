@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The largest boundary probability in each voxel of a grid, for probability.vdb.
 #pragma once
 

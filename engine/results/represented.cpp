@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/represented.hpp"
 
 #include "engine/results/point_results.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results of every point of a thinned scan: those of its representative.
 #pragma once
 

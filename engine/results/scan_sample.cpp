@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/scan_sample.hpp"
 
 #include "engine/store/outbox.hpp"

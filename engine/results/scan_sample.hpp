@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sample of the scan that a browser or a picture can carry, spread evenly over the surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/results/voxel_sizes.hpp"
 
 #include "engine/bucket/z_curve.hpp"

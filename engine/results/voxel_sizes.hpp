@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How large a voxel must be so that a grid of OpenVDB stays small, whatever the scan.
 #pragma once
 

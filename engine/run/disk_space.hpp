@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much space the disk of a folder has.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one exception that ends a job: bad input, a full disk, an impossible setting. Caught once, in main.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
 #pragma once
 

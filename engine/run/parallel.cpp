@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/run/parallel.hpp"
 
 #include "engine/run/error.hpp"
@@ -14,7 +15,6 @@
 #include <thread>
 #include <vector>
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -103,11 +103,8 @@ class Admission {
 
 }  // namespace
 
-// global_control alone would not allow more threads than cores, an arena alone not more than the default.
 struct TaskArena::Arena {
-  explicit Arena(std::size_t threads)
-      : control(tbb::global_control::max_allowed_parallelism, threads), arena(static_cast<int>(threads)) {}
-  tbb::global_control control;
+  explicit Arena(std::size_t threads) : arena(static_cast<int>(threads)) {}
   mutable tbb::task_arena arena;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All threading of Lacuna, in oneTBB. A body writes only what its index owns, so that nothing depends on
 // the order in which threads come by.
 #pragma once
@@ -10,7 +11,8 @@
 
 namespace lacuna {
 
-// Threads to work with. A body may use the same arena again.
+// Threads to work with. A body may use the same arena again. oneTBB starts no more threads than there are
+// cores, unless the process allows it by a tbb::global_control. Arenas do not limit each other.
 class TaskArena {
  public:
   explicit TaskArena(std::size_t threads);  // 0: one per core. Throws `Error` if so many cannot be started.

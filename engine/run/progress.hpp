@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reports of how far a run is. The engine reports; the terminal decides what to show.
 #pragma once
 
@@ -6,14 +7,15 @@
 
 namespace lacuna {
 
+// An exception that `begin` or `advance` throws ends the run, which throws it again.
 class Progress {
  public:
   virtual ~Progress() = default;
   // A new phase begins: `total` points (or edges) will pass through it; 0: not known.
   virtual void begin(std::string_view phase, std::uint64_t total) = 0;
-  // `count` more have passed. May be called from any thread.
+  // `count` more have passed. May be called from any thread, and from several at a time.
   virtual void advance(std::uint64_t count) = 0;
-  virtual void end() = 0;
+  virtual void end() noexcept = 0;
 };
 
 // Says nothing.
@@ -21,7 +23,7 @@ class NoProgress final : public Progress {
  public:
   void begin(std::string_view, std::uint64_t) override {}
   void advance(std::uint64_t) override {}
-  void end() override {}
+  void end() noexcept override {}
 };
 
 }  // namespace lacuna

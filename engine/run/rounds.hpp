@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiles to visit, again and again until nothing changes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists of words in messages: what is allowed, and what may have been meant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of several points side by side: what a kernel reads and writes, whatever the width of its vectors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of chosen lanes, one after the other.
 //
 // Highway 1.0.3 does one thing badly with GCC. Without AVX-512, each call of its Compress copies the table of

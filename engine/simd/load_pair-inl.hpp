@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers that lie side by side for each point, loaded for several points at once.
 #if defined(LACUNA_SIMD_LOAD_PAIR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_LOAD_PAIR_INL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Masks as bits of a number: bit i for lane i.
 #if defined(LACUNA_SIMD_MASK_BITS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_MASK_BITS_INL

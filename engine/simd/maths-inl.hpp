@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // exp, atan2, sine and cosine from + - * / and bits alone: the same bytes from every instruction set, and on
 // every machine. Those of the C library choose their instructions by machine, and those of Highway
 // (hwy/contrib/math) use MulAdd, which is fused on some targets only.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/simd/maths.hpp"
 
 #include "engine/simd/maths-inl.hpp"

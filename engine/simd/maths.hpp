@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of maths-inl.hpp for one number, of the same bytes: for code outside of kernels, in place of
 // the C library's.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorting batches of numbers lane by lane, without a branch: the same comparisons whatever the numbers.
 #if defined(LACUNA_SIMD_SORT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_SORT_INL

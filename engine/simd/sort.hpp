@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorting batches of numbers lane by lane.
 #pragma once
 

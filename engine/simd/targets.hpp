@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The instruction sets that kernels are compiled for: targets of Google Highway. Comes before its headers.
 //
 // A kernel is a source that includes itself once for each target (HWY_TARGET_INCLUDE, foreach_target.h); the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shorthands for Highway, and vectors of three numbers, each for several points at once.
 #if defined(LACUNA_SIMD_VECTOR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_VECTOR_INL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plain loop that the compiler vectorises automatically, compiled for several instruction sets within plain
 // code. Only for whole numbers and for what has one exact result: such a loop is no kernel of Highway.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Components of the boundary graph across tiles: union-find within each tile, then one global union-find over
 // the ends of the edges that cross.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
 //
 // A tile adds its part of the graph. Loops that lie wholly inside are finished in the tile. For the open

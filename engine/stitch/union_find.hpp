@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Disjoint sets over [0, n): union by index, so that a set's root is its smallest element.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many append-only lists of records, which together may be larger than memory: one per tile, mostly.
 //
 // Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to

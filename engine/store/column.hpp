@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One record of plain data per row, on disk.
 #pragma once
 

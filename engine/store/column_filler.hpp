@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fills many runs of a column's rows at once, each from its first row on. Records come in any order of runs.
 // What was written for a run so far is contiguous on disk, so that the full run is one read.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records appended to a column one at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scan that is decoded once: its points are kept in the workspace for all later passes.
 #pragma once
 

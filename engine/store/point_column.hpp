@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of the tile store on disk: one per row, in half of the bytes where nothing is lost by it.
 #pragma once
 

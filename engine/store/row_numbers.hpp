@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers for some of the rows: 0, 1, 2, ... in ascending order of rows.
 #pragma once
 

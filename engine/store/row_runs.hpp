@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records of some rows of a column, read and written in runs of rows that are near each other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Some of the rows: a bitmap over all.
 #pragma once
 

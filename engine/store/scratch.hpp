@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flat arrays for the global stage: in memory while they are small, else mapped from files, so that
 // algorithms have plain spans either way.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sealed part: what a step of a run has found, as a file of a workspace that outlives the process.
 //
 // A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorts more records than fit in memory: sorted runs in one file, then a merge.
 #pragma once
 

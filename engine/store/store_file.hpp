@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file of the workspace: positioned reads and writes, every one checked.
 #pragma once
 
@@ -25,7 +26,8 @@ class StoreFile {
                // ends
     kKept,     // until it is sealed or closed
   };
-  // Creates an empty file. `path` must not exist.
+  // Creates an empty file. `path` must not exist. One without a folder is of a file in memory, which has no
+  // name.
   explicit StoreFile(std::filesystem::path path, Name name = Name::kRemoved);
   // Opens a sealed file, to be read only. None where there is no regular file. Throws `Error`.
   static std::optional<StoreFile> open_sealed(const std::filesystem::path& path);

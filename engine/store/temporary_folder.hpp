@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders that this process makes for itself. They go when it ends, also by a signal, but not by SIGKILL.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/store/tile_store.hpp"
 
 #include "engine/run/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tile store: every distinct point of the scan on disk, in cell order. So a tile is one read, and the
 // cells around it are a few.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The places of a grid's voxels in the world. Only for sources that use OpenVDB.
 #pragma once
 

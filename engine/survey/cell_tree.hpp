@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points per cell in an OpenVDB tree.
 #pragma once
 

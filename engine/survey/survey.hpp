@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // survey: counts points per cell while they stream by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/survey/survey_scan.hpp"
 
 #include <optional>

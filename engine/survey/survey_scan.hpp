@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // survey, over the whole scan: where the points are.
 #pragma once
 

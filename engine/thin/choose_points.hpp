@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // choose: one point for each occupied cell of a lattice.
 #pragma once
 

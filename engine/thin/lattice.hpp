@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lattice of a level: cubes of one edge, counted from the origin of the coordinates. So the cell of a
 // point depends on that point alone.
 #pragma once

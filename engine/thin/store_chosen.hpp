@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // store: the chosen points of a store, as a store of their own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/track/confidence.hpp"
 
 #include "engine/simd/maths.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How likely a loop surrounds a hole (method.md, D.3).
 #pragma once
 

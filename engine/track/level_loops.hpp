@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops of one level, as tracking takes them.
 #pragma once
 

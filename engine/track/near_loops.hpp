@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // near_loops: which loops of neighbouring levels run along each other.
 //
 // Both loops are drawn in the cells of a lattice, that of the coarser level. A cell is near a loop if it or

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/track/track_all.hpp"
 
 #include "engine/loops/measure_loop.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // track_all: each hole followed through the levels, and how sure it is that each loop surrounds one
 // (method.md, D).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // track: the same hole through the levels, how sure it is one, and which of its loops stands (method.md, D).
 #pragma once
 

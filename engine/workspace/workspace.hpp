@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A workspace that is kept: a folder of sealed parts, from which the same run goes on after a stop.
 //
 // There is no list of what is done. Each part says by itself what it was made from (store/sealed_part.hpp),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/workspace/workspace_state.hpp"
 
 #include "engine/levels/level.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a workspace has of a run, and how long the rest will take.
 #pragma once
 

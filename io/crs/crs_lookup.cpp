@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/crs/crs_lookup.hpp"
 
 #include "io/results/gdal_session.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coordinate reference systems in the database of PROJ, through GDAL: functions of lacuna_gis.so.
 #pragma once
 

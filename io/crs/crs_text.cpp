@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/crs/crs_text.hpp"
 
 #include <algorithm>

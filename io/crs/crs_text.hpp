@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a coordinate reference system says of itself in well-known text (OGC 01-009; ISO 19162).
 #pragma once
 

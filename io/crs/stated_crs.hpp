@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coordinate reference system and the unit that the user states, `--crs` and `--unit`.
 #pragma once
 

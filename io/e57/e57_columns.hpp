@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the fields of E57 scans become: columns of rows.
 //
 //   cartesianX Y Z, or without them sphericalRange Azimuth Elevation   x y z, doubles

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an E57 file says of itself: its header, and the XML section that describes its scans. ASTM E2807-11.
 #pragma once
 

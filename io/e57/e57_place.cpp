@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/e57/e57_place.hpp"
 
 #include "engine/simd/maths.hpp"

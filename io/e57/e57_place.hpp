@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points and normals of an E57 scan, from its own coordinates to those of the file.
 #pragma once
 

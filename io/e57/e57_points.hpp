@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of one E57 scan, front to back.
 //
 // Its section begins with 32 bytes: a 1, 7 bytes of zero, the section's length, the offsets of its data and

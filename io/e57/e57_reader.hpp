@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // E57: the points of all scans of a file, moved by their poses. ASTM E2807-11.
 //
 // Every record is a row. Rays without a return have no position (NaN): those marked as invalid, and those

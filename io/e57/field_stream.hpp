@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of one field of an E57 scan, as its packets bring them, and the values that they hold.
 //
 // Values follow each other bit by bit, from the lowest bit of a byte on, without regard to bytes or packets.

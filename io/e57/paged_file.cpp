@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/e57/paged_file.hpp"
 
 #include "io/e57/page_checksum.hpp"

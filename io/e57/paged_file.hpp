@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of an E57 file without the checksums between them.
 //
 // An E57 file is a row of pages of one size. The last 4 bytes of a page are the CRC-32C of its data, highest

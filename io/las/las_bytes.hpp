@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields at fixed places in the bytes of a LAS header or record.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The columns of LAS points, and raw records unpacked to rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coordinate reference system that records of a LAS file name (LAS specification 1.4 R15, 2.5;
 // GeoTIFF 1.1, 7.2 and annex B).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extra bytes: values of points that are no fields of the point format (LAS 1.4 R15, table 24).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the fields of each point format are in a record (ASPRS LAS specification 1.4 R15, section 2.6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One form of LAS points for the points of all files of a scan.
 //
 // Coordinates. Where all files are LAS with one scale and offset, these stay, and so does every stored

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The raw point records of a LAS file, compressed or not, front to back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS LAS specification 1.4 R15).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variable length records as bytes, of either kind: those before the points and the extended ones behind
 // them. Source: ASPRS LAS specification 1.4 R15, sections 2.5 to 2.7.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scale and offset that hold the coordinates of several LAS files and of other points (io/las/las_join.hpp).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points of one LAS file in the form that the files of a scan share.
 #pragma once
 

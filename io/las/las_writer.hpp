@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A LAS 1.4 file as a stream of point records (ASPRS LAS specification 1.4 R15).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/laz/arithmetic_decoder.hpp"
 
 namespace lacuna::io::laz {

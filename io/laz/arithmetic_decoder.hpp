@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arithmetic decoder (Said, section 2.3 and appendix: 32 bits, renormalised by whole bytes).
 #pragma once
 

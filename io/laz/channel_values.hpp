@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The last values and the models of colours and extra bytes, for each scanner channel.
 #pragma once
 

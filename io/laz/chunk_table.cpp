@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of where chunks begin (LAZ, "Chunk table").
 #include "io/laz/integer_decoder.hpp"
 #include "io/laz/laz.hpp"

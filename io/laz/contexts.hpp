@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the decoders of POINT10 and POINT14 choose their models by.
 #pragma once
 

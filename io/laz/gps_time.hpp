@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GPS times of GPSTIME11 version 2 and of POINT14 (LAZ, "GPSTIME11" and "POINT14, GPS time layer").
 #pragma once
 

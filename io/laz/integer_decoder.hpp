@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Integers coded as their difference to a prediction (LAZ, "Integer compressor").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/laz/layered.hpp"
 
 #include "io/laz/channel_values.hpp"

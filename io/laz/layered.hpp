@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chunks of point formats 6 to 8: each attribute in a stream of its own (LAZ, compressor 3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layers of a chunk of point formats 6 to 8 (LAZ, compressor 3).
 #pragma once
 

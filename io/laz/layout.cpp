@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The record of the LAS header that says how points are compressed (LAZ, "LASzip VLR").
 #include "io/laz/laz.hpp"
 #include "io/little_endian.hpp"

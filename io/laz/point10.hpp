@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // POINT10, version 2: the 20 bytes that point formats 0 to 3 begin with (LAZ, "POINT10").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // POINT14, versions 3 and 4: the 30 bytes that point formats 6 to 8 begin with (LAZ, "POINT14").
 #pragma once
 

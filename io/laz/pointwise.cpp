@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/laz/pointwise.hpp"
 
 #include "io/laz/gps_time.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chunks of point formats 0 to 3: all items of a point in one stream, point by point (LAZ, compressors 1 and
 // 2).
 #pragma once

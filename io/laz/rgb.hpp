@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RGB12 version 2 and RGB14, NIR of RGBNIR14: colours of 16 bits (LAZ, "RGB12", "RGB14", "RGBNIR14").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The middle of five recent values (LAZ, "Streaming median").
 #pragma once
 

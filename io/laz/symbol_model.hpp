@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adaptive models of the arithmetic coder (Said, section 2.2 and appendix; LAZ, "Entropy coding").
 #pragma once
 

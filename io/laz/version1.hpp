@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Version 1 of the items of point formats 0 to 3, written before 2011 (LAZ, "Version 1").
 #pragma once
 

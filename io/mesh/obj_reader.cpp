@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/mesh/obj_reader.hpp"
 
 #include "io/line_words.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ, the text format of Wavefront: the vertices of a mesh.
 #pragma once
 

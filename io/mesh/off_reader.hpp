@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OFF, the text format of Geomview: the vertices of a mesh.
 #pragma once
 

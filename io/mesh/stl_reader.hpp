@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // STL, triangles without shared vertices: ASCII and binary.
 #pragma once
 

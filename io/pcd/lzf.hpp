@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // LZF, the compression of PCD files, read front to back in bounded memory.
 //
 // A block is a row of steps. A first byte below 32 is followed by that many bytes and one more, as they are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the fields of a PCD file become: properties of rows.
 #pragma once
 

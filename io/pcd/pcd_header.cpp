@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_header.hpp"
 
 #include "io/line_words.hpp"

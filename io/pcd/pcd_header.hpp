@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PCD file: its fields and how they are stored.
 // https://pointclouds.org/documentation/tutorials/pcd_file_format.html
 #pragma once

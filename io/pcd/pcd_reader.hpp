@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PCD, the point clouds of PCL: ASCII, binary and compressed, versions .5 to .7.
 #pragma once
 

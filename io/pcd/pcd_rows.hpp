@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a PCD file as its header describes them, front to back, whatever their encoding.
 #pragma once
 

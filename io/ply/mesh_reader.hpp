@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The faces of a PLY file, for meshes whose boundary is known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What follows the header of a PLY file, in either encoding.
 #pragma once
 

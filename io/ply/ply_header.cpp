@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_header.hpp"
 
 #include "io/number.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PLY file: what its elements are made of. https://paulbourke.net/dataformats/ply/
 #pragma once
 

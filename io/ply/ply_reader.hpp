@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY, ASCII and binary: the points are the rows of element "vertex".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of one element of a PLY file, in both encodings.
 #pragma once
 

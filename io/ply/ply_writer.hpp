@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Binary little endian PLY, as a stream of values.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page of io/report/page with its style, its scripts and three.js in it, put together by the build.
 #pragma once
 

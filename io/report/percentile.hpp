@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The value that stands at a share of all, in ascending order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture of a scan and its holes, drawn by the processor alone.
 #pragma once
 

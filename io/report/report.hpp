@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report.html: the scan and its holes in 3D, in one file for a browser, without a network.
 #pragma once
 

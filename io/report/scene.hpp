@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a report and a picture show: a sample of the scan and the loops, from the folder of a run's results.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/report/scene_colours.hpp"
 
 #include "io/property_name.hpp"

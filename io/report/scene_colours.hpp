@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The colours of points as the scan has them: red, green and blue of any type, or grey by intensity.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A section of a scene: what lies above a height would hide the rest, as a ceiling does.
 #pragma once
 

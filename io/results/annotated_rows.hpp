@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The annotated scan as rows of bytes: what the input has of each point, then its results.
 #pragma once
 

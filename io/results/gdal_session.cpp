@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/gdal_session.hpp"
 
 #include <cpl_conv.h>

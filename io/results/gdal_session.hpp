@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What GDAL keeps for a thread or the whole program, held for as long as one file is written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results that lacuna_gis.so writes.
 #pragma once
 

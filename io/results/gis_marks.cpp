@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_marks.hpp"
 
 #include "io/results/loop_measures.hpp"

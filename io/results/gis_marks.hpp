@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How files for GIS are recognised that an earlier run wrote. These formats have no comments at their start.
 #pragma once
 

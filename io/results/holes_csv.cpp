@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/digits.hpp"
 #include "io/results/loop_measures.hpp"
 #include "io/results/results.hpp"

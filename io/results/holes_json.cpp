@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/json.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"

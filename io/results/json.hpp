@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the results in JSON share.
 #pragma once
 

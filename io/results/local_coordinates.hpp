@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coordinates of the PLY and PCD files of a run: those of the scan, or with --local-coordinates floats
 // relative to an offset.
 #pragma once

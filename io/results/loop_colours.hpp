@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The colours of loops in every result that has colours. Both have a contrast of 3.8 and more with white and
 // of 5.4 and more with black, and differ for the colour-blind: orange and blue.
 #pragma once

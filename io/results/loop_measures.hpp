@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measures of loops by name, for all writers. A new one is a line of this table. holes.json alone has its
 // own list, which its schema describes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Group codes: AutoCAD 2012 DXF Reference; release 12: its Customization Manual, chapter 11.
 #include "io/results/loops_dxf.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // loops.dxf: the loops as closed 3D polylines of AutoCAD's DXF, in ASCII, release 12, which every reader
 // takes.
 #pragma once

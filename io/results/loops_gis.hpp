@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops for geographic information systems, through GDAL. GDAL costs 35 MiB and 70 ms at the start of a
 // program. So the code that needs it is a library of its own, lacuna_gis.so. The program loads it where such
 // a result is wanted.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/loops_obj.hpp"
 
 #include "io/results/digits.hpp"

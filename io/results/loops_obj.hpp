@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // loops.obj: the loops as polylines of Wavefront OBJ, for CAD, Blender and Rhinoceros.
 #pragma once
 

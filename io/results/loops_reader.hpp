@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops read back: what `lacuna detect` writes as loops.ply, and loops as text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The form: VTK, "VTK XML Formats", appended raw data.
 #include "io/results/loops_vtp.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // loops.vtp: the loops as poly data of VTK's XML, for ParaView and VTK.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file that is being written, through one buffer or by another library. Every failure of the disk is an
 // `Error` with the file's name.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that appear under their names all together, or not at all.
 //
 // 1. add: the name is checked. It may be free, or the name of an *own file*: a regular file that has the mark

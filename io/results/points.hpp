@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The annotated scan, points.ply, .las, .pcd or .csv: every row of the input in order, all of its columns,
 // then the results. Files are joined by the names of columns. A column of the input with the name of a result
 // is left out, as an earlier run wrote it. Each writer reads every file once more. All throw `Error`.

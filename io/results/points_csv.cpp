@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/annotated_rows.hpp"
 #include "io/results/points.hpp"
 #include "io/scalar.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/results/local_coordinates.hpp"
 #include "io/results/points_pcd_rows.hpp"
 #include "io/scalar.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_fields.hpp"
 #include "io/pcd/pcd_rows.hpp"
 #include "io/property_name.hpp"

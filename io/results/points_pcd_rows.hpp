@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of points.pcd, without the results: those of PCD files as they are, or the columns of any formats.
 #pragma once
 

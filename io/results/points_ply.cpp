@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_writer.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/local_coordinates.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "engine/store/vdb_transform.hpp"
 #include "io/results/results.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the results of a run take of the disk.
 #pragma once
 

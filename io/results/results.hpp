@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a run leaves in its output folder. Ids are ranks of the input's rows, over the files in order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/property_name.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ESRI Shapefile Technical Description, July 1998; dBASE:
 // https://www.dbase.com/Knowledgebase/INT/db7_file_fmt.htm
 #include "io/results/shapefile_check.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether all of a Shapefile is on the disk: GDAL's last writes, as it closes the files, may fail without an
 // error.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/text/csv_writer.hpp"
 
 #include "engine/run/parallel.hpp"

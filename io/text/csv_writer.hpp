@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of scalars as lines of text, divided by commas, with a header line.
 #pragma once
 

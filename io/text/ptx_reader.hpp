@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PTX: scans of Leica and others as text, each with its grid of rays and its pose.
 #pragma once
 

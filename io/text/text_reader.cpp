@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/text/text_reader.hpp"
 
 #include "io/input_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points as lines of text: .xyz, .txt, .csv, .pts, .asc.
 #pragma once
 

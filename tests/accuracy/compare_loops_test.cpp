@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Holes of two results: closed, new, changed or the same.
 #include "tools/accuracy/compare_loops.hpp"
 

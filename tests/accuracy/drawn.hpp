@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drawn truths: rings of points in the plane, and loops along parts of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/match_loops.hpp"
 
 #include "tests/accuracy/drawn.hpp"

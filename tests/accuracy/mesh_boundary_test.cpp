@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/mesh_boundary.hpp"
 
 #include "tests/accuracy/drawn.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/outline.hpp"
 
 #include "tests/support/clouds.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/accuracy/drawn.hpp"
 #include "tests/support/clouds.hpp"
 #include "tools/accuracy/boundary_points.hpp"

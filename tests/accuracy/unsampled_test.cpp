@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/unsampled.hpp"
 
 #include "tests/support/clouds.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The loop for GNU parallel and the Snakefile, taken from docs/cluster.md as they are: results have the bytes of those of
 # one `lacuna detect`. Skipped where neither program is installed.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # tools/cluster/slurm.sh on a real Slurm, whose controller and only node are this machine. Whatever happens to tasks, the
 # results have the bytes of those of one `lacuna detect`. Skipped where Slurm or MUNGE is not installed.
 #

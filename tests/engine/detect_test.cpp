@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
 #include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"

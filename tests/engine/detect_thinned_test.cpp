@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs at a resolution: the method on the representatives, with ids and results of the whole input.
 #include "engine/run/error.hpp"
 #include "engine/thin/lattice.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The engine against golden results: of synthetic clouds by the plain reference (tests/data), and of real
 // scans by another program (../shared/golden).
 #include "tests/support/golden.hpp"

@@ -1,12 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 // The library's few functions against each other, and against the program.
 #include "engine/lacuna.hpp"
 
+#include "engine/store/scratch_place.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
 
+#include <atomic>
 #include <sstream>
+#include <stdexcept>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -89,6 +93,72 @@ TEST_CASE("the library gives results of points only where they are wanted, and n
   CHECK(none.loops.empty());
   CHECK(none.points.empty());
   CHECK(find_holes(plane(1).positions, with_points()).points.size() == 1);
+}
+
+// Three floats of a record in another order, as other programs have them.
+struct Measured {
+  char before[5];
+  float z = 0, y = 0, x = 0;
+};
+
+TEST_CASE("points of any type and stride are the same to the library", "[library]") {
+  const Cloud cloud = punched_sheet();
+  std::vector<Eigen::Vector3f> single;
+  std::vector<Eigen::Vector3d> rounded;
+  std::vector<Measured> records;
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    single.push_back(p.cast<float>());
+    rounded.push_back(single.back().cast<double>());
+    records.push_back({{}, single.back().z(), single.back().y(), single.back().x()});
+  }
+  const std::string expected = bytes_of(find_holes(rounded, with_points()));
+  CHECK(bytes_of(find_holes(single, with_points())) == expected);
+  const PointArray strided(&records.front().x, records.size(), sizeof(Measured),
+                           -std::ptrdiff_t{sizeof(float)});
+  CHECK(bytes_of(find_holes(strided, with_points())) == expected);
+  CHECK(bytes_of(find_holes(strided, strided, with_points())) ==
+        bytes_of(find_holes(rounded, rounded, with_points())));
+}
+
+TEST_CASE("points in memory need no folder where their files fit in memory", "[library]") {
+  const Cloud cloud = punched_sheet();
+  PointsInMemory scan(cloud.positions, {});
+  RunConfig run{.memory_limit = std::uint64_t{64} << 20};
+  CHECK(ScratchPlace(scan, run).path().empty());
+  CHECK(run.memory_limit < std::uint64_t{64} << 20);
+  const std::vector<Eigen::Vector3d> many(300'000, Eigen::Vector3d::Zero());
+  PointsInMemory large(many, {});
+  run.memory_limit = std::uint64_t{64} << 20;
+  CHECK_FALSE(ScratchPlace(large, run).path().empty());
+  CHECK(run.memory_limit == std::uint64_t{64} << 20);
+}
+
+// Ends the run at its n-th call.
+class Impatient final : public Progress {
+ public:
+  explicit Impatient(int calls) : calls_(calls) {}
+
+  void begin(std::string_view, std::uint64_t) override { call(); }
+  void advance(std::uint64_t) override { call(); }
+  void end() noexcept override { ++ends; }
+  int ends = 0;
+
+ private:
+  void call() {
+    if (--calls_ <= 0) throw std::runtime_error("enough");
+  }
+  std::atomic<int> calls_;
+};
+
+TEST_CASE("an exception of the progress ends a run of the library, wherever it is", "[library]") {
+  const Cloud cloud = punched_sheet();
+  for (const int calls : {1, 2, 3, 5, 8, 13, 21, 34}) {
+    Impatient progress(calls);
+    CHECK_THROWS_WITH(find_holes(cloud.positions, with_points(), &progress), "enough");
+  }
+  Impatient patient(1'000'000);
+  CHECK(find_holes(cloud.positions, with_points(), &patient).loops.size() == 3);
+  CHECK(patient.ends > 5);
 }
 
 TEST_CASE("the library's temporary files are in the wanted folder, and gone at the end", "[library]") {

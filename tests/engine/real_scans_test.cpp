@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiling never shows, on real scans: every byte of the result for every tile size, thread count and memory
 // limit. Slow: minutes.
 #include "io/file_scan.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run as units, in whatever order and however often they are done.
 #include "engine/unit.hpp"
 

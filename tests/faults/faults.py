@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Faults, tried and counted: kills, calls that fail, full disks, damage, two runs at once.
 
     tests/faults/faults.py --lacuna PROGRAM [--share 1] [--kinds kills,calls,...] [--seed 1]

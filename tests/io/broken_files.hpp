@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every reader on broken files: cut at every length, and changed at random.
 //
 // A broken file gives one clear `Error`, or a right answer. A reader of any format is covered by one list of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vocabulary of the tests of io/: files drawn as bytes, rows as numbers.
 #pragma once
 

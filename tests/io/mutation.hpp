@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files changed at random, the same for the same seed.
 #pragma once
 

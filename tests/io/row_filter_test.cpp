@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/file_scan.hpp"
 #include "tests/io/io_support.hpp"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Finds the holes of known scans, and fails where fewer than the floors are found, or more than the ceilings are false:
 # bench/accuracy/floors.csv. Takes an expression for GROUP/NAME of the sets. LACUNA_PROGRAM names the program.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # tools/accuracy.sh on a few sets, and the meshes, thinned scans and range maps that it makes. LACUNA_PROGRAM names the
 # program.
 set -euo pipefail

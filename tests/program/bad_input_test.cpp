@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever the input and the disk: a result where one exists, else one clear line and exit code 1, nothing
 // half-written.
 #include "engine/pipeline.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks the relative links of pages: that their file exists, and the heading that they name.
 
     tests/program/check_links.py FILE.md|FOLDER...     # of a folder: every page in it and below

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses and filters, from the command line to the report.
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Each result, opened in a program that is not Lacuna: counts and values are those of holes.json. Skipped, with the names
 # of what is missing, unless all of these programs are installed.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coordinate reference system and the unit of a scan, as its files name them and as the user states them.
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/clouds.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The documentation: figures are those that the script draws, and the method behind them finds the program's loops. Links
 # lead somewhere. Sentences of documents and comments are short. Each file that names the version names the same one.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `lacuna evaluate` as a user calls it: on what `detect` and `synth` write, on meshes, and on what is
 // neither.
 #include "tests/support/run_program.hpp"

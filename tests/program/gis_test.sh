@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The loops as GeoPackage, GeoJSON and Shapefile, read back by GDAL's programs: coordinates, measures and the coordinate
 # reference system. The bytes are equal for every tiling. Other cases: what is replaced, and what is refused. A GeoJSON is
 # in longitude and latitude where the system is known: converted back, it has the coordinates of the scan.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs to a new prefix, and builds and runs the example of docs/example against it, as a user of the library would.
 # Then moves the prefix: the package must not depend on its place. Links of the installed pages lead to installed files.
 # The program is hardened as LACUNA_HARDENING says.

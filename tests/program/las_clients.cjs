@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Opens OUT/points.las of a run with copc.js. Compares it with the LAS or LAZ inputs, read by copc.js too, and with the
 // run's other results.
 //     node las_clients.cjs FOLDER_OF_COPC OUT INPUT...

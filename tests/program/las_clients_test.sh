@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Whether a LAS library that is not ours, copc.js, finds in points.las what it finds in the inputs, and Lacuna's results.
 # 77: Node.js or npm is missing, or npm cannot fetch the library.
 set -euo pipefail

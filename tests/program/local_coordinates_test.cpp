@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs with --local-coordinates, and every command that reads their results.
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"

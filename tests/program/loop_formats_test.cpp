@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops as OBJ, DXF and VTP: read back here, and compared with holes.json of the same run.
 #include "tests/io/io_support.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory is bounded by the setting, as the operating system measures it.
 #include "engine/config.hpp"
 #include "tests/io/las/las_file.hpp"

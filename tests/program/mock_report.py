@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes report.html of a synthetic scan, in the format that `lacuna detect --report` has, to work on the page without it.
 
     mock_report.py OUT.html [--points N] [--holes N] [--utm] [--colours] [--no-loops] [--empty] [--no-run] [--flat-loops N]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every parameter changes the results of a small scan, or the list says what it needs for that.
 #include "engine/config.hpp"
 #include "tests/support/clouds.hpp"

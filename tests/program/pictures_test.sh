@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The pictures of the documentation are those that its script draws; those of real scans are left out.
 set -euo pipefail
 : "${LACUNA_PROGRAM:?}"

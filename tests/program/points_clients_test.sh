@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Whether other programs open the annotated scan: CloudCompare the PLY and the text, PCL the PCD, and CloudCompare, pdal or
 # lasinfo the LAS. 77: none of them is there.
 set -euo pipefail

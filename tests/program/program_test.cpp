@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/config.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drives a report in headless Chromium, with WebGL in software."""
 
 import shutil

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The report of a synthetic scan in headless Chromium: points and loops are drawn; rows, filters, section and keys work. The
 # argument is the scan, `room` or `flat`.
 set -euo pipefail

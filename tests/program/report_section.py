@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks the section of a report: it hides points and loops by their height, in the view alone."""
 
 from report_browser import camera, move_slider, press, require, still

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
 #include "engine/store/temporary_folder.hpp"

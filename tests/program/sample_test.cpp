@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sample.ply: what of the scan a report or a picture shows.
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Whether holes.json is as docs/holes.schema.json says, by a validator that is not ours. And whether runs that differ in
 # tiles, threads and memory write the same bytes.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the system, the terminal and other programs may do to a run.
 #include "engine/store/temporary_folder.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The result files do not depend on how a run is cut up.
 #include "tests/support/run_program.hpp"
 

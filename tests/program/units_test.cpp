@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // plan, work and finish: processes that share a run.
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"

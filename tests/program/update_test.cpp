@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lacuna update: a run whose input has changed in places.
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"

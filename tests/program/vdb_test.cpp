@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // probability.vdb, as OpenVDB's own reader sees it.
 #include "tests/io/io_support.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drawn and random clouds: `plane(40).punched({20, 20}, 5).jittered(0.25, 1).translated({1e6, 0, 0})`. They
 // have equal numbers on every machine: nothing of <random> is used.
 #pragma once

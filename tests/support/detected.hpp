@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A finished run of the engine, all of it in memory, to be compared.
 #pragma once
 

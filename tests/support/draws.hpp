@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slow tests that draw many cases draw fewer where LACUNA_DRAWN_SHARE is set. `tools/check.sh --sanitize`
 // sets it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes E57 files for tests of the reader: a mirror of ASTM E2807-11, simple, and without code of the
 // reader.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Golden results of real scans, made by another program. They lie next to the checkout, in the shared folder;
 // tests are skipped where that is absent. Those of synthetic clouds: made_golden.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Large clouds whose points are spread so unevenly that memory per place has no bound by itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels run by each of the instruction sets that they are compiled for and that the machine has.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compresses points as LASzip does, for tests of the decoder: a mirror of the specification that
 // io/laz/laz.hpp cites, simple and slow. It shares only the adaptive models and the streaming median with the
 // decoder; those two are checked with a file that LASzip wrote.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The golden results in tests/data: what the plain reference finds in small synthetic clouds. `make_golden`
 // writes them anew:
 //     ninja -C build make_golden && build/tests/make_golden

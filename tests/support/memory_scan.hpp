@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cloud in memory as the engine's input.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that a process has open, with or without a name: what happens to a run when one of them changes.
 #pragma once
 

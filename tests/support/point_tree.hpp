@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact nearest neighbours in the order of the method (4.1) by a nanoflann kd-tree. It is a second opinion on
 // the search in blocks, for more points than brute force allows.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests put into stores: two numbers, ordered by key.
 #pragma once
 

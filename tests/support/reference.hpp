@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The method done plainly, in memory and in one piece: what every engine test compares against. It is written
 // straight from docs/method.md, for the eye and not for speed. Sections 1 to 3 below are its part A, 4 to 6
 // its part B, the stars its part C. It shares parameters and ids with the engine, but no code. Ids are ranks

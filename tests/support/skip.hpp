@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Skipped tests. Catch2 v2 knows only passed and failed ones, so a skipped test has an exit code of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tile.hpp"
 
 #include "engine/bucket/z_curve.hpp"

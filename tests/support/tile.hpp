@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cloud as a tile sees it, for tests of single stages.
 #pragma once
 

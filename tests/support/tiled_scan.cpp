@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiled_scan.hpp"
 
 #include "engine/bucket/split.hpp"

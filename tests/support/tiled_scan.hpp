@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cloud on its way through the passes, for tests of single passes.
 #pragma once
 

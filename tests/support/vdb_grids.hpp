@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Grids of a .vdb file, read by OpenVDB's own reader.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "tests/synth/made.hpp"
 #include "tools/synth_command.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Synthetic scans, read back: the vocabulary of the tests of `lacuna synth`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/synth/made.hpp"
 #include "tools/synth/ring.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // True loops of scenes whose outlines are computed by hand.
 #include "io/results/loops_reader.hpp"
 #include "tests/synth/made.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/support/file_size_limit.hpp"
 #include "tests/synth/made.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/disk_check.hpp"
 
 #include "engine/run/error.hpp"

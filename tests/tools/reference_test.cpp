@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The manual page and the completions have every command and every option.
 #include "engine/config.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How well points were classified as boundary points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which loops of two results of one place are of the same hole, such as before and after a scan was
 // completed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which line segments are near a point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A result held against the truth: files in, scores out.
 #pragma once
 

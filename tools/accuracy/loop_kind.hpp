@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a true loop goes around a hole or around a piece of surface.
 #pragma once
 

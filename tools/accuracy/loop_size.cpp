@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/loop_size.hpp"
 
 #include "engine/loops/measure_loop.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How large a loop is and where it lies, for people who compare results with the truth.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/match_loops.hpp"
 
 #include "tools/accuracy/edge_tree.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which true loops were found, and which loops are false.
 #pragma once
 

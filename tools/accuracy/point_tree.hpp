@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which points are nearest to a place.
 #pragma once
 

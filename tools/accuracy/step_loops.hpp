@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops along steps of density, where points lie on both sides, much sparser on one.
 #pragma once
 

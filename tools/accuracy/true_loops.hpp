@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is true of a scan: the loops of its holes and outer edges.
 #pragma once
 

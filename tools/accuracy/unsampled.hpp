@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops around places of the true surface where the scan has no points.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Submits a run of Lacuna to Slurm: a chain of job arrays, one for each step. docs/cluster.md describes it. This file
 # needs no other one, so a copy of it works anywhere.
 set -euo pipefail

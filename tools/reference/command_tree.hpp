@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands and options of the program as plain data: what manual pages and completions are written from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completion of commands, options and values in a shell.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The curves around the parts of a scene's surface that are sampled.
 #pragma once
 

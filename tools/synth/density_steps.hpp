@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The curves along which the density of points jumps, with surface on both sides.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The holes planted in a synthetic surface: which part of its grid they take, and their true loops.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The curves between the sampled nodes of one patch and its others.
 #pragma once
 

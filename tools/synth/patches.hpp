@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces of a scene, cut into rectangular patches.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A seeded random order of 0 .. size-1 without a table: the k-th index in a few operations.
 #pragma once
 

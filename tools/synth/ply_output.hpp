@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A binary PLY of points, streamed: the count is filled in at the end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the points of a synthetic surface are, in the plane of its grid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random numbers without state: each is a hash of (seed, stream, index). So any point can be computed on its
 // own, in any order, on any machine. Integer operations and exact conversions only.
 #pragma once

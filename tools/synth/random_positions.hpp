@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points that know of no other: a Poisson process in the plane of the grid, one point per node on average.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points along a closed curve.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/synth/sampled_surface.hpp"
 
 #include "tools/synth/sphere_index.hpp"

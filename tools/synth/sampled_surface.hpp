@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the surfaces of a scene are sampled, on a lattice.
 #pragma once
 

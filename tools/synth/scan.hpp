@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene as terrestrial laser scanners sample it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options of `lacuna synth scan`. A flight has a range and a field of view of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/synth/scan_truth.hpp"
 
 #include "tools/synth/density_steps.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A virtual laser scanner: at several stations on the ground, or over it in strips.
 #pragma once
 

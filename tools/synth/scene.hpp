@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of simple shapes, and what a ray hits first in them. Metres; z is up.
 #pragma once
 

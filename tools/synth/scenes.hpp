@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scenes themselves, and what they are made of. The floor is z = 0 with a corner at the origin.
 #pragma once
 

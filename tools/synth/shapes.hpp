@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simple shapes, and where a ray hits them. Metres; z is up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces with holes whose true loops are known, of any size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The grid that a synthetic surface is made of: which of its nodes exist, and where it ends.
 #pragma once
 

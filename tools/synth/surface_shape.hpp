@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smooth surfaces that the grid is laid on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sine and cosine of an angle in turns, from + - * and floor only. They have the same bits on every machine,
 // which those of the C library do not.
 #pragma once

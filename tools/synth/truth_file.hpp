@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file of true loops of a synthetic scan.
 #pragma once
 

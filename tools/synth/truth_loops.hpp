@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The true loops of a synthetic surface, from the numbers of points to the ids of the points written.
 #pragma once
 

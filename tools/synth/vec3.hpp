@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three doubles, added in the order written: the same bits with every compiler and vector unit.
 #pragma once
 

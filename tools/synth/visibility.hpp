@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From which stations a place of a scene's surface is sampled, and why not from the others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/component_loops.hpp"
 
 #include "engine/boundary/paper/cycles.hpp"

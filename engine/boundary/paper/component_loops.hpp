@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops of one component of the boundary graph, spanned with what all tiles have passed on.
 #pragma once
 

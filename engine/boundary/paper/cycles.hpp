@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cycles: the edges of a spanning graph that can lie on a loop. Where only a part of the graph is known, it
 // says which of these are complete.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // eligible_edges: which edges of the proximity graph may enter the spanning graph (paper, 5.1).
 #pragma once
 

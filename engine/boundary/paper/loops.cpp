@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/loops.hpp"
 
 #include "engine/store/sorted_runs.hpp"

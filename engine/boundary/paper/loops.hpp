@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // loops: closed loops of the spanning graph, by breadth-first search (paper, 5.2).
 #pragma once
 

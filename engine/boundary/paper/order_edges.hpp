@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // order_edges: the order in which the spanning graph takes its edges (paper, 5.1).
 #pragma once
 

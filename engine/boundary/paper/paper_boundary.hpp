@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary edges of the paper are the eligible edges of G. The spanning graph admits those that close long
 // loops only (paper, 5.1). Loops are found in it by breadth-first search (5.2).
 #pragma once

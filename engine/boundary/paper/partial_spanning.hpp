@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // span_partially: what of the spanning graph, and of its loops, a part of the eligible edges decides alone,
 // such as those of a tile.
 #pragma once

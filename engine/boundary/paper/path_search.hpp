@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a path of few edges joins two vertices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/span_whole.hpp"
 
 #include "engine/boundary/paper/path_search.hpp"

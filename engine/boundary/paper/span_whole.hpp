@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // span_whole: the spanning graph of the edges that all parts have passed on.
 #pragma once
 

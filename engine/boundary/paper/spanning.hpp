@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
 #pragma once
 

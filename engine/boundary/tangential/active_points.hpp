@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // active_points: which points of a tile are active, and their stars (method.md, C.4).
 //
 // A surface ends where triangles are missing. The search starts at the seeds, which are the surest of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/belt.hpp"
 
 #include "engine/boundary/tangential/radius_bound.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // belt: the stars of a tile's border points and of their neighbours, which need what other tiles know.
 #pragma once
 

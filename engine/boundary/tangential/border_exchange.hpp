@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stars of the belts, between tiles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/chains.hpp"
 
 #include "engine/run/error.hpp"

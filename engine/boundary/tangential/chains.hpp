@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // chains: open chains of wedges, joined across tiles to closed curves (method.md, C.5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // consistency: which triangles of measured stars the stars of all their active vertices have.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // curves: the closed curves along which consistent triangles end, followed from wedge to wedge (method.md,
 // C.5).
 #pragma once

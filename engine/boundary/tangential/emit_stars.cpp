@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/emit_stars.hpp"
 
 #include "engine/boundary/tangential/active_points.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // emit_stars: what one tile alone knows of the stars of its points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/growth.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // growth: active points and wedges among a tile's open stars, with what other tiles sent.
 #pragma once
 

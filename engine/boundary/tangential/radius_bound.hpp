@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radius_bound: the largest circumradius of a triangle, from how points lie around the star's point
 // (method.md, C.2).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/sampling_radius.hpp"
 
 #include <algorithm>

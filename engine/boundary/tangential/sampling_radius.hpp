@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling_radius: how large the gaps of the sampling itself are around a point (method.md, C.6).
 //
 // The circumradii of a star's triangles show how large the empty circles between points are. Those of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formulas of the stars, for the points of a batch and for one point in the exact fallback.
 #if defined(LACUNA_BOUNDARY_STAR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_BOUNDARY_STAR_INL

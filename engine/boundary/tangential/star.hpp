@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The star of a point: the Delaunay triangles around it, in its tangent plane (method.md, C.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stars of a batch of points (stars.hpp), one in each lane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/star_lists.hpp"
 
 #include "engine/store/merge_runs.hpp"

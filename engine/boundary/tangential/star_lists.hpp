@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tangential method keeps of the tiles until all of them are evaluated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // stars: the triangles around each point over which a ball can rest (method.md, C.1).
 //
 // A ball of radius R touches p with its centre in p's tangent plane and rolls around it. A neighbour at

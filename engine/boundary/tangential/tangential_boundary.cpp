@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 
 #include "engine/boundary/tangential/border_exchange.hpp"

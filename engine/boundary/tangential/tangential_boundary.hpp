@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
 // consistent triangle. A boundary wedge is a point with two such edges, between which there is no consistent
 // triangle around the point. Wedges chain to closed curves. That is done within a fine and a coarse bound on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boundary wedges: the records of the boundary graph.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far the scan and its loops reach, in scene coordinates.
 
 // {box: of most positions, outline: places to fit a picture to, middle and radius: a ball around all}

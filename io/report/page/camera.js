@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the camera is: a pose looks at a target from a direction, z is up. Flights go from pose to pose.
 
 const kFieldOfView = 38;  // degrees, vertical

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour maps of the points: even steps of lightness in OKLab (Ottosson 2020), so that equal differences look equal.
 
 // sRGB bytes of lightness, chroma and hue (degrees).

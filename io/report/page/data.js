@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data elements of the page, decoded once into typed arrays.
 //
 // Scene coordinates are the frame's unit cube with its middle at zero: real = origin + (scene + 0.5) * edge. A scene

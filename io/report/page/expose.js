@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests need of the page; everything in real coordinates.
 
 function expose(page) {

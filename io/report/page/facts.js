@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Facts of the scan and of the run: sources, counts, parameters, times.
 
 function draw_facts(data, units) {

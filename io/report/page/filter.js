@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which loops are shown: kind, least diameter, least confidence. Sliders and number fields say the same.
 
 class LoopFilter {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers as people read them: significant digits, thousands separators, units. A missing number is a dash.
 
 const kMissing = "–";

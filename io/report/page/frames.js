@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When pictures are drawn: only after a change, and with fewer points while a slow machine moves.
 
 const kStillMilliseconds = 160;  // after this all points are drawn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bar at the top: name and counts of the scan, help, theme.
 
 function write_header({report}) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small histograms: bars with numbers on the axes; what passes the filters has the colour, the rest is grey.
 
 const kChart = {width: 340, height: 112, left: 44, right: 8, top: 10, bottom: 22};

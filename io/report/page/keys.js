@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys of the page. Arrow keys, WASD, + and - act as long as they are down; fields keep the keys they need.
 
 // `navigation`: null without a view; `press`: {key: function}

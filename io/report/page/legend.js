@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies over the view: the legend of colours and lines, the scale, the axes.
 
 // `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops as thick lines. WebGL's own lines are one pixel wide, so each edge is a quad of the wanted width.
 //
 // The corners of all quads are made once. A filter only writes the indices of the quads that are drawn. Instances of

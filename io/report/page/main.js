@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page: makes its parts and connects them. Other scripts hold one part each; their order does not matter.
 
 class Page {

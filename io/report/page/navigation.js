@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves the camera: to poses, in flights, by zoom, and by keys held down.
 
 const kFlightMilliseconds = 700;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Puts the page of a report together, with its style, its scripts and three.js, as one string of the program.
 # Sets REPORT_PAGE to the source that has it.
 set(page_folder ${CMAKE_CURRENT_LIST_DIR})

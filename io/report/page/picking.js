@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is under the pointer: a loop, or the point to turn about.
 
 const kPickPixels = 9;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mouse and fingers on the view, besides the drags that OrbitControls has.
 
 // `actions`: {zoom(factor, x, y), click(x, y), double_click(x, y), hover(x, y), leave(), is_busy()}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points of the sample: round, sized in the scan's units, lit from both sides, coloured in one of four ways.
 
 const kColourings = ["probability", "height", "colour", "plain"];

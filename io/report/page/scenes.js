@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is drawn: the points, their shading on the screen, the loops over them, and the loops as numbers for picking.
 
 class Scenes {

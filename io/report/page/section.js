@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The section: a height above which, and another one below which, the view shows nothing.
 //
 // Shaders leave out what lies outside, so that a change costs one picture, whatever the number of points.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Settings of the view: size of the points, what is shown.
 
 function connect_settings() {

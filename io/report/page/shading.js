@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the shaders share: the section, and the camera in parts, so that large scenes stay still when it is close.
 //
 // A vertex is taken relative to the eye before it is turned: near the eye the difference of two close floats is exact.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of loops: sorted, filtered, and only the rows in sight are in the document.
 
 const kRowPixels = 30;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // On narrow screens: the tabs of the sheet below the view, and its height.
 
 function connect_tabs() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The 3D view: connects canvas, camera, scenes and pointer, and draws a picture when something has changed.
 
 class View {

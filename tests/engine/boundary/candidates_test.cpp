@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/candidates.hpp"
 
 #include "tests/support/tiled_scan.hpp"

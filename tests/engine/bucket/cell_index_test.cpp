@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From places to cells.
 #include "engine/bucket/cell_index.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/order_tile.hpp"
 
 #include "tests/support/clouds.hpp"

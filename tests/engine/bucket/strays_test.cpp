@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points far from all others: the rule, against itself done plainly, and that no tiling changes the answer.
 #include "engine/bucket/strays.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // survey, split and reach: from points to cells, tiles, and how far neighbours may be.
 #include "engine/bucket/split.hpp"
 #include "engine/halo/distance_bound.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each criterion on its own, on surfaces drawn by hand.
 #include "engine/criteria/angle-inl.hpp"
 #include "engine/criteria/exact_fallback.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The criteria of batches: the same bits from every instruction set, and from every place in a batch.
 #include "engine/criteria/criteria_values.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A criterion of the test's own: how much the surface bends around a point. That is the share of the smallest
 // eigenvalue (Pauly, Gross, Kobbelt, Efficient simplification of point-sampled surfaces, 2002), which is 1/3
 // at most.

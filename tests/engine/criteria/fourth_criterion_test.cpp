@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program with a fourth criterion. One source of the engine is compiled anew for it, with one more line in
 // the table of criteria (tests/CMakeLists.txt). Everything else is the library as it is.
 #include "tests/io/io_support.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Offsets of neighbours gathered side by side.
 #include "engine/criteria/neighbour_batch.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outputs of tiles that several runs have sealed.
 #include "engine/evaluate/kept_outputs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/halo.hpp"
 
 #include "tests/support/tile.hpp"

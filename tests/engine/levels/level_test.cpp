@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The levels of a scan: which lattices, and which points.
 #include "engine/levels/level.hpp"
 

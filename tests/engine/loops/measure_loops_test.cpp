@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/measure_loops.hpp"
 
 #include "engine/loops/measure_loop.hpp"

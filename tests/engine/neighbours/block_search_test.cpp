@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The search in blocks against looking at every point, in any order of the points.
 #include "engine/neighbours/block_search.hpp"
 

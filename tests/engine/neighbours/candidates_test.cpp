@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The candidates of a query in single precision: none is missed, and an order that rounding may decide is
 // marked as ambiguous.
 #include "engine/neighbours/candidates.hpp"

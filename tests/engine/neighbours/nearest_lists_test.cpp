@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which neighbours are neighbours of each other, against a look into every list.
 #include "engine/neighbours/nearest_lists.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/run/machine_memory.hpp"
 
 #include "tests/support/scratch_folder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The elementary functions against the standard library, and by each instruction set against one number
 // alone.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lanes sorted at once, by each instruction set, against the standard library.
 #include "engine/simd/sort.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows on disk: what was written, holes, and files cut short.
 #include "engine/store/column.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists that come in runs.
 #include "engine/store/merge_runs.hpp"
 

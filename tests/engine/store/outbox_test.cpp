@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/store/outbox.hpp"
 
 #include "tests/support/clouds.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points on disk come back as they were, in either precision.
 #include "engine/store/point_column.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records of some rows: those rows are read and replaced, and no others.
 #include "engine/store/row_runs.hpp"
 

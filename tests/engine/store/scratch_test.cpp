@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arrays in memory, or mapped from files.
 #include "engine/store/scratch.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a workspace: what is read of one is what was written, or there is no such part.
 #include "engine/store/sealed_part.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorting more than fits in memory.
 #include "engine/store/sorted_runs.hpp"
 

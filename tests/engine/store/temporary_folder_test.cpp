@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/store/temporary_folder.hpp"
 
 #include "tests/io/io_support.hpp"

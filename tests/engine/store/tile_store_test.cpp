@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points on their way into the rows of their tiles, and back.
 #include "engine/store/tile_store.hpp"
 

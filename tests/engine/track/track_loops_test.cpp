@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which loops stand, of drawn ones at several levels, and of scans.
 #include "engine/track/track_loops.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run after its input has changed in places. The result is that of a run from nothing. Tiles where nothing
 // has changed are not evaluated again.
 #include "engine/consumers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
 #include "engine/workspace/workspace.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Without lacuna_gis.so, which is not in the folder of this program.
 #include "io/crs/stated_crs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/e57/e57_header.hpp"
 #include "io/little_endian.hpp"
 #include "tests/io/broken_files.hpp"

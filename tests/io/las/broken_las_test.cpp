@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Broken files of every point format, compressed and not.
 #include "engine/run/parallel.hpp"
 #include "io/las/las_header.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/io/las/las_file.hpp"
 
 namespace lacuna::test {

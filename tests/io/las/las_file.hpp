@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // LAS files drawn as bytes.
 #pragma once
 

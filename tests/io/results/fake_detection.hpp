@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A finished run without the engine, for tests of what is written.
 #pragma once
 

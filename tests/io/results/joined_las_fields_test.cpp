@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several LAS files as one points.las: fields and extra bytes that not all of them have, or not in one form.
 #include "tests/io/results/points_las_support.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several LAS files as one points.las: their coordinates, and what cannot be joined.
 #include "tests/io/results/points_las_support.hpp"
 

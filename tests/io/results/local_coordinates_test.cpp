@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY and PCD files with coordinates relative to an offset, written and read.
 #include "io/results/local_coordinates.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_writer.hpp"
 #include "io/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/order_edges.hpp"
 
 #include "engine/evaluate/evaluate.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/paper_boundary.hpp"
 
 #include "tests/support/reference.hpp"

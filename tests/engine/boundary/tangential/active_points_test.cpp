@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Active points are found along inconsistent triangles, and so are those that other tiles may add.
 #include "engine/boundary/tangential/active_points.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exchange between tiles: wedges are those of a single tile, and close to curves.
 #include "engine/boundary/tangential/border_exchange.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/curves.hpp"
 
 #include "tests/support/clouds.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stars along the border of a tile: active points found with what other tiles sent, and the wedges left.
 #include "engine/boundary/tangential/growth.hpp"
 

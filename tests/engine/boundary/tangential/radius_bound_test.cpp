@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bounds on circumradii, from medians by hand, whatever points share the batch.
 #include "engine/boundary/tangential/radius_bound.hpp"
 

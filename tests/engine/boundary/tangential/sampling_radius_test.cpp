@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How large the gaps of the sampling are, from circumradii by hand.
 #include "engine/boundary/tangential/sampling_radius.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stars of a batch are those of the exact fallback, from every instruction set and with any others in the
 // batch.
 #include "engine/boundary/tangential/stars.hpp"

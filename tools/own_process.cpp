@@ -1,4 +1,5 @@
-#include "tools/process_memory.hpp"
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/own_process.hpp"
 
 #include "engine/run/job.hpp"
 
@@ -8,6 +9,7 @@
 #include <link.h>
 #include <malloc.h>
 #include <sys/mman.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
@@ -44,9 +46,13 @@ void set_up_allocator(std::uint64_t limit) {
 
 }  // namespace
 
-void prepare_memory(std::uint64_t limit) {
-  set_up_allocator(Memory::share(limit).limit);
+void prepare_process(const RunConfig& config) {
+  set_up_allocator(Memory::share(config.memory_limit).limit);
   release_symbol_tables();
+  if (config.threads > 0) {
+    static const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                             static_cast<std::size_t>(config.threads));
+  }
 }
 
 }  // namespace lacuna::tools

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a run in another's process puts aside what does not fit in its memory.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/model/points.hpp"
+#include "engine/store/temporary_folder.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace lacuna {
+
+// Files in memory, where they fit within half of the limit. Else a folder in `run.scratch`, or in that for
+// temporary files, which goes with this object.
+class ScratchPlace {
+ public:
+  // Files in memory are taken from `run.memory_limit`. Throws `Error`.
+  ScratchPlace(const PointSource& scan, RunConfig& run);
+
+  std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
+
+ private:
+  std::optional<TemporaryFolder> folder_;
+};
+
+}  // namespace lacuna

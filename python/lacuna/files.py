@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results in folders: loading, evaluating, comparing; and results of points as a stream."""
+
+from __future__ import annotations
+
+import glob
+import json
+import os
+import queue
+import tempfile
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+from . import _core
+from .holes import Holes
+
+Result = Union[Holes, str, "os.PathLike[str]"]
+
+
+def load(folder: Union[str, os.PathLike]) -> Holes:
+    """Loads the results in an output folder of `lacuna detect`, or of `Holes.save`."""
+    folder = Path(folder)
+    file = folder / "holes.json"
+    try:
+        with open(file, encoding="utf-8") as stream:
+            content = json.load(stream)
+        loops = _arrays_of(content["loops"])
+        summary = {**content["counts"], **{key: content[key] for key in _SUMMARY}}
+    except OSError as error:
+        raise _core.Error(f"{file}: cannot be read: {error.strerror}") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise _core.Error(f"{file}: is no result of lacuna detect: {error}") from error
+    offset = content["offset"] or [0, 0, 0]
+    return Holes(
+        loops,
+        summary,
+        unit=content["unit"] or "",
+        crs=content["crs"] or "",
+        folder=folder,
+        read_sample=lambda: _read_sample(folder / "sample.ply", offset),
+    )
+
+
+def evaluate(
+    holes: Result,
+    truth: Union[str, os.PathLike],
+    *,
+    scans: Iterable[Union[str, os.PathLike]] = (),
+    surface: Union[str, os.PathLike] = "",
+    tolerance: float = 2.0,
+    min_vertices: int = 8,
+) -> dict[str, Any]:
+    """Compares loops with true ones, as `lacuna evaluate` does: a PLY mesh, or loops as text. Returns its
+    JSON. tolerance: in spacings of the scan."""
+    with _folder_of(holes) as folder:
+        names = [os.fspath(scan) for scan in scans]
+        return json.loads(_core.evaluate(folder, os.fspath(truth), names, os.fspath(surface), tolerance, min_vertices))
+
+
+def compare(before: Result, after: Result, *, tolerance: float = 0.0) -> dict[str, Any]:
+    """Says which holes of two results are closed, new, changed or the same, as `lacuna compare` does. Returns
+    its JSON. tolerance: how far apart curves of one hole may be; 0: twice the larger spacing."""
+    with _folder_of(before) as first, _folder_of(after) as second:
+        return json.loads(_core.compare(first, second, tolerance))
+
+
+def stream(files: Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]], **params: Any) -> Iterator[dict[str, Any]]:
+    """Finds the holes of files, and yields the results of their points in blocks, in the order of the input.
+
+    files: as for `detect`, or patterns such as "big/*.laz". Parameters are those of `detect`.
+    A block has `first_id`, and the arrays probability, criteria, boundary, coherent, loop and normal.
+    Memory: a few blocks, and that of the run.
+    """
+    from .run import detect
+
+    names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    matched = [found for name in map(os.fspath, names) for found in (sorted(glob.glob(name)) or [name])]
+    found = detect(matched, **{**params, "points": True})._found
+    return _blocks(found)
+
+
+class _Ended(Exception):
+    pass
+
+
+# The engine calls a function for each block. So it runs on a thread of its own, two blocks ahead.
+def _blocks(found: _core.Found) -> Iterator[dict[str, Any]]:
+    blocks: queue.Queue = queue.Queue(maxsize=2)
+    is_ended = threading.Event()
+
+    def put(item: Any) -> None:
+        while not is_ended.is_set():
+            try:
+                return blocks.put(item, timeout=0.1)
+            except queue.Full:
+                continue
+        raise _Ended
+
+    def work() -> None:
+        try:
+            found.for_each_block(put)
+            put(None)
+        except _Ended:
+            pass
+        except BaseException as error:
+            put(error)
+
+    thread = threading.Thread(target=work, daemon=True)
+    thread.start()
+    try:
+        while (block := blocks.get()) is not None:
+            if isinstance(block, BaseException):
+                raise block
+            yield block
+    finally:
+        is_ended.set()
+        thread.join()
+
+
+@contextmanager
+def _folder_of(holes: Result) -> Iterator[str]:
+    if not isinstance(holes, Holes):
+        yield os.fspath(holes)
+    elif holes._folder is not None:
+        yield os.fspath(holes._folder)
+    else:
+        with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
+            holes.save(folder)
+            yield folder
+
+
+def _arrays_of(loops: list[dict[str, Any]]) -> dict[str, np.ndarray]:
+    def numbers(name: str, type: Any = np.float64) -> np.ndarray:
+        return np.array([np.nan if loop[name] is None else loop[name] for loop in loops], type)
+
+    def vectors(name: str) -> np.ndarray:
+        return np.array([loop[name] for loop in loops], np.float64).reshape(-1, 3)
+
+    counts = [len(loop["ids"]) for loop in loops]
+    xyz = [np.array(loop.get("coordinates", []), np.float64).reshape(-1, 3) for loop in loops]
+    return {
+        "is_outer": np.array([loop["kind"] == "outer" for loop in loops], bool),
+        "points": np.array(counts, np.int64),
+        **{name: numbers(name) for name in _NUMBERS},
+        **{name: vectors(name) for name in ("centroid", "normal")},
+        "offsets": np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
+        "ids": np.array([i for loop in loops for i in loop["ids"]], np.int64),
+        "xyz": np.concatenate(xyz) if xyz else np.empty((0, 3)),
+    }
+
+
+_SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance")
+
+_NUMBERS = (
+    "confidence",
+    "perimeter",
+    "area",
+    "diameter",
+    "planarity",
+    "mean_probability",
+    "persistence",
+    "first_scale",
+    "last_scale",
+)
+
+_PLY_TYPES = {"float": "<f4", "double": "<f8", "uint": "<u4", "int": "<i4", "uchar": "u1", "ushort": "<u2"}
+
+
+def _read_sample(file: Path, offset: list[float]) -> dict[str, np.ndarray]:
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        raise _core.Error(f"{file}: cannot be read: {error.strerror}") from error
+    head, _, body = content.partition(b"end_header\n")
+    words = [line.split() for line in head.decode().splitlines()]
+    count = next(int(w[2]) for w in words if w[:2] == ["element", "vertex"])
+    rows = np.frombuffer(body, np.dtype([(w[2], _PLY_TYPES[w[1]]) for w in words if w[0] == "property"]), count)
+    return {
+        "id": rows["scalar_id"].astype(np.int64),
+        "xyz": np.column_stack([rows[axis].astype(np.float64) for axis in "xyz"]) + offset,
+        "probability": rows["scalar_probability"],
+        "normal": np.column_stack([rows[name] for name in ("nx", "ny", "nz")]),
+    }

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs of the engine: on arrays, and on files."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _core
+from .holes import Holes, LacunaWarning
+
+Progress = Callable[[str, float, Optional[float]], Any]
+Path = Union[str, "os.PathLike[str]"]
+
+
+def parameters() -> list[dict[str, str]]:
+    """All parameters of a run: section, key, default, what is allowed, and a sentence of help each."""
+    return _core.parameters()
+
+
+def find_holes(
+    xyz: Any,
+    normals: Any = None,
+    *,
+    points: bool = False,
+    attributes: Optional[Mapping[str, Any]] = None,
+    progress: Optional[Progress] = None,
+    **params: Any,
+) -> Holes:
+    """Finds the holes of the surface that points sample.
+
+    - xyz: array of n x 3, float32 or float64 at any stride, which is not copied. Other types are converted. An
+      open3d PointCloud and laspy data do, too.
+    - normals: array of n x 3, of any length; NaN or zero where one is not known.
+    - points: whether results of all points are wanted, such as `Holes.probability`.
+    - attributes: further columns of n values each, by name, for files that `Holes.save` writes. The report shows
+      `red`, `green` and `blue`.
+    - progress: is called as progress(stage, share, seconds_left) some times a second. If it returns False, the
+      run ends with an `Error`.
+    - params: parameters by their keys, such as min_hole=0.5, k=20, memory_limit="4GiB", crs="EPSG:25832".
+      `lacuna.parameters()` lists them.
+
+    Non-finite points are dropped and counted. Cost: linear in n. Memory: the input, the results, and at most
+    memory_limit, half of the machine's by default.
+    """
+    columns = dict(zip("xyz", _columns(_positions_of(xyz), "xyz")))
+    if normals is not None:
+        columns.update(zip(("nx", "ny", "nz"), _columns(np.asarray(normals), "normals")))
+    for name, values in (attributes or {}).items():
+        columns[name] = np.asarray(values)
+    found = _core.find_in_arrays(columns, _checked({**params, "points": points}), progress)
+    return _holes_of(found, xyz=_positions_of(xyz))
+
+
+def detect(
+    files: Union[Path, Iterable[Path]],
+    *,
+    points: bool = False,
+    progress: Optional[Progress] = None,
+    **params: Any,
+) -> Holes:
+    """Finds the holes of scan files, which together are one registered scan and may be larger than memory.
+
+    files: names of scans, of folders with scans, or "@list" of a list of names. LAS, LAZ, E57, PLY, PCD, PTX,
+        OBJ, OFF, STL and text are read.
+    Other arguments are those of `find_holes`.
+    """
+    names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    found = _core.find_in_files([os.fspath(name) for name in names], _checked({**params, "points": points}), progress)
+    return _holes_of(found)
+
+
+def _holes_of(found: _core.Found, xyz: Optional[np.ndarray] = None) -> Holes:
+    for warning in found.warnings:
+        warnings.warn(warning, LacunaWarning, stacklevel=3)
+    return Holes(found.loops(), found.summary(), unit=found.unit, crs=found.crs, found=found, xyz=xyz)
+
+
+def _positions_of(points: Any) -> np.ndarray:
+    for name in ("xyz", "points"):  # laspy, open3d
+        if not isinstance(points, np.ndarray) and hasattr(points, name):
+            return np.asarray(getattr(points, name))
+    return np.asarray(points)
+
+
+def _columns(array: np.ndarray, name: str) -> list[np.ndarray]:
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise _core.Error(f"{name}: has the shape {array.shape}; allowed: n x 3")
+    if array.dtype not in (np.float32, np.float64) or not array.dtype.isnative:
+        array = array.astype(np.float64)
+    return [array[:, axis] for axis in range(3)]
+
+
+def _checked(params: Mapping[str, Any]) -> dict[str, str]:
+    keys = [p["key"] for p in _core.parameters()]
+    for key in params:
+        if key not in keys:
+            near = difflib.get_close_matches(key, keys, 1)
+            hint = f"; did you mean {near[0]}?" if near else "; lacuna.parameters() lists them"
+            raise TypeError(f"{key} is no parameter{hint}")
+    return {key: _text(value) for key, value in params.items() if value is not None}
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return ",".join(_text(v) for v in value)
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    return str(value)

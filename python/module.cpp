@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// lacuna._core: what python/lacuna calls. Everything else is Python.
+#include "engine/run/error.hpp"
+#include "io/report/report.hpp"
+#include "io/results/results.hpp"
+#include "python/arrays.hpp"
+#include "python/run.hpp"
+#include "tools/accuracy/evaluation.hpp"
+#include "tools/compare_command.hpp"
+#include "tools/evaluate_text.hpp"
+#include "tools/input_files.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+namespace lacuna::python {
+namespace {
+
+std::unique_ptr<Found> find_in_arrays(const py::dict& columns, const py::dict& parameters,
+                                      const py::object& progress) {
+  Config config;
+  set_parameters(parameters, config);
+  std::vector<io::ScanInput> inputs;
+  inputs.emplace_back("arrays", scan_of(columns));
+  return find(std::move(inputs), config, columns, progress);
+}
+
+std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const py::dict& parameters,
+                                     const py::object& progress) {
+  Config config;
+  set_parameters(parameters, config);
+  const io::ReadOptions options{.columns = config.input.columns,
+                                .memory = Memory::share(config.run.memory_limit).reading};
+  return find(tools::expand_inputs(files, options), config, py::none(), progress);
+}
+
+// Names, defaults and what is allowed, of all parameters.
+py::list list_parameters() {
+  Config config;
+  py::list all;
+  for (const Parameter& parameter : parameters(config)) {
+    py::dict one;
+    one["section"] = parameter.section;
+    one["key"] = parameter.key;
+    one["default"] = parameter.print();
+    one["allowed"] = parameter.allowed;
+    one["help"] = parameter.help;
+    all.append(one);
+  }
+  return all;
+}
+
+std::vector<fs::path> save(Found& found, const fs::path& folder, const py::dict& parameters, bool overwrite) {
+  Config config = found.config;
+  set_parameters(parameters, config);
+  const py::gil_scoped_release unlocked;
+  return io::write_results(*found.detection, *found.scan, config, folder,
+                           overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn);
+}
+
+// visit(block) in ascending id.
+void for_each_block(const Found& found, const py::function& visit) {
+  found.detection->for_each_result_block(
+      [&](PointId first, std::span<const PointResult> block) { visit(block_of(first, block)); });
+}
+
+fs::path write_report(const fs::path& folder, bool overwrite) {
+  const py::gil_scoped_release unlocked;
+  return io::write_report(folder, overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn);
+}
+
+std::string evaluate(const fs::path& result_path, const fs::path& truth_path,
+                     const std::vector<fs::path>& scans, const fs::path& surface, double tolerance,
+                     std::size_t min_vertices) {
+  const py::gil_scoped_release unlocked;
+  const accuracy::Result result = accuracy::read_result(result_path);
+  accuracy::Truth truth = accuracy::read_truth(truth_path, {scans.begin(), scans.end()}, result);
+  if (!surface.empty()) truth.surface = accuracy::read_surface(surface);
+  const accuracy::EvaluationRule rule{.tolerance = tolerance, .min_vertices = min_vertices};
+  const accuracy::Evaluation evaluation = accuracy::evaluate(result, truth, rule);
+  return tools::print_json({result, truth, evaluation, result_path, truth_path, surface, rule});
+}
+
+std::string compare(const fs::path& before, const fs::path& after, double tolerance) {
+  const py::gil_scoped_release unlocked;
+  const tools::Comparison comparison(tools::read_result(before), tools::read_result(after), tolerance);
+  return comparison.json().dump();
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.attr("version") = LACUNA_VERSION;
+  py::register_exception<Error>(module, "Error", PyExc_RuntimeError).attr("__module__") = "lacuna";
+
+  py::class_<Found>(module, "Found")
+      .def_property_readonly("warnings", [](const Found& f) { return f.warnings; })
+      .def_property_readonly("unit", [](const Found& f) { return f.scan->length_unit(); })
+      .def_property_readonly("crs", [](const Found& f) { return f.scan->common_crs(); })
+      .def("summary", [](const Found& f) { return summary_of(f.detection->summary); })
+      .def("loops", [](const Found& f) { return loops_of(*f.detection); })
+      .def("points", [](const Found& f) { return points_of(*f.detection); })
+      .def("sample", [](const Found& f) { return sample_of(*f.detection); })
+      .def("for_each_block", &for_each_block)
+      .def("save", &save);
+
+  module.def("parameters", &list_parameters);
+  module.def("find_in_arrays", &find_in_arrays);
+  module.def("find_in_files", &find_in_files);
+  module.def("write_report", &write_report);
+  module.def("evaluate", &evaluate);
+  module.def("compare", &compare);
+}
+
+}  // namespace lacuna::python

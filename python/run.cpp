@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/run.hpp"
+
+#include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "tools/overall_progress.hpp"
+#include "tools/scan_warnings.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace py = pybind11;
+
+namespace lacuna::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Cancelled : public std::exception {};
+
+// Where the run stands, for the thread that Python knows.
+class WatchedProgress final : public Progress {
+ public:
+  explicit WatchedProgress(const Config& config) : overall_(tools::expected_stages(config)) {}
+
+  void begin(std::string_view stage, std::uint64_t total) override {
+    stop_if_cancelled();
+    const std::lock_guard lock(mutex_);
+    stage_ = stage;
+    total_ = total;
+    done_ = 0;
+    overall_.begin(stage, seconds());
+  }
+  void advance(std::uint64_t count) override {
+    done_ += count;
+    stop_if_cancelled();
+  }
+  void end() noexcept override {
+    const std::lock_guard lock(mutex_);
+    overall_.end();
+  }
+
+  struct State {
+    std::string stage;
+    tools::OverallProgress::State overall;
+  };
+  State state() {
+    const std::lock_guard lock(mutex_);
+    return {stage_, overall_.at(seconds(), done_, total_)};
+  }
+  void cancel() { is_cancelled_ = true; }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  void stop_if_cancelled() const {
+    if (is_cancelled_) throw Cancelled();
+  }
+
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+  std::string stage_;
+  std::uint64_t total_ = 0;
+  std::atomic<std::uint64_t> done_ = 0;
+  std::atomic<bool> is_cancelled_ = false;
+  tools::OverallProgress overall_;
+};
+
+// Work on a thread of its own.
+class Worker {
+ public:
+  template <class Work>
+  explicit Worker(Work work)
+      : thread_([this, work = std::move(work)] {
+          try {
+            work();
+          } catch (...) {
+            error_ = std::current_exception();
+          }
+          const std::lock_guard lock(mutex_);
+          is_done_ = true;
+          done_.notify_all();
+        }) {}
+
+  bool wait() {  // a tenth of a second at most; true: it is done
+    std::unique_lock lock(mutex_);
+    return done_.wait_for(lock, std::chrono::milliseconds(100), [&] { return is_done_; });
+  }
+  std::exception_ptr join() {
+    thread_.join();
+    return error_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable done_;
+  bool is_done_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;
+};
+
+// Throws what a handler of a signal or the callback raises.
+bool wants_more(const WatchedProgress::State& state, const py::object& callback) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (callback.is_none() || state.stage.empty()) return true;
+  const py::object left =
+      state.overall.seconds_left ? py::cast(*state.overall.seconds_left) : py::object(py::none());
+  return !callback(state.stage, state.overall.share, left).is(py::bool_(false));
+}
+
+template <class Work>
+void run_watched(Work work, WatchedProgress& progress, const py::object& callback) {
+  std::optional<py::error_already_set> raised;
+  bool is_stopped = false;
+  std::exception_ptr error;
+  {
+    const py::gil_scoped_release unlocked;
+    Worker worker(std::move(work));
+    while (!worker.wait()) {
+      if (is_stopped) continue;
+      const py::gil_scoped_acquire locked;
+      try {
+        is_stopped = !wants_more(progress.state(), callback);
+      } catch (py::error_already_set& exception) {
+        raised.emplace(exception);
+        is_stopped = true;
+      }
+      if (is_stopped) progress.cancel();
+    }
+    error = worker.join();
+  }
+  if (raised) throw py::error_already_set(*raised);
+  if (!error) return;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    throw Error("the run was cancelled by its progress callback");
+  }
+}
+
+std::string text_of(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  return py::str(value).cast<std::string>();
+}
+
+}  // namespace
+
+void set_parameters(const py::dict& values, Config& config) {
+  const std::vector<Parameter> all = parameters(config);
+  for (const auto& [key, value] : values) {
+    const auto name = key.cast<std::string>();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == name; });
+    if (at == all.end()) throw Error("no parameter has the name " + name);
+    at->set(text_of(value));
+  }
+}
+
+std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, py::object arrays,
+                            const py::object& progress) {
+  auto found = std::make_unique<Found>();
+  found->config = with_min_hole(config);
+  found->arrays = std::move(arrays);
+  WatchedProgress watched(config);
+  run_watched(
+      [&] {
+        check_config(config);
+        found->scan = std::make_unique<io::FileScan>(std::move(inputs), config.input,
+                                                     Memory::share(config.run.memory_limit).reading);
+        tools::refuse_degrees(*found->scan);
+        found->warnings = tools::input_warnings(*found->scan);
+        found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
+        found->detection = detect(*found->scan, config, found->scratch->path(), watched);
+        std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),
+                          std::back_inserter(found->warnings));
+      },
+      watched, progress);
+  return found;
+}
+
+}  // namespace lacuna::python

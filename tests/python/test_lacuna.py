@@ -1,0 +1,338 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package against the program, and against itself. Run by tests/python/python_test.sh."""
+
+import inspect
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import lacuna
+
+PROGRAM = os.environ["LACUNA_PROGRAM"]
+
+
+def plane(n, holes=(), seed=1):
+    """A jittered grid of n x n points at distances of 1, without the points in circles (x, y, radius)."""
+    random = np.random.default_rng(seed)
+    xy = np.stack(np.meshgrid(np.arange(n), np.arange(n)), -1).reshape(-1, 2) + random.uniform(-0.3, 0.3, (n * n, 2))
+    xyz = np.column_stack([xy, random.normal(0, 0.02, n * n)])
+    for x, y, radius in holes:
+        xyz = xyz[np.hypot(xyz[:, 0] - x, xyz[:, 1] - y) > radius]
+    return xyz
+
+
+SHEET = plane(60, [(18, 17, 6), (41, 40, 8)])
+
+
+def same_loops(a, b):
+    return np.array_equal(a.loops.ids, b.loops.ids) and np.array_equal(a.loops.offsets, b.loops.offsets)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = Path(self._folder.name)
+        self.addCleanup(self._folder.cleanup)
+
+
+class FindHoles(Folder):
+    def test_a_hole_is_a_closed_loop_of_points_of_the_input(self):
+        holes = lacuna.find_holes(SHEET)
+        self.assertEqual([loop.kind for loop in holes.loops].count("hole"), 2)
+        small, large = sorted((loop for loop in holes.loops if loop.kind == "hole"), key=lambda loop: loop.area)
+        for loop, (centre, radius) in ((small, ((18, 17), 6)), (large, ((41, 40), 8))):
+            np.testing.assert_array_equal(loop.xyz, SHEET[loop.ids])
+            np.testing.assert_allclose(loop.centroid[:2], centre, atol=0.7)
+            self.assertAlmostEqual(loop.diameter, 2 * radius, delta=2)
+            self.assertGreater(loop.confidence, 0.5)
+            self.assertAlmostEqual(abs(loop.normal[2]), 1, places=2)
+            self.assertEqual(len(loop), len(loop.ids))
+        self.assertEqual(holes.summary["points"], len(SHEET))
+        self.assertEqual(repr(holes.loops), "Loops(2 holes, 1 outer)")
+        self.assertEqual(holes.loops[-1].id, len(holes.loops) - 1)
+        self.assertEqual([loop.id for loop in holes.loops[:2]], [0, 1])
+        with self.assertRaises(IndexError):
+            holes.loops[len(holes.loops)]
+
+    def test_any_stride_and_type_gives_the_same(self):
+        single = SHEET.astype(np.float32)
+        expected = lacuna.find_holes(single.astype(np.float64))
+        records = np.zeros(len(single), [("intensity", "u2"), ("z", "f4"), ("y", "f4"), ("x", "f4")])
+        for axis, name in enumerate("xyz"):
+            records[name] = single[:, axis]
+        wide = np.full((2 * len(single), 5), 7, np.float32)
+        wide[::2, 4:1:-1] = single
+        for xyz in (
+            single,
+            np.asfortranarray(single),
+            wide[::2, 4:1:-1],
+            single.astype(np.float64)[::-1][::-1],
+            single.astype(">f8"),
+        ):
+            self.assertTrue(same_loops(lacuna.find_holes(xyz), expected))
+        self.assertTrue(same_loops(lacuna.find_holes(np.round(single * 1000).astype(np.int64)), lacuna.find_holes(np.round(single * 1000))))
+
+        class Las:  # as laspy has it
+            xyz = single
+
+        self.assertTrue(same_loops(lacuna.find_holes(Las()), expected))
+
+    def test_results_are_those_of_the_program(self):
+        scan = self.folder / "sheet.xyz"
+        np.savetxt(scan, SHEET, fmt="%.17g")
+        subprocess.run([PROGRAM, "detect", scan, "--out", self.folder / "out", "--quiet", "--min-hole", "10"], check=True)
+        program = json.loads((self.folder / "out/holes.json").read_text())["loops"]
+        self.assertEqual(len(program), 2)
+        for holes in (lacuna.find_holes(SHEET, min_hole=10), lacuna.detect(scan, min_hole=10), lacuna.load(self.folder / "out")):
+            self.assertEqual([loop.ids.tolist() for loop in holes.loops], [loop["ids"] for loop in program])
+            for loop, expected in zip(holes.loops, program):
+                self.assertEqual(loop.xyz.tolist(), expected["coordinates"])
+                for name in ("kind", "confidence", "area", "diameter", "perimeter", "planarity", "mean_probability", "last_scale"):
+                    self.assertEqual(getattr(loop, name), expected[name])
+            self.assertEqual(holes.summary["points"], len(SHEET))
+            self.assertEqual(len(holes.sample["xyz"]), len(SHEET))
+        self.assertEqual(set(lacuna.load(self.folder / "out").summary["bounds"]), set(holes.summary["bounds"]))
+
+    def test_each_point_has_its_result(self):
+        xyz = np.vstack([SHEET, [np.nan, 0, 0]])
+        holes = lacuna.find_holes(xyz, points=True)
+        self.assertEqual(holes.probability.shape, (len(xyz),))
+        self.assertEqual(holes.criteria.shape, (len(xyz), 3))
+        self.assertEqual(holes.normals.shape, (len(xyz), 3))
+        self.assertTrue(np.isnan(holes.probability[-1]))
+        self.assertEqual(holes.summary["dropped"], 1)
+        loop = holes.loops[0]
+        self.assertTrue((holes.loop_of_point[loop.ids] == 0).all())
+        self.assertTrue(holes.boundary[loop.ids].all())
+        np.testing.assert_array_equal(np.nonzero(holes.loop_of_point >= 0)[0], np.unique(holes.loops.ids))
+        np.testing.assert_allclose(holes.criteria[:-1].mean(axis=1), holes.probability[:-1], atol=1e-6)
+        with self.assertRaisesRegex(lacuna.Error, "points=True"):
+            lacuna.find_holes(SHEET).probability
+
+    def test_normals_count(self):
+        up = np.tile(np.float32([0, 0, 2]), (len(SHEET), 1))
+        np.testing.assert_array_equal(lacuna.find_holes(SHEET, up, points=True).normals, np.float32([[0, 0, 1]]).repeat(len(SHEET), 0))
+        with self.assertRaisesRegex(lacuna.Error, "nx: has 5 values for"):
+            lacuna.find_holes(SHEET, up[:5])
+
+    def test_nothing_has_no_holes(self):
+        holes = lacuna.find_holes(np.empty((0, 3)), points=True)
+        self.assertEqual((len(holes.loops), len(holes.probability), holes.summary["bounds"]), (0, 0, None))
+
+    def test_wrong_input_is_one_line(self):
+        for xyz in (SHEET[:, :2], SHEET[0]):
+            with self.assertRaisesRegex(lacuna.Error, "^xyz: has the shape .*; allowed: n x 3$"):
+                lacuna.find_holes(xyz)
+        with self.assertRaisesRegex(TypeError, "min_holes is no parameter; did you mean min_hole?"):
+            lacuna.find_holes(SHEET, min_holes=1)
+        with self.assertRaisesRegex(lacuna.Error, "k.*a whole number from 1 to 1000"):
+            lacuna.find_holes(SHEET, k=0)
+        with self.assertRaisesRegex(lacuna.Error, "no_such.laz"):
+            lacuna.detect(self.folder / "no_such.laz")
+        with self.assertRaisesRegex(lacuna.Error, "eps_fraction"):
+            lacuna.find_holes(SHEET, eps=1, eps_fraction=0.1)
+        with self.assertRaisesRegex(lacuna.Error, "label: has values of type"):
+            lacuna.find_holes(SHEET, attributes={"label": np.array(["a"] * len(SHEET))})
+        self.assertNotIn("\n", str(lacuna.Error("x")))
+
+    def test_parameters_have_python_s_types(self):
+        boxed = lacuna.find_holes(SHEET, bounds=[0, 0, 30, 30], threads=1, memory_limit="1GiB", every_point=True, holes_only=np.bool_(True))
+        self.assertEqual({loop.kind for loop in boxed.loops}, {"hole"})
+        self.assertEqual(boxed.summary["threads"], 1)
+        self.assertIn("min_hole", [p["key"] for p in lacuna.parameters()])
+
+    def test_a_warning_is_python_s(self):
+        far = np.vstack([SHEET, [1e6, 0, 0]])
+        with self.assertWarnsRegex(lacuna.LacunaWarning, "far"):
+            lacuna.find_holes(far)
+
+
+BIG = plane(1000, [(500, 500, 20)])
+
+
+class Running(Folder):
+    def test_progress_goes_from_0_to_1(self):
+        calls = []
+        lacuna.find_holes(BIG, progress=lambda stage, share, left: calls.append((stage, share, left)))
+        self.assertGreater(len(calls), 2)
+        shares = [share for _, share, _ in calls]
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(all(0 <= share <= 1 for share in shares))
+        self.assertTrue(all(isinstance(stage, str) for stage, _, _ in calls))
+
+    def test_progress_can_cancel(self):
+        with self.assertRaisesRegex(lacuna.Error, "cancelled"):
+            lacuna.find_holes(BIG, progress=lambda *_: False)
+
+        def fail(*_):
+            raise ValueError("mine")
+
+        with self.assertRaisesRegex(ValueError, "mine"):
+            lacuna.find_holes(BIG, progress=fail)
+        self.assertEqual(len(lacuna.find_holes(SHEET).loops), 3)  # and the next run works
+
+    def test_ctrl_c_ends_a_run(self):
+        timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            while True:
+                lacuna.find_holes(BIG)
+
+    def test_other_threads_go_on(self):
+        ticks = []
+        done = threading.Event()
+
+        def tick():
+            while not done.is_set():
+                ticks.append(time.monotonic())
+                time.sleep(0.01)
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        lacuna.find_holes(BIG)
+        done.set()
+        thread.join()
+        self.assertLess(max(b - a for a, b in zip(ticks, ticks[1:])), 0.3)
+
+    def test_two_runs_at_once_have_the_same_results(self):
+        expected = lacuna.find_holes(BIG)
+        results = [None, None]
+
+        def run(i):
+            results[i] = lacuna.find_holes(BIG)
+
+        threads = [threading.Thread(target=run, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertTrue(all(same_loops(result, expected) for result in results))
+
+    def test_points_in_memory_need_no_folder(self):
+        code = "import lacuna, numpy as np; lacuna.find_holes(np.random.default_rng(1).uniform(0, 30, (2000, 3)))"
+        environment = {**os.environ, "TMPDIR": "/nonexistent"}
+        subprocess.run([sys.executable, "-c", code], check=True, env=environment)
+
+
+class Files(Folder):
+    def test_results_are_saved_and_loaded(self):
+        holes = lacuna.find_holes(SHEET, points=True, attributes={"red": np.arange(len(SHEET), dtype=np.uint8)})
+        written = holes.save(self.folder / "out", obj=True, points=True)
+        self.assertIn("loops.obj", [file.name for file in written])
+        self.assertIn(b"property uchar red", (self.folder / "out/points.ply").read_bytes()[:2000])
+        loaded = lacuna.load(self.folder / "out")
+        self.assertTrue(same_loops(loaded, holes))
+        for name in ("xyz", "area", "centroid", "is_outer", "points", "confidence"):
+            np.testing.assert_array_equal(getattr(loaded.loops, name), getattr(holes.loops, name))
+        for name in ("id", "xyz", "probability", "normal"):
+            np.testing.assert_array_equal(loaded.sample[name], holes.sample[name])
+        self.assertEqual({f.name for f in loaded.save(self.folder / "copy")}, {f.name for f in written})
+
+        report = holes.report(self.folder / "x.html").read_text()
+        self.assertTrue(report.startswith("<!doctype html>\n<!-- Lacuna report"))
+        self.assertEqual(loaded.report(self.folder / "y.html").read_text().split("<body")[0], report.split("<body")[0])
+
+    def test_files_of_others_stay(self):
+        (self.folder / "holes.csv").write_text("mine")
+        holes = lacuna.find_holes(SHEET)
+        with self.assertRaisesRegex(lacuna.Error, "holes.csv"):
+            holes.save(self.folder)
+        self.assertEqual(os.listdir(self.folder), ["holes.csv"])
+        holes.save(self.folder, overwrite=True)
+        with self.assertRaisesRegex(lacuna.Error, "holes.json: cannot be read"):
+            lacuna.load(self.folder / "nothing")
+        (self.folder / "holes.json").write_text("{}")
+        with self.assertRaisesRegex(lacuna.Error, "is no result"):
+            lacuna.load(self.folder)
+
+    def test_results_are_compared_with_the_truth_and_with_others(self):
+        subprocess.run([PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
+        holes = lacuna.detect(self.folder / "s.ply")
+        score = lacuna.evaluate(holes, self.folder / "s.loops.txt")
+        self.assertEqual((score["loops"]["found"], score["loops"]["true"]), (4, 4))
+        fewer = lacuna.detect(self.folder / "s.ply", holes_only=True)
+        changes = [c["change"] for c in lacuna.compare(holes, fewer)["changes"]]
+        self.assertEqual((changes.count("closed"), changes.count("same")), (1, len(fewer.loops)))
+        holes.save(self.folder / "out")
+        same = lacuna.compare(self.folder / "out", lacuna.load(self.folder / "out"))["changes"]
+        self.assertEqual([c["change"] for c in same], ["same"] * len(holes.loops))
+
+    def test_a_stream_has_all_points_in_order(self):
+        for i, part in enumerate(np.array_split(BIG, 3)):
+            np.savetxt(self.folder / f"part{i}.xyz", part, fmt="%.17g")
+        blocks = list(lacuna.stream(self.folder / "part*.xyz", sample_points=0))
+        self.assertGreater(len(blocks), 1)
+        self.assertEqual([b["first_id"] for b in blocks], np.cumsum([0] + [len(b["probability"]) for b in blocks])[:-1].tolist())
+        expected = lacuna.find_holes(BIG, points=True)
+        np.testing.assert_array_equal(np.concatenate([b["probability"] for b in blocks]), expected.probability)
+        np.testing.assert_array_equal(np.concatenate([b["loop"] for b in blocks]), expected.loop_of_point)
+        before = threading.active_count()
+        for _ in lacuna.stream(self.folder / "part*.xyz"):
+            break
+        self.assertEqual(threading.active_count(), before)
+
+
+class OtherLibraries(Folder):
+    def need(self, module):
+        try:
+            return __import__(module)
+        except ImportError:
+            self.skipTest(f"{module} is not installed")
+
+    def test_pandas(self):
+        self.need("pandas")
+        frame = lacuna.find_holes(SHEET).to_frame()
+        self.assertEqual(len(frame), 3)
+        self.assertEqual(sorted(frame["kind"]), ["hole", "hole", "outer"])
+        self.assertIn("centroid_x", frame.columns)
+
+    def test_geopandas(self):
+        self.need("geopandas")
+        holes = lacuna.find_holes(SHEET, crs="EPSG:25832", unit="m")
+        self.assertEqual(holes.unit, "m")
+        geo = holes.to_geo()
+        self.assertEqual(geo.crs.to_epsg(), 25832)
+        np.testing.assert_allclose(geo.geometry.area, holes.loops.area, rtol=0.01)
+        self.assertEqual(set(holes.to_geo(polygons=False).geom_type), {"LineString"})
+
+    def test_open3d(self):
+        self.need("open3d")
+        cloud, lines = lacuna.find_holes(SHEET, points=True).to_open3d()
+        self.assertEqual(len(cloud.points), len(SHEET))
+        self.assertEqual(len(lines.lines), len(lines.points))
+
+    def test_matplotlib(self):
+        matplotlib = self.need("matplotlib")
+        matplotlib.use("Agg")
+        holes = lacuna.find_holes(SHEET)
+        ax = holes.plot(axes="xz")
+        self.assertEqual(len(ax.lines), 3)
+        self.assertIn("data:image/png", holes._repr_html_())
+
+    def test_absent_libraries_are_named(self):
+        from lacuna._optional import require
+
+        with self.assertRaisesRegex(ImportError, "to_frame needs no_such_library: pip install no_such_library"):
+            require("no_such_library", "to_frame")
+
+
+class Documentation(unittest.TestCase):
+    def test_public_functions_say_what_they_do(self):
+        for name in lacuna.__all__:
+            self.assertTrue(inspect.getdoc(getattr(lacuna, name)), name)
+        for name, member in inspect.getmembers(lacuna.Holes):
+            if not name.startswith("_"):
+                self.assertTrue(inspect.getdoc(member), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
