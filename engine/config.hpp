@@ -138,6 +138,7 @@ struct OutputConfig {
   bool vtp = false;                      // for VTK and ParaView
   bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
   bool shp = false;                      // Shapefile
+  bool lids = false;                     // triangulated lids of the holes
   bool no_coordinates = false;           // loops of holes.json have ids alone
   bool local_coordinates = false;        // PLY and PCD: floats relative to an offset
   std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none
