@@ -36,11 +36,14 @@ void check_gis_library() {
   check_gis_module(kUser);
 }
 
-void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out) {
+void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                     GisFormat format, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
   const bool is_geojson = format == GisFormat::kGeoJson;
   GisTask task{.detection = detection,
                .format = format,
+               .with_polygons = config.polygons,
+               .unit = scan.length_unit(),
                .crs = scan.common_crs(),
                .name = out.path(),
                .place = {},
