@@ -2,6 +2,7 @@
 #include "io/results/gis_library.hpp"
 
 #include "io/gis_module.hpp"
+#include "io/results/coverage_tif.hpp"
 
 #include <mutex>
 #include <string>
@@ -11,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--gpkg, --geojson and --shp";
+constexpr const char* kUser = "--gpkg, --geojson, --shp and --coverage";
 
 // One warning in a run for all files.
 void warn_not_understood(const FileScan& scan) {
@@ -67,6 +68,14 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, const Out
       warn_of_degrees(out,
                       "GDAL cannot convert its coordinate reference system to longitude and latitude there");
   }
+}
+
+void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+  static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
+  const CoverageGrid grid = cover(detection, scan, config);
+  if (grid.size() == 0) return;  // GDAL makes no raster without cells
+  if (!write({.grid = grid, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
+    warn_not_understood(scan);
 }
 
 }  // namespace lacuna::io

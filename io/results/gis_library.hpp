@@ -19,4 +19,7 @@ void check_gis_library();
 void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out);
 
+// Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.
+void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+
 }  // namespace lacuna::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_marks.hpp"
 
+#include "io/results/coverage_tif.hpp"
 #include "io/results/loop_measures.hpp"
 #include "io/results/loops_gis.hpp"
 
@@ -39,6 +40,10 @@ FileMark geopackage_mark() {
 
 FileMark shapefile_mark() {
   return {"\3"sv, has_fields, ".dbf"};
+}
+
+FileMark coverage_mark() {
+  return {"II", [](std::string_view pages) { return pages.find(kCoverageSoftware) != pages.npos; }};
 }
 
 }  // namespace lacuna::io

@@ -42,10 +42,10 @@ enum class GisCrs : std::uint8_t {
 
 // Writes the loops in order, each a closed line with z and the fields id, kind, unit and the measures, empty
 // where one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
-// polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are longitude
-// and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is, but
-// for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal bytes. Throws `Error`
-// with GDAL's text.
+// polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are
+// longitude and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is,
+// but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal
+// bytes. Throws `Error` with GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:

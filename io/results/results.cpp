@@ -50,7 +50,7 @@ ResultFile shapefile_part(std::string_view name) {
 }
 
 bool needs_gis_library(const Config& config) {
-  return config.output.gpkg || config.output.geojson || config.output.shp;
+  return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
 }
 
 // In the order in which they appear: holes.json comes last, and stands for all the others.
@@ -93,6 +93,8 @@ const std::vector<ResultFile>& all_results() {
       shapefile_part("loops.dbf"),
       shapefile_part("loops.prj"),  // with a crs
       shapefile_part("loops.cpg"),
+      {"coverage.tif", coverage_mark(), write_coverage, [](C c) { return c.output.coverage > 0; },
+       Writer::kLibrary},
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},

@@ -59,7 +59,6 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"points_format", "pcd"},
     {"sample_points", "200"},
     {"coverage", "3"},
-    {"cut_outs", "4"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},
