@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -92,7 +91,7 @@ void place_inner(LidMesh& mesh, const Rows& rows) {
 
 Eigen::Vector3d unit_or_zero(const Eigen::Vector3d& vector) {
   const double length = vector.norm();
-  return length > 0 ? Eigen::Vector3d(vector / length) : Eigen::Vector3d(0, 0, 0);
+  return length > 0 && std::isfinite(length) ? Eigen::Vector3d(vector / length) : Eigen::Vector3d(0, 0, 0);
 }
 
 // At each point of the loop, the side of the surface from which the loop runs anticlockwise.

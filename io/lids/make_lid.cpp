@@ -7,6 +7,9 @@
 #include "io/lids/self_intersections.hpp"
 #include "io/lids/triangulate_polygon.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,25 +20,59 @@ Lid without_lid(std::string reason) {
   return {.mesh = {}, .area = 0, .left_out = std::move(reason)};
 }
 
-// Relative to the first point: georeferenced coordinates keep their digits.
-std::vector<Eigen::Vector3d> relative(const Loop& loop) {
-  std::vector<Eigen::Vector3d> points;
-  for (const LoopPoint& point : loop) points.push_back(point.position - loop[0].position);
-  return points;
+// A loop as it is triangulated. It begins where its shape says, so that ids do not change the lid. Its
+// coordinates are at most 1: squares of lengths neither overflow nor lose digits.
+struct Normalised {
+  std::size_t start = 0;   // the point of the loop that is the first one here: the farthest from the middle
+  Eigen::Vector3d middle;  // of the points
+  double scale = 1;        // a power of 2
+  std::vector<Eigen::Vector3d> points, surface;
+};
+
+Normalised normalised(const Loop& loop) {
+  const std::size_t n = loop.size();
+  Normalised made;
+  made.middle.setZero();
+  for (const LoopPoint& point : loop)
+    made.middle += (point.position - loop[0].position) / static_cast<double>(n);
+  made.middle += loop[0].position;
+  double extent = 0;
+  for (const LoopPoint& point : loop)
+    extent = std::max(extent, (point.position - made.middle).cwiseAbs().maxCoeff());
+  made.scale = std::ldexp(1.0, std::ilogb(std::max(extent, std::numeric_limits<double>::min())) + 1);
+  const auto place = [&](std::size_t i) {
+    return Eigen::Vector3d((loop[i].position - made.middle) / made.scale);
+  };
+  double farthest = -1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double distance = place(i).squaredNorm();
+    if (distance > farthest) {
+      farthest = distance;
+      made.start = i;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = (made.start + i) % n;
+    made.points.push_back(place(at));
+    made.surface.push_back(loop[at].surface.cast<double>());
+  }
+  return made;
 }
 
-std::vector<Eigen::Vector3d> surface_of(const Loop& loop) {
-  std::vector<Eigen::Vector3d> surface;
-  for (const LoopPoint& point : loop) surface.push_back(point.surface.cast<double>());
-  return surface;
-}
-
-// Moved back to the place of the loop, whose points keep all digits.
-Lid placed(LidMesh mesh, const Loop& loop) {
+// Back in the place and the order of the loop, whose points keep all digits.
+Lid placed(LidMesh mesh, const Normalised& normalised, const Loop& loop) {
+  const std::size_t n = loop.size();
   Lid lid{.mesh = std::move(mesh), .area = 0, .left_out = {}};
-  lid.area = area(lid.mesh);
-  for (std::size_t i = 0; i < lid.mesh.vertices.size(); ++i)
-    lid.mesh.vertices[i] = i < loop.size() ? loop[i].position : lid.mesh.vertices[i] + loop[0].position;
+  lid.area = area(lid.mesh) * normalised.scale * normalised.scale;
+  for (std::size_t i = 0; i < lid.mesh.vertices.size(); ++i) {
+    Eigen::Vector3d& vertex = lid.mesh.vertices[i];
+    vertex = i < n ? loop[i].position : Eigen::Vector3d(vertex * normalised.scale + normalised.middle);
+  }
+  for (LidTriangle& triangle : lid.mesh.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      if (corner < n) corner = static_cast<std::uint32_t>((corner + normalised.start) % n);
+    }
+  }
   return lid;
 }
 
@@ -49,23 +86,26 @@ std::string left_out(std::uint64_t points) {
 
 Lid make_lid(const Loop& loop) {
   if (std::string reason = left_out(loop.size()); !reason.empty()) return without_lid(std::move(reason));
-  const std::vector<Eigen::Vector3d> points = relative(loop);
-  LidMesh unfaired = triangulate_polygon(points);
-  if (!(area(unfaired) > 0)) return without_lid("all points in one line");
+  const Normalised shape = normalised(loop);
+  LidMesh unfaired = triangulate_polygon(shape.points);
+  constexpr double kNoArea = 1e-12;
+  if (!(area(unfaired) > kNoArea)) return without_lid("all points in one line");
   relax_edges(unfaired);
   refine(unfaired);
 
   LidMesh lid = unfaired;
-  const Fairing fairing = fair(lid, surface_of(loop));
-  if (!has_intersections(lid)) return placed(std::move(lid), loop);
+  const Fairing fairing = fair(lid, shape.surface);
+  if (!has_intersections(lid)) return placed(std::move(lid), shape, loop);
   if (fairing == Fairing::kThinPlate) {
     lid = unfaired;
     fair_membrane(lid);
-    if (!has_intersections(lid)) return placed(std::move(lid), loop);
+    if (!has_intersections(lid)) return placed(std::move(lid), shape, loop);
   }
-  if (crosses_itself(points) && has_intersections(unfaired))
-    return without_lid("the loop crosses itself and so does its lid");
-  return placed(std::move(unfaired), loop);
+  if (has_intersections(unfaired)) {
+    return without_lid(crosses_itself(shape.points) ? "the loop crosses itself, and its lid does"
+                                                    : "the lid passes through itself");
+  }
+  return placed(std::move(unfaired), shape, loop);
 }
 
 }  // namespace lacuna::io
