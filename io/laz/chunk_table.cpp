@@ -88,7 +88,8 @@ std::vector<std::byte> encode_chunk_table(const Layout& layout, std::span<const 
   const bool variable = layout.chunk_points == kVariableChunks;
   std::uint32_t last_points = 0, last_bytes = 0;
   for (const Chunk& chunk : chunks) {
-    const auto points = static_cast<std::uint32_t>(chunk.points), bytes = static_cast<std::uint32_t>(chunk.bytes);
+    const auto points = static_cast<std::uint32_t>(chunk.points),
+               bytes = static_cast<std::uint32_t>(chunk.bytes);
     if (variable) numbers->encode(encoder, std::exchange(last_points, points), points, kPointsContext);
     numbers->encode(encoder, std::exchange(last_bytes, bytes), bytes, kBytesContext);
   }

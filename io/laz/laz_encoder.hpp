@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compresses points as LAZ files have them: the counterpart of io/laz/laz.hpp, which cites the format. No file
-// access.
+// Compresses points as LAZ files have them: the counterpart of io/laz/laz.hpp, which cites the format. No
+// file access.
 #pragma once
 
 #include "io/laz/laz.hpp"
@@ -18,7 +18,7 @@ namespace lacuna::io::laz {
 // 50,000 points, as LASzip's; fewer where these take more than kMostChunkBytes. None: other formats have
 // waveforms, which LAZ is not written with.
 std::optional<Layout> layout_of(int point_format, std::uint16_t extra_bytes);
-inline constexpr std::size_t kMostChunkBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
 
 // The data of the variable length record "laszip encoded" (user id) 22204: what parse_layout() reads.
 std::vector<std::byte> layout_record(const Layout& layout);

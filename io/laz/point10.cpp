@@ -86,8 +86,7 @@ void Point10::encode(ArithmeticEncoder& encoder, const std::byte* item) {
     intensity_.encode(encoder, intensity, now.intensity, std::min(context, 3u));
     intensity = now.intensity;
   }
-  if (changed & kClassification)
-    encoder.symbol(classification_[last_.classification], now.classification);
+  if (changed & kClassification) encoder.symbol(classification_[last_.classification], now.classification);
   if (changed & kScanAngle) {
     const unsigned direction = now.returns >> 6 & 1;
     encoder.symbol(scan_angle_[direction], static_cast<std::uint8_t>(now.scan_angle - last_.scan_angle));

@@ -61,7 +61,7 @@ void Point14Decoder::decode_returns(point14::Channel& channel, unsigned changed)
       break;
     default:
       r = changed & point14::kGpsTime ? decoder.symbol(channel.return_number[r])
-                             : r + decoder.symbol(channel.return_number_step) + 2;
+                                      : r + decoder.symbol(channel.return_number_step) + 2;
   }
   last.return_number = static_cast<std::uint8_t>(r % 16);
 }

@@ -28,7 +28,10 @@ unsigned Point14Encoder::encode_changes(const point14::Fields& now, unsigned cha
   const bool is_new = !channels_[channel];
   const point14::Fields& last = is_new ? before.last : channels_[channel]->last;
   const unsigned step = (now.return_number + 16u - last.return_number) % 16;
-  const unsigned changed = (step == 0 ? 0u : step == 1 ? 1u : step == 15 ? 2u : point14::kReturnNumber) |
+  const unsigned changed = (step == 0    ? 0u
+                            : step == 1  ? 1u
+                            : step == 15 ? 2u
+                                         : point14::kReturnNumber) |
                            (now.number_of_returns != last.number_of_returns ? point14::kNumberOfReturns : 0) |
                            (now.scan_angle != last.scan_angle ? point14::kScanAngle : 0) |
                            (now.gps_time != last.gps_time ? point14::kGpsTime : 0) |
@@ -70,8 +73,7 @@ void Point14Encoder::encode_position(point14::Channel& channel, const point14::F
 
   StreamingMedian& y_median = channel.y_medians[context];
   const std::int32_t dy = wrapped_difference(now.y, last.y);
-  channel.dy.encode_signed(encoder, y_median.middle(), dy,
-                           k_context(channel.dx.k(), kLargestYContext, only));
+  channel.dy.encode_signed(encoder, y_median.middle(), dy, k_context(channel.dx.k(), kLargestYContext, only));
   y_median.add(dy);
 
   const unsigned k = (channel.dx.k() + channel.dy.k()) / 2;

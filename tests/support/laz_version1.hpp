@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes items of version 1, which LASzip wrote before 2011: POINT10, GPSTIME11, RGB12 and BYTE. For tests of
-// the decoder; written after the specification that io/laz/laz.hpp cites, simple and slow.
+// Encodes items of version 1, which LASzip wrote before 2011: POINT10, GPSTIME11, RGB12 and BYTE. For tests
+// of the decoder; written after the specification that io/laz/laz.hpp cites, simple and slow.
 #pragma once
 
 #include "io/laz/laz.hpp"

@@ -205,40 +205,38 @@ LazBytes records_of_file(const LazBytes& file) {
 // FNV-1a of 64 bits.
 std::uint64_t digest(const LazBytes& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::byte byte : bytes)
-    hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
+  for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
   return hash;
 }
 
 }  // namespace
 
 // Decoder and encoder share models and contexts, so that one mistake in these could hide from tests of both.
-TEST_CASE("chunks have the bytes that an encoder of its own, written after the specification, had",
-          "[laz]") {
+TEST_CASE("chunks have the bytes that an encoder of its own, written after the specification, had", "[laz]") {
   struct Expected {
     Case of;
     std::size_t bytes;
     std::uint64_t plausible, random;  // digests of the chunks
   };
   const Expected all[] = {
-    {{0, 0, 2}, 31145, 0x8bebad9860765ae8, 0xd8795f30dff6d69b},
-    {{1, 0, 2}, 36113, 0xabfbd19168428694, 0x7858ef286e2e5f36},
-    {{2, 0, 2}, 39427, 0xba6edb44215db2dc, 0x01b31a91791af812},
-    {{3, 0, 2}, 44288, 0x0179e4d34de76fb4, 0x9b40c40b44053957},
-    {{1, 2, 2}, 39046, 0xf98d9d8dadec761e, 0x13c8bf41521b0ccf},
-    {{3, 5, 2}, 51204, 0x167ff1bcd35e6f42, 0xdef9a3186be80562},
-    {{0, 0, 1}, 29011, 0xa02fe15e465111af, 0xcb055e98a49562b7},
-    {{1, 1, 1}, 35371, 0x1be95fd4ca178f92, 0x1369b888097a5aa9},
-    {{3, 2, 1}, 43239, 0xe68ada6391d71eae, 0x47b8cccb79516842},
-    {{6, 0, 3}, 45109, 0x44c1526c5c7c63a4, 0x8d9247859a19eb54},
-    {{7, 0, 3}, 55335, 0x95056205aec07f62, 0xfab7f5805e10d623},
-    {{8, 0, 3}, 59025, 0x3b4e38a467709799, 0xdb6b689156cd8dda},
-    {{6, 3, 3}, 51058, 0x3a9afe8b956fac40, 0xdcf894681a38091d},
-    {{7, 1, 3}, 57452, 0x4c2603cacac15ebc, 0xcbe17bdbcac9a1fe},
-    {{8, 2, 3}, 62405, 0x27a767f20d6acef3, 0x3b287cc4ca5aa7a2},
-    {{6, 2, 4}, 49918, 0xe6e06b7eebb4f75d, 0xcf322c0bc9e49a86},
-    {{7, 2, 4}, 61159, 0xc342a52e34059dab, 0x3ee2563f87bd782d},
-    {{8, 1, 4}, 63006, 0xe7bf41eb767d5903, 0xb899ce2cd82039d0},
+      {{0, 0, 2}, 31145, 0x8bebad9860765ae8, 0xd8795f30dff6d69b},
+      {{1, 0, 2}, 36113, 0xabfbd19168428694, 0x7858ef286e2e5f36},
+      {{2, 0, 2}, 39427, 0xba6edb44215db2dc, 0x01b31a91791af812},
+      {{3, 0, 2}, 44288, 0x0179e4d34de76fb4, 0x9b40c40b44053957},
+      {{1, 2, 2}, 39046, 0xf98d9d8dadec761e, 0x13c8bf41521b0ccf},
+      {{3, 5, 2}, 51204, 0x167ff1bcd35e6f42, 0xdef9a3186be80562},
+      {{0, 0, 1}, 29011, 0xa02fe15e465111af, 0xcb055e98a49562b7},
+      {{1, 1, 1}, 35371, 0x1be95fd4ca178f92, 0x1369b888097a5aa9},
+      {{3, 2, 1}, 43239, 0xe68ada6391d71eae, 0x47b8cccb79516842},
+      {{6, 0, 3}, 45109, 0x44c1526c5c7c63a4, 0x8d9247859a19eb54},
+      {{7, 0, 3}, 55335, 0x95056205aec07f62, 0xfab7f5805e10d623},
+      {{8, 0, 3}, 59025, 0x3b4e38a467709799, 0xdb6b689156cd8dda},
+      {{6, 3, 3}, 51058, 0x3a9afe8b956fac40, 0xdcf894681a38091d},
+      {{7, 1, 3}, 57452, 0x4c2603cacac15ebc, 0xcbe17bdbcac9a1fe},
+      {{8, 2, 3}, 62405, 0x27a767f20d6acef3, 0x3b287cc4ca5aa7a2},
+      {{6, 2, 4}, 49918, 0xe6e06b7eebb4f75d, 0xcf322c0bc9e49a86},
+      {{7, 2, 4}, 61159, 0xc342a52e34059dab, 0x3ee2563f87bd782d},
+      {{8, 1, 4}, 63006, 0xe7bf41eb767d5903, 0xb899ce2cd82039d0},
   };
   REQUIRE(std::size(all) == std::size(kCases));
   for (const Expected& expected : all) {
