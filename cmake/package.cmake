@@ -1,28 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cpack -G DEB`: one package for Debian 12 with the program, its documentation and the library. tools/package.sh makes it.
+# `cpack -G DEB`: packages for Debian 12. tools/package.sh makes them.
 set(CPACK_PACKAGE_NAME lacuna)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Lacuna maintainers <maintainers@lacuna.invalid>" CACHE STRING "Name <address> of the package's maintainer")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "find holes in scanned surfaces, also in scans larger than memory")
-set(CPACK_PACKAGE_DESCRIPTION
-    "Lacuna reads a registered laser scan, finds the loops around its holes and
-its outer boundaries, and writes them with their measures. The scan may be
-larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, OFF, STL and
-text.
-.
-The package holds the program, its documentation, and a static library for
-C++20 with its CMake package.")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)  # lacuna_VERSION_ARCHITECTURE.deb
+set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What the static library is linked with.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libeigen3-dev, libtbb-dev, libopenvdb-dev, libspdlog-dev, libtomlplusplus-dev, libhwy-dev")
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian_files.cmake)
 set(CPACK_LACUNA_COPYRIGHT ${PROJECT_SOURCE_DIR}/cmake/debian_copyright)
+set(CPACK_COMPONENTS_ALL "")
+
+# A package with the files of a component of cmake/install.cmake.
+macro(lacuna_debian_package component name summary description)
+  string(TOUPPER ${component} upper)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_FILE_NAME DEB-DEFAULT)  # NAME_VERSION_ARCHITECTURE.deb
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary}\n${description}")
+endmacro()
+
+lacuna_debian_package(program lacuna "find holes in scanned surfaces, also in scans larger than memory"
+"Lacuna reads a registered laser scan, finds the loops around its holes and
+its outer boundaries, and writes them with their measures. The scan may be
+larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, OFF, STL and
+text.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-gis)
+lacuna_debian_package(gis lacuna-gis "files for GIS from lacuna, by GDAL"
+"With this package, lacuna writes GeoPackage, GeoJSON and Shapefile, and knows
+coordinate reference systems by their codes.")
+lacuna_debian_package(library liblacuna-dev "find holes in scanned surfaces: library for C++20"
+"A static library with its headers, its CMake package and its pkg-config file.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+    "libeigen3-dev, libtbb-dev, libopenvdb-dev, libspdlog-dev, libtomlplusplus-dev, libhwy-dev, nlohmann-json3-dev, libpugixml-dev, libpng-dev")
+if(LACUNA_PYTHON)
+  lacuna_debian_package(python python3-lacuna "find holes in scanned surfaces: Python package"
+"Arrays of numpy or scan files in, loops around holes out.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS lacuna-gis)
+endif()
 include(CPack)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The public headers: those that engine/lacuna.hpp includes, directly or not.
+# The public headers: those that engine/lacuna.hpp and io/lacuna_io.hpp include, directly or not.
 
 # Copies `header` and every header of the project that it includes to `to`/lacuna. There, #include "engine/x.hpp" reads
 # #include <lacuna/engine/x.hpp>, so that an "engine/x.hpp" of the user's own does not take its place. A new or changed
@@ -21,7 +21,7 @@ function(lacuna_copy_public_headers header to)
     string(REGEX REPLACE "#include \"([^\"]+)\"" "#include <lacuna/\\1>" text "${text}")
     set(copy ${at})
     if(at STREQUAL header)
-      set(copy lacuna.hpp)
+      cmake_path(GET header FILENAME copy)
     endif()
     file(CONFIGURE OUTPUT ${to}/lacuna/${copy} CONTENT "${text}" @ONLY)
   endwhile()

@@ -138,6 +138,8 @@ struct OutputConfig {
   bool vtp = false;                      // for VTK and ParaView
   bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
   bool shp = false;                      // Shapefile
+  bool polygons = false;                 // files for GIS have the loops as polygons, too
+  double coverage = 0;                   // write coverage.tif with cells of this edge; 0: off
   bool no_coordinates = false;           // loops of holes.json have ids alone
   bool local_coordinates = false;        // PLY and PCD: floats relative to an offset
   std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none

@@ -29,6 +29,8 @@ constexpr Need kTangential{"--method tangential",
                            [](const Config& c) { return c.loops.method == LoopMethod::kTangential; }};
 constexpr Need kPaper{"--method paper", [](const Config& c) { return c.loops.method == LoopMethod::kPaper; }};
 constexpr Need kPoints{"--points", [](const Config& c) { return c.output.points; }};
+constexpr Need kGis{"--gpkg, --geojson or --shp",
+                    [](const Config& c) { return c.output.gpkg || c.output.geojson || c.output.shp; }};
 constexpr Need kPointsNormals{"--points --normals",
                               [](const Config& c) { return c.output.points && c.output.normals; }};
 
@@ -180,6 +182,13 @@ std::vector<Parameter> parameters(Config& config) {
        "Write loops.geojson too: the loops as GeoJSON, for GIS and the web.", kNothing},
       {"output", "shp", &output.shp, 0, 1, "true or false",
        "Write loops.shp too, with its .shx, .dbf and .prj: the loops as a Shapefile.", kNothing},
+      {"output", "polygons", &output.polygons, 0, 1, "true or false",
+       "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
+       "others.",
+       kGis},
+      {"output", "coverage", &output.coverage, 0, 1e100, "a length of 0 (off) or more",
+       "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS.",
+       kNothing},
       {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone.",
        kNothing},

@@ -30,7 +30,7 @@ io::Scalar scalar_of(const py::dtype& type, const std::string& name) {
   for (const auto& [numpy_name, scalar] : kTypes) {
     if (type.is(py::dtype(numpy_name)) || type.equal(py::dtype(numpy_name))) return scalar;
   }
-  throw Error(name + ": has values of type " + py::str(type).cast<std::string>() +
+  throw Error(name + ": has values of type " + type.attr("name").cast<std::string>() +
               "; allowed: int8, uint8, int16, uint16, int32, uint32, float32, float64");
 }
 

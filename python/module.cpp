@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lacuna._core: what python/lacuna calls. Everything else is Python.
 #include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
 #include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "python/arrays.hpp"

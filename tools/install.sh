@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
 packages=(
-  g++ cmake ninja-build dpkg-dev
+  g++ cmake ninja-build dpkg-dev pkg-config
   libopenvdb-dev libtbb-dev libeigen3-dev libnanoflann-dev libspdlog-dev libtomlplusplus-dev
   libcli11-dev nlohmann-json3-dev libhwy-dev libxxhash-dev libpugixml-dev libgdal-dev libpng-dev catch2
   libjs-three  # a report's 3D view: put into the program by the build

@@ -4,6 +4,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
+#include <gdal_frmts.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
@@ -15,6 +16,7 @@ void register_gdal_drivers() {
     RegisterOGRGeoPackage();
     RegisterOGRGeoJSON();
     RegisterOGRShape();
+    GDALRegister_GTiff();
     OSRSetPROJEnableNetwork(FALSE);
     return true;
   }();

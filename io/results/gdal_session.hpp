@@ -17,7 +17,8 @@ namespace lacuna::io {
 void register_gdal_drivers();
 
 // Reads a coordinate reference system, with x to the east, from a code or well-known text. It uses the
-// database of PROJ alone, no network and no file that the text names. False where GDAL does not understand it.
+// database of PROJ alone, no network and no file that the text names. False where GDAL does not understand
+// it.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
 
 // A setting of GDAL, for this thread alone.

@@ -2,6 +2,7 @@
 #include "io/results/gis_library.hpp"
 
 #include "io/gis_module.hpp"
+#include "io/results/coverage_tif.hpp"
 
 #include <mutex>
 #include <string>
@@ -11,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--gpkg, --geojson and --shp";
+constexpr const char* kUser = "--gpkg, --geojson, --shp and --coverage";
 
 // One warning in a run for all files.
 void warn_not_understood(const FileScan& scan) {
@@ -36,11 +37,14 @@ void check_gis_library() {
   check_gis_module(kUser);
 }
 
-void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out) {
+void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                     GisFormat format, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
   const bool is_geojson = format == GisFormat::kGeoJson;
   GisTask task{.detection = detection,
                .format = format,
+               .with_polygons = config.polygons,
+               .unit = scan.length_unit(),
                .crs = scan.common_crs(),
                .name = out.path(),
                .place = {},
@@ -64,6 +68,14 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat
       warn_of_degrees(out,
                       "GDAL cannot convert its coordinate reference system to longitude and latitude there");
   }
+}
+
+void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+  static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
+  const CoverageGrid grid = cover(detection, scan, config);
+  if (grid.size() == 0) return;  // GDAL makes no raster without cells
+  if (!write({.grid = grid, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
+    warn_not_understood(scan);
 }
 
 }  // namespace lacuna::io

@@ -2,6 +2,7 @@
 // The results that lacuna_gis.so writes.
 #pragma once
 
+#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/loops_gis.hpp"
@@ -15,6 +16,10 @@ void check_gis_library();
 // Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate
 // reference system and the file has none. It has one, too, where GIS will read metres as degrees. Throws
 // `Error`.
-void write_loops_gis(const Detection& detection, const FileScan& scan, GisFormat format, OutputFile& out);
+void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                     GisFormat format, OutputFile& out);
+
+// Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.
+void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_marks.hpp"
 
+#include "io/results/coverage_tif.hpp"
 #include "io/results/loop_measures.hpp"
 #include "io/results/loops_gis.hpp"
 
@@ -24,7 +25,7 @@ bool has_fields(std::string_view head) {
     at += kBytes;
     return is_it;
   };
-  if (!is_next("id") || !is_next("kind")) return false;
+  if (!is_next("id") || !is_next("kind") || !is_next("unit")) return false;
   for (const LoopMeasure& measure : kLoopMeasures) {
     if (!is_next(measure.short_name)) return false;
   }
@@ -39,6 +40,10 @@ FileMark geopackage_mark() {
 
 FileMark shapefile_mark() {
   return {"\3"sv, has_fields, ".dbf"};
+}
+
+FileMark coverage_mark() {
+  return {"II", [](std::string_view pages) { return pages.find(kCoverageSoftware) != pages.npos; }};
 }
 
 }  // namespace lacuna::io

@@ -17,4 +17,7 @@ FileMark geopackage_mark();
 // The .dbf has the fields of the loops' measures. The mark of the .shp, .shx, .prj and .cpg, too.
 FileMark shapefile_mark();
 
+// A TIFF that names the software of coverage.tif.
+FileMark coverage_mark();
+
 }  // namespace lacuna::io

@@ -6,8 +6,11 @@
 #include "io/results/loop_measures.hpp"
 #include "io/results/shapefile_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <cpl_string.h>
 #include <gdal.h>
@@ -46,6 +49,11 @@ Format format_of(GisFormat format) {
   return {"ESRI Shapefile", {"SHPT=ARCZ", "ENCODING=UTF-8", std::string("DBF_DATE_LAST_UPDATE=") + kDay}};
 }
 
+struct Layer {
+  OGRLayer* layer;  // the dataset's
+  bool is_of_polygons;
+};
+
 // Writes one file.
 class LoopsWriter {
  public:
@@ -56,7 +64,10 @@ class LoopsWriter {
     if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
       result = GisCrs::kNotConverted;
     create();
-    for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) put(id, task_.detection.read_loop(id));
+    for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
+      const ReportedLoop loop = task_.detection.read_loop(id);
+      for (const Layer& layer : layers_) put(id, loop, layer);
+    }
     if (has_transaction_) require(dataset_->CommitTransaction() == OGRERR_NONE);
     dataset_.reset();
     require(true);
@@ -121,17 +132,29 @@ class LoopsWriter {
     require(dataset_ != nullptr);
     // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
     if (!has_crs_ && task_.format == GisFormat::kGeoPackage) crs_.SetLocalCS("Undefined Cartesian SRS");
-    layer_ = dataset_->CreateLayer(kGisLayer, crs_.IsEmpty() ? nullptr : &crs_, wkbLineString25D,
-                                   list_of(format.options).List());
-    require(layer_ != nullptr);
-    add_field("id", OFTInteger64);
-    add_field("kind", OFTString);
-    for (const LoopMeasure& measure : kLoopMeasures)
-      add_field(name_of_field(measure), measure.is_count ? OFTInteger64 : OFTReal);
+    const bool has_two = task_.with_polygons && task_.format == GisFormat::kGeoPackage;
+    create_layer(kGisLayer, task_.with_polygons && !has_two);
+    if (has_two) create_layer(kGisAreas, true);
     if (dataset_->TestCapability(ODsCTransactions)) {
       has_transaction_ = true;
       require(dataset_->StartTransaction() == OGRERR_NONE);
     }
+  }
+
+  void create_layer(const char* name, bool is_of_polygons) {
+    std::vector<std::string> options = format_of(task_.format).options;
+    if (is_of_polygons && task_.format == GisFormat::kShapefile)
+      std::replace(options.begin(), options.end(), std::string("SHPT=ARCZ"), std::string("SHPT=POLYGONZ"));
+    OGRLayer* const layer =
+        dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_,
+                              is_of_polygons ? wkbPolygon25D : wkbLineString25D, list_of(options).List());
+    require(layer != nullptr);
+    layers_.push_back({layer, is_of_polygons});
+    add_field("id", OFTInteger64);
+    add_field("kind", OFTString);
+    add_field("unit", OFTString);
+    for (const LoopMeasure& measure : kLoopMeasures)
+      add_field(name_of_field(measure), measure.is_count ? OFTInteger64 : OFTReal);
   }
 
   static CPLStringList list_of(const std::vector<std::string>& options) {
@@ -146,17 +169,18 @@ class LoopsWriter {
 
   void add_field(const std::string& name, OGRFieldType type) {
     OGRFieldDefn field(name.c_str(), type);
-    if (type == OFTString) field.SetWidth(5);  // "outer"
-    require(layer_->CreateField(&field) == OGRERR_NONE);
+    if (type == OFTString) field.SetWidth(16);  // longer than any kind or unit
+    require(layers_.back().layer->CreateField(&field) == OGRERR_NONE);
   }
 
-  void put(std::size_t id, const ReportedLoop& loop) {
-    OGRFeature feature(layer_->GetLayerDefn());
+  void put(std::size_t id, const ReportedLoop& loop, const Layer& layer) {
+    OGRFeature feature(layer.layer->GetLayerDefn());
     // A Shapefile's field of 24 characters would keep only the first ones of longer numbers.
     const double most = task_.format == GisFormat::kShapefile ? 1e20 : HUGE_VAL;
     int field = 0;
     feature.SetField(field++, static_cast<GIntBig>(id));
     feature.SetField(field++, lacuna::name_of(loop.measures.kind));
+    feature.SetField(field++, task_.unit.c_str());
     for (const LoopMeasure& measure : kLoopMeasures) {
       const double value = measure.of(loop.measures);
       if (!std::isfinite(value) || std::abs(value) >= most) {
@@ -169,8 +193,18 @@ class LoopsWriter {
     }
     auto line = line_of(loop);
     require(line != nullptr);
-    feature.SetGeometryDirectly(line.release());
-    require(layer_->CreateFeature(&feature) == OGRERR_NONE);
+    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(*line).release() : line.release());
+    require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
+  }
+
+  // RFC 7946 wants the outline counter-clockwise, a Shapefile clockwise, for which GDAL cares.
+  static std::unique_ptr<OGRGeometry> polygon_of(const OGRLineString& line) {
+    auto outline = std::make_unique<OGRLinearRing>();
+    outline->addSubLineString(&line);
+    if (outline->isClockwise()) outline->reverseWindingOrder();
+    auto polygon = std::make_unique<OGRPolygon>();
+    polygon->addRingDirectly(outline.release());
+    return polygon;
   }
 
   // A closed line; null where a point of it cannot be converted.
@@ -194,7 +228,7 @@ class LoopsWriter {
   std::unique_ptr<OGRCoordinateTransformation> conversion_;  // of a GeoJSON
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
-  OGRLayer* layer_ = nullptr;  // the dataset's
+  std::vector<Layer> layers_;
 };
 
 }  // namespace

@@ -18,11 +18,14 @@ enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson, kShapefile };
 
 // The layer of each file. An earlier file is recognised by it.
 inline constexpr const char* kGisLayer = "lacuna_loops";
+inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a GeoPackage, with polygons
 inline constexpr const char* kGisDescription = "loops of lacuna detect";
 
 struct GisTask {
   const Detection& detection;
   GisFormat format;
+  bool with_polygons;
+  std::string unit;                                 // as FileScan::length_unit
   std::string crs;                                  // as FileScan::common_crs
   std::filesystem::path name;                       // what errors call it
   std::filesystem::path place;                      // of a GeoPackage or Shapefile, where it is made
@@ -37,11 +40,12 @@ enum class GisCrs : std::uint8_t {
   kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
 };
 
-// Writes the loops in order, each a closed line with z and the fields id, kind and the measures, empty where
-// one is not finite. The coordinates are those of the scan, with all digits. Those of a GeoJSON are longitude
-// and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is, but
-// for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal bytes. Throws `Error`
-// with GDAL's text.
+// Writes the loops in order, each a closed line with z and the fields id, kind, unit and the measures, empty
+// where one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
+// polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are
+// longitude and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is,
+// but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal
+// bytes. Throws `Error` with GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:

@@ -50,7 +50,7 @@ ResultFile shapefile_part(std::string_view name) {
 }
 
 bool needs_gis_library(const Config& config) {
-  return config.output.gpkg || config.output.geojson || config.output.shp;
+  return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
 }
 
 // In the order in which they appear: holes.json comes last, and stands for all the others.
@@ -81,18 +81,20 @@ const std::vector<ResultFile>& all_results() {
       {"loops.vtp", kVtpMark, [](D d, S, C, OutputFile& out) { write_loops_vtp(d, out); },
        [](C c) { return c.output.vtp; }},
       {"loops.gpkg", geopackage_mark(),
-       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kGeoPackage, out); },
+       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoPackage, out); },
        [](C c) { return c.output.gpkg; }, Writer::kLibrary},
       {"loops.geojson", kGeoJsonMark,
-       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kGeoJson, out); },
+       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
        [](C c) { return c.output.geojson; }},
       {"loops.shp", shapefile_mark(),
-       [](D d, S s, C, OutputFile& out) { write_loops_gis(d, s, GisFormat::kShapefile, out); },
+       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kShapefile, out); },
        [](C c) { return c.output.shp; }, Writer::kLibrary},
       shapefile_part("loops.shx"),
       shapefile_part("loops.dbf"),
       shapefile_part("loops.prj"),  // with a crs
       shapefile_part("loops.cpg"),
+      {"coverage.tif", coverage_mark(), write_coverage, [](C c) { return c.output.coverage > 0; },
+       Writer::kLibrary},
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},

@@ -89,7 +89,7 @@ import json
 import math
 from pathlib import Path
 
-MEASURES = {name: name for name in ("id", "kind", "points", "confidence", "last_scale", "perimeter", "area", "diameter",
+MEASURES = {name: name for name in ("id", "kind", "unit", "points", "confidence", "last_scale", "perimeter", "area", "diameter",
                                     "planarity")}
 
 
@@ -103,7 +103,8 @@ def distance(line, coordinates):
 
 CONVERTED = ("utm", "heights", "own", "stated")
 for run in (*CONVERTED, "again", "nonsense", "local"):
-    loops = json.loads(Path(run, "holes.json").read_text(encoding="utf-8"))["loops"]
+    result = json.loads(Path(run, "holes.json").read_text(encoding="utf-8"))
+    loops = [{**loop, "unit": result["unit"]} for loop in result["loops"]]
     assert len(loops) == 5 and loops[0]["coordinates"][0][1] > 5e6
     assert '"crs"' not in Path(run, "loops.geojson").read_text(encoding="utf-8")
     if run in CONVERTED:
@@ -151,6 +152,70 @@ END
 for run in again nonsense; do
   [[ ! -e $run/loops.prj ]] || { echo "$run: a .prj without a coordinate reference system"; exit 1; }
 done
+
+# Polygons: a second layer of the GeoPackage, in place of lines in the others.
+"$program" detect utm.las --out areas "${formats[@]}" --polygons --quiet
+ogr2ogr -f GeoJSON areas.lines.json areas/loops.gpkg lacuna_loops -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON areas.gpkg.json areas/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON areas.shp.json areas/loops.shp -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON areas.geojson.json areas/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
+"$program" detect none.xyz --out areas "${formats[@]}" --quiet 2>/dev/null  # replaces own files of polygons, too
+# A raster: points, spacing and holes.
+"$program" detect utm.las --out raster --coverage 0.0625 --quiet
+"$program" detect utm.las --out raster2 --coverage 0.0625 --quiet --threads 3 --tile-points 900
+cmp raster/coverage.tif raster2/coverage.tif
+"$program" detect utm.las --out raster2 --coverage 0.0625 --quiet  # replaces its own file
+gdalinfo -json -stats raster/coverage.tif >raster.json
+gdal_translate -q -of XYZ -b 1 raster/coverage.tif points.xyz
+gdal_translate -q -of XYZ -b 2 raster/coverage.tif spacing.xyz
+gdal_translate -q -of XYZ -b 3 raster/coverage.tif holes.xyz
+if "$program" detect utm.las --out fine --coverage 1e-6 --quiet 2>fine.txt; then exit 1; fi
+grep -q "coverage: cells of 1e-06 make .* allowed: .* or more" fine.txt
+[[ ! -e fine ]]
+python3 - <<'END'
+import json
+import math
+from pathlib import Path
+
+result = json.loads(Path("utm/holes.json").read_text(encoding="utf-8"))
+loops = result["loops"]
+
+
+def area(line):  # seen from above; positive where it is counter-clockwise
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(line, line[1:])) / 2
+
+
+def local(line):
+    return [[x - 5e5, y - 54e5] for x, y, *_ in line]
+
+
+assert json.loads(Path("areas.lines.json").read_text())["features"][0]["geometry"]["type"] == "LineString"
+flat = [abs(area(local(loop["coordinates"] + loop["coordinates"][:1]))) for loop in loops]
+for format in ("gpkg", "shp", "geojson"):
+    features = json.loads(Path(f"areas.{format}.json").read_text(encoding="utf-8"))["features"]
+    for feature, loop, expected in zip(features, loops, flat, strict=True):
+        assert feature["geometry"]["type"] == "Polygon" and feature["properties"]["unit"] == "m", feature
+        (ring,) = feature["geometry"]["coordinates"]
+        assert math.isclose(abs(area(local(ring))), expected, rel_tol=1e-6, abs_tol=1e-9), format
+
+info = json.loads(Path("raster.json").read_text(encoding="utf-8"))
+assert [band["description"] for band in info["bands"]] == ["points", "spacing", "holes"]
+assert "UTM zone 32N" in info["coordinateSystem"]["wkt"]
+bands = {name: [[float(v) for v in line.split()] for line in Path(f"{name}.xyz").read_text().splitlines()]
+         for name in ("points", "spacing", "holes")}
+assert sum(v for _, _, v in bands["points"]) == result["counts"]["points"]
+for (_, _, count), (_, _, spacing) in zip(bands["points"], bands["spacing"], strict=True):
+    assert math.isnan(spacing) if count == 0 else math.isclose(spacing, 0.0625 / math.sqrt(count), rel_tol=1e-6)
+covered = 0.0625 ** 2 * sum(v for _, _, v in bands["holes"])
+expected = sum(a for a, loop in zip(flat, loops) if loop["kind"] == "hole")
+assert math.isclose(covered, expected, rel_tol=0.02), (covered, expected)
+for loop in loops:  # the place is right, too: the middle of each hole is void
+    if loop["kind"] != "hole":
+        continue
+    x, y, _ = loop["centroid"]
+    near = min(bands["holes"], key=lambda cell: math.hypot(cell[0] - x, cell[1] - y))
+    assert near[2] > 0.9, (loop["centroid"], near)
+END
 
 # Files of the same names that Lacuna did not write.
 mkdir others

@@ -58,6 +58,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"unit", "m"},
     {"points_format", "pcd"},
     {"sample_points", "200"},
+    {"coverage", "3"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/results/coverage_grid.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "io/row_filter.hpp"
+#include "io/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::uint64_t kBytesPerCell = 8;
+
+CoverageGrid empty_grid(const Detection& detection, const Config& config) {
+  CoverageGrid grid{.edge = config.output.coverage};
+  const Eigen::AlignedBox3d& box = detection.summary.strays.rest;
+  if (box.isEmpty()) return grid;
+  const Eigen::Array2d low = (box.min().head<2>().array() / grid.edge).floor();
+  const Eigen::Array2d high = (box.max().head<2>().array() / grid.edge).floor() + 1;
+  const Eigen::Array2d size = high - low;
+  const double most = static_cast<double>(Memory::share(config.run.memory_limit).limit / 4 / kBytesPerCell);
+  if (!(size.prod() <= most)) {
+    std::ostringstream message;
+    message << "coverage: cells of " << grid.edge << " make " << size.x() << " x " << size.y()
+            << " of them, more than " << most
+            << " within the memory limit; allowed: " << grid.edge * std::sqrt(size.prod() / most) * 1.01
+            << " or more";
+    throw Error(message.str());
+  }
+  grid.corner = {low.x() * grid.edge, high.y() * grid.edge};
+  grid.columns = static_cast<std::size_t>(size.x());
+  grid.rows = static_cast<std::size_t>(size.y());
+  grid.points.resize(grid.size());
+  grid.holes.resize(grid.size());
+  return grid;
+}
+
+// Points beyond the grid, as strays are, count nowhere.
+void count_points(const FileScan& scan, const InputConfig& config, CoverageGrid& grid) {
+  RowBatch rows;
+  std::vector<Eigen::Vector3d> positions;
+  FilteredOut filtered;
+  BeforeFilters before;
+  for (std::size_t file = 0; file < scan.files().size(); ++file) {
+    const auto reader = scan.open(file);
+    RowFilter filter(config, scan.files()[file], *reader);
+    while (reader->next(rows, scan.batch_rows(file))) {
+      positions.clear();
+      load_vectors(rows, reader->layout(), kPositionNames, positions);
+      filter.apply(rows, positions, filtered, before);
+      for (const Eigen::Vector3d& p : positions) {
+        if (!p.allFinite()) continue;
+        const double column = std::floor(p.x() / grid.edge) - std::round(grid.corner.x() / grid.edge);
+        const double row = std::round(grid.corner.y() / grid.edge) - 1 - std::floor(p.y() / grid.edge);
+        if (column < 0 || row < 0 || column >= static_cast<double>(grid.columns) ||
+            row >= static_cast<double>(grid.rows))
+          continue;
+        ++grid.points[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)];
+      }
+    }
+  }
+}
+
+// Adds `share` of the cells of a row where [from, to], in cells from the west, covers them.
+void add_interval(double from, double to, float share, float* row, std::size_t columns) {
+  from = std::max(from, 0.0);
+  to = std::min(to, static_cast<double>(columns));
+  for (double left = std::floor(from); left < to; ++left) {
+    const double overlap = std::min(to, left + 1) - std::max(from, left);
+    row[static_cast<std::size_t>(left)] += share * static_cast<float>(overlap);
+  }
+}
+
+}  // namespace
+
+void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid) {
+  constexpr int kStrips = 8;
+  double north = -HUGE_VAL, south = HUGE_VAL;  // in cells below the corner
+  std::vector<Eigen::Vector2d> corners;
+  for (const Eigen::Vector2d& p : polygon) {
+    corners.emplace_back((p.x() - grid.corner.x()) / grid.edge, (grid.corner.y() - p.y()) / grid.edge);
+    south = std::min(south, corners.back().y());
+    north = std::max(north, corners.back().y());
+  }
+  const double first = std::max(std::floor(south), 0.0);
+  const double last = std::min(std::floor(north), static_cast<double>(grid.rows) - 1);
+  std::vector<double> crossings;
+  for (double row = first; row <= last; ++row) {
+    for (int strip = 0; strip < kStrips; ++strip) {
+      const double y = row + (strip + 0.5) / kStrips;
+      crossings.clear();
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        if ((a.y() <= y) != (b.y() <= y))
+          crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+      std::sort(crossings.begin(), crossings.end());
+      for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+        add_interval(crossings[i], crossings[i + 1], 1.0F / kStrips,
+                     grid.holes.data() + static_cast<std::size_t>(row) * grid.columns, grid.columns);
+    }
+  }
+}
+
+CoverageGrid cover(const Detection& detection, const FileScan& scan, const Config& config) {
+  CoverageGrid grid = empty_grid(detection, config);
+  if (grid.size() == 0) return grid;
+  count_points(scan, config.input, grid);
+  std::vector<Eigen::Vector2d> polygon;
+  for (std::size_t i = 0; i < detection.loops.size(); ++i) {
+    if (detection.loops[i].kind != LoopKind::kHole) continue;
+    polygon.clear();
+    detection.for_each_loop_point(i, [&](const LoopPoint& p) { polygon.push_back(p.position.head<2>()); });
+    add_polygon(polygon, grid);
+  }
+  for (float& share : grid.holes) share = std::min(share, 1.0F);
+  return grid;
+}
+
+}  // namespace lacuna::io

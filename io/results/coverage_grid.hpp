@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of a scan is covered, in square cells seen from above.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/model/detection.hpp"
+#include "io/file_scan.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+// Cells by row from north to south, each from west to east.
+struct CoverageGrid {
+  Eigen::Vector2d corner{0, 0};  // of the scan's bounds without strays: west, north; whole cells from 0 0
+  double edge = 0;               // of a cell, in units of the scan
+  std::size_t columns = 0, rows = 0;
+  std::vector<float> points;  // that take part, copies too
+  std::vector<float> holes;   // share of the cell within holes seen from above, [0, 1]
+
+  std::size_t size() const { return columns * rows; }
+};
+
+// Reads every file once more. Holes on walls cover nothing from above. Where holes overlap, their sum counts,
+// up to 1. Throws `Error` where there would be more cells than the memory limit has space for. Memory: 8
+// bytes a cell. Cost: linear in points, and in the cells that holes cross.
+CoverageGrid cover(const Detection& detection, const FileScan& scan, const Config& config);
+
+// Adds the share of each cell within a closed polygon. Rows are cut into eight strips, and each strip's share
+// is exact along its middle.
+void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid);
+
+}  // namespace lacuna::io

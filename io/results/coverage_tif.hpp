@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// coverage.tif: a raster for GIS, through GDAL, in lacuna_gis.so (io/results/loops_gis.hpp says why).
+#pragma once
+
+#include "io/results/coverage_grid.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lacuna::io {
+
+struct CoverageTask {
+  const CoverageGrid& grid;
+  std::string crs;              // as FileScan::common_crs
+  std::filesystem::path name;   // what errors call it
+  std::filesystem::path place;  // where it is made
+};
+
+// Writes a GeoTIFF with three bands of 32-bit floats: points in each cell; their spacing, the root of the
+// cell's area over its points, NaN where there is none; and the share of the cell within holes. False where
+// GDAL does not understand the coordinate reference system, and the file has none. Throws `Error` with GDAL's
+// text.
+using WriteCoverage = bool(const CoverageTask& task);
+
+inline constexpr const char* kWriteCoverage = "lacuna_write_coverage";
+extern "C" WriteCoverage lacuna_write_coverage;
+
+inline constexpr std::string_view kCoverageSoftware = "Lacuna coverage";
+
+}  // namespace lacuna::io
