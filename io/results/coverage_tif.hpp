@@ -17,10 +17,10 @@ struct CoverageTask {
   std::filesystem::path place;  // where it is made
 };
 
-// Writes a GeoTIFF with three bands of 32-bit floats: points in each cell; their spacing, the root of the
-// cell's area over its points, NaN where there is none; and the share of the cell within holes. False where
-// GDAL does not understand the coordinate reference system, and the file has none. Throws `Error` with GDAL's
-// text.
+// Writes a GeoTIFF with three bands of 32-bit floats for each cell: its points, their spacing, and the share
+// of the cell within holes. The spacing is the root of the cell's area over its points, NaN without any.
+// Returns false where GDAL does not understand the coordinate reference system, and the file has none. Throws
+// `Error` with GDAL's text.
 using WriteCoverage = bool(const CoverageTask& task);
 
 inline constexpr const char* kWriteCoverage = "lacuna_write_coverage";

@@ -40,8 +40,8 @@ enum class GisCrs : std::uint8_t {
   kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
 };
 
-// Writes the loops in order, each a closed line with z and the fields id, kind, unit and the measures, empty
-// where one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
+// Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty where
+// one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
 // polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are
 // longitude and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is,
 // but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal

@@ -94,7 +94,7 @@ MEASURES = {name: name for name in ("id", "kind", "unit", "points", "confidence"
 
 
 def is_near(a, b):
-    return a == b if isinstance(b, str) else math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-14)
+    return (a or "") == b if isinstance(b, str) else math  # a Shapefile has no empty text.isclose(a, b, rel_tol=1e-12, abs_tol=1e-14)
 
 
 def distance(line, coordinates):
@@ -161,10 +161,10 @@ ogr2ogr -f GeoJSON areas.shp.json areas/loops.shp -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON areas.geojson.json areas/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
 "$program" detect none.xyz --out areas "${formats[@]}" --quiet 2>/dev/null  # replaces own files of polygons, too
 # A raster: points, spacing and holes.
-"$program" detect utm.las --out raster --coverage 0.0625 --quiet
-"$program" detect utm.las --out raster2 --coverage 0.0625 --quiet --threads 3 --tile-points 900
+"$program" detect utm.las --out raster --coverage 0.5 --quiet
+"$program" detect utm.las --out raster2 --coverage 0.5 --quiet --threads 3 --tile-points 900
 cmp raster/coverage.tif raster2/coverage.tif
-"$program" detect utm.las --out raster2 --coverage 0.0625 --quiet  # replaces its own file
+"$program" detect utm.las --out raster2 --coverage 0.5 --quiet  # replaces its own file
 gdalinfo -json -stats raster/coverage.tif >raster.json
 gdal_translate -q -of XYZ -b 1 raster/coverage.tif points.xyz
 gdal_translate -q -of XYZ -b 2 raster/coverage.tif spacing.xyz
@@ -194,7 +194,8 @@ flat = [abs(area(local(loop["coordinates"] + loop["coordinates"][:1]))) for loop
 for format in ("gpkg", "shp", "geojson"):
     features = json.loads(Path(f"areas.{format}.json").read_text(encoding="utf-8"))["features"]
     for feature, loop, expected in zip(features, loops, flat, strict=True):
-        assert feature["geometry"]["type"] == "Polygon" and feature["properties"]["unit"] == "m", feature
+        assert feature["geometry"]["type"] == "Polygon", format
+        assert (feature["properties"]["unit"] or "") == result["unit"], feature["properties"]
         (ring,) = feature["geometry"]["coordinates"]
         assert math.isclose(abs(area(local(ring))), expected, rel_tol=1e-6, abs_tol=1e-9), format
 
@@ -205,8 +206,8 @@ bands = {name: [[float(v) for v in line.split()] for line in Path(f"{name}.xyz")
          for name in ("points", "spacing", "holes")}
 assert sum(v for _, _, v in bands["points"]) == result["counts"]["points"]
 for (_, _, count), (_, _, spacing) in zip(bands["points"], bands["spacing"], strict=True):
-    assert math.isnan(spacing) if count == 0 else math.isclose(spacing, 0.0625 / math.sqrt(count), rel_tol=1e-6)
-covered = 0.0625 ** 2 * sum(v for _, _, v in bands["holes"])
+    assert math.isnan(spacing) if count == 0 else math.isclose(spacing, 0.5 / math.sqrt(count), rel_tol=1e-6)
+covered = 0.5 ** 2 * sum(v for _, _, v in bands["holes"])
 expected = sum(a for a, loop in zip(flat, loops) if loop["kind"] == "hole")
 assert math.isclose(covered, expected, rel_tol=0.02), (covered, expected)
 for loop in loops:  # the place is right, too: the middle of each hole is void
