@@ -18,6 +18,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # none among the sources
 
 import report_browser
+import report_marks
+import report_print
 import report_section
 from report_browser import Failed, camera, move_slider, open_browser, press, require, still, wait_for
 
@@ -119,6 +121,7 @@ def check_without_webgl(driver):
         move_slider(driver, "size-slider", 1000)
         driver.find_element(By.ID, "reset").click()
         wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all loops")
+        report_print.check_pages(driver)
 
 
 def check_policy(driver):
@@ -142,7 +145,7 @@ def type_in(driver, name, text):
 
 def check_typed(driver, count):
     most = driver.execute_script("return Math.max(...Array.from(document.querySelectorAll('#body tr[data-row]'),"
-                                 "row => Number(row.children[4].textContent.replace(/,/g, ''))))")
+                                 "row => Number(row.querySelector('.column-diameter').textContent.replace(/,/g, ''))))")
     least = f"{most / 2:.4f}"
     type_in(driver, "size-number", least)
     with_point = driver.execute_script("return lacuna.visible_loops()")
@@ -215,6 +218,8 @@ def run(driver, arguments):
                 check_csv(driver)
                 check_flight(driver)
                 check_keys(driver)
+                report_marks.check(driver, count)
+                report_print.check(driver)
     if arguments.run:
         print("run:", driver.execute_script(arguments.run))
         still(driver)

@@ -68,6 +68,16 @@ class LoopFilter {
 
   is_active() { return this.kind !== "all" || this.mark !== "any" || this.size > 0 || this.confidence > 0; }
 
+  // What it leaves out, in words; nothing if nothing.
+  words(units) {
+    const parts = [];
+    if (this.kind !== "all") parts.push(this.kind === "hole" ? "holes" : "outer curves");
+    if (this.mark !== "any") parts.push(`mark: ${mark_title(this.mark).toLowerCase()}`);
+    if (this.size > 0) parts.push(`diameter at least ${units.length(this.size)}`);
+    if (this.confidence > 0) parts.push(`confidence at least ${format_number(this.confidence, 2)}`);
+    return parts.join(", ");
+  }
+
   passes(i) {
     const {is_hole, diameter, confidence} = this.loops;
     if (this.kind === "hole" && !is_hole[i]) return false;

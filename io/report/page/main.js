@@ -70,6 +70,7 @@ class Page {
     connect_tabs();
     window.addEventListener("hashchange", () => this.open_link(true));
     this.connect_view();
+    this.print_pages = new PrintPages(this);
     find("csv").addEventListener("click", () => this.save_csv());
     find("reset").addEventListener("click", () => this.reset());
     const step = (direction) => {
@@ -132,9 +133,9 @@ class Page {
     draw_charts(this.data, this.units, this.filter, theme);
   }
 
-  update_colours() {
+  update_colours(theme = this.theme) {
     if (!this.view) return;
-    this.view.scenes.set_theme(this.theme, this.colouring);
+    this.view.scenes.set_theme(theme, this.colouring);
     this.update_legend();
   }
 

@@ -2,6 +2,7 @@
 // Moves the camera: to poses, in flights, by zoom, and by keys held down.
 
 const kFlightMilliseconds = 700;
+const kHomePolar = 0.95, kHomeAzimuth = -1.05;  // radians: where a page begins
 
 class Navigation {
   // `bounds` of scene_bounds(), `spacing` of sample_spacing().
@@ -47,16 +48,17 @@ class Navigation {
     return this.fit_pose(now.polar, now.azimuth);
   }
 
-  loop_pose(index) {
+  // `now`: the pose that says from which side; that of the camera without one.
+  loop_pose(index, now = this.pose()) {
     const {loops} = this.data;
     const box = loop_box(loops, index);
-    if (!box) return this.pose();  // a loop through strays: it is not drawn
+    if (!box) return now;  // a loop through strays: it is not drawn
     const target = box.low.map((value, axis) => (value + box.high[axis]) / 2);
     const size = Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2;
     const tall = Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance = Math.max((2.1 * size) / tall, 12 * this.spacing);
     const normal = Array.from(loops.normal.subarray(3 * index, 3 * index + 3)).map((v) => (Number.isFinite(v) ? v : 0));
-    return pose_along(normal, target, distance, this.pose());
+    return pose_along(normal, target, distance, now);
   }
 
   // ---- Movements
@@ -146,14 +148,14 @@ class Navigation {
 
   target_distance() { return this.camera.position.distanceTo(this.controls.target); }
 
-  // Sets the depths between which all of the scan lies.
-  update_depths() {
+  // Sets the depths between which all of the scan lies; `nearest` is the least of them.
+  update_depths(nearest = 0) {
     const {camera} = this;
     const {middle, radius} = this.bounds;
     const away = camera.position.distanceTo(middle);
     const to_target = this.target_distance();
     camera.far = Math.max(away + radius, to_target) * 1.05;
-    camera.near = Math.max((away - radius) * 0.95, Math.min(to_target * 0.01, camera.far * 0.01), camera.far * 1e-6);
+    camera.near = Math.max(nearest, (away - radius) * 0.95, Math.min(to_target * 0.01, camera.far * 0.01), camera.far * 1e-6);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 3D view: connects canvas, camera, scenes and pointer, and draws a picture when something has changed.
 
+const kPrintRatio = 1.5;  // of pixels in pictures for paper: lines and points as thick as these
+
 class View {
   // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
   constructor(canvas, context, data, {on_frame, on_loop, on_hover}) {
@@ -24,7 +26,7 @@ class View {
       is_busy: () => Boolean(this.navigation.flight),
     });
     this.resize();
-    this.navigation.set_pose(this.navigation.fit_pose(0.95, -1.05));
+    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener("webglcontextrestored", () => this.frames.request());
   }
@@ -56,17 +58,41 @@ class View {
   resize() {
     const {clientWidth, clientHeight} = this.canvas.parentElement;
     const ratio = Math.min(2, window.devicePixelRatio || 1);
-    const size = `${clientWidth} ${clientHeight} ${ratio}`;
-    if (clientWidth === 0 || clientHeight === 0 || size === this.size) return;
+    const size = [clientWidth, clientHeight, ratio];
+    if (clientWidth === 0 || clientHeight === 0 || String(size) === String(this.size)) return;
     this.size = size;
+    this.set_size(...size);
+    if (this.frames.is_begun) this.draw();
+  }
+
+  // `wide` and `tall` in units that look equally large at each `ratio` of pixels.
+  set_size(wide, tall, ratio) {
     this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(clientWidth, clientHeight, false);
-    this.navigation.camera.aspect = clientWidth / clientHeight;
+    this.renderer.setSize(wide, tall, false);
+    this.navigation.camera.aspect = wide / tall;
     const {width, height} = this.canvas;
     if (this.target) this.target.setSize(width, height); else this.make_target(width, height);
     this.uniforms.resolution.value.set(width, height);
     this.uniforms.pixel_ratio.value = ratio;
-    if (this.frames.is_begun) this.draw();
+  }
+
+  // Calls `take` with a function that gives the address of a JPEG picture of this size, in pixels, from a pose. What
+  // lies nearer than its `nearest` is left out. Afterwards the view is as before.
+  take_pictures(width, height, take) {
+    const {navigation} = this;
+    const former = navigation.pose();
+    const ratio = kPrintRatio;
+    this.set_size(width / ratio, height / ratio, ratio);
+    take((pose, nearest, units) => {
+      navigation.set_pose(pose);
+      this.render(this.data.points.count, nearest);
+      const [canvas, pen] = paper(this.canvas.width, this.canvas.height);
+      pen.drawImage(this.canvas, 0, 0);
+      draw_bar(pen, canvas.width, canvas.height, this.data.frame.edge * pose.distance / this.uniforms.focal.value, units);
+      return canvas.toDataURL("image/jpeg", 0.88);
+    });
+    if (this.size) this.set_size(...this.size);
+    navigation.set_pose(former);
   }
 
   // Points are drawn to it first: their depths hide lines, and shade edges.
@@ -84,11 +110,16 @@ class View {
   draw(count = this.data.points.count) {
     if (!this.target) return;
     this.frames.is_begun = true;
+    this.render(count, 0);
+    this.on_frame(this);
+  }
+
+  // Without what lies nearer than `nearest`.
+  render(count, nearest) {
     const {camera} = this.navigation;
-    this.navigation.update_depths();
+    this.navigation.update_depths(nearest);
     update_camera_uniforms(this.uniforms, camera, this.canvas.height);
     this.scenes.draw(this.renderer, this.target, camera, count, this.navigation.target_distance());
-    this.on_frame(this);
   }
 
   // The picture as {width, height, pixels}: rows from the bottom, 4 bytes a pixel.
