@@ -21,6 +21,7 @@ import report_browser
 import report_marks
 import report_print
 import report_section
+import report_tools
 from report_browser import Failed, camera, move_slider, open_browser, press, require, still, wait_for
 
 try:
@@ -160,16 +161,6 @@ def check_typed(driver, count):
     require(field.get_attribute("aria-invalid") == "false", "a number clears the mark")
 
 
-def check_csv(driver):
-    """Numbers of the saved table have no noise of binary fractions."""
-    driver.execute_script("URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; });"
-                          "return '#'; }; document.getElementById('csv').click();")
-    wait_for(driver, "window.saved", "a table is saved")
-    words = [word for line in driver.execute_script("return window.saved").split("\n")[1:] for word in line.split(",")]
-    require(all(len(word.replace("-", "").replace(".", "").lstrip("0")) <= 12 for word in words if "e" not in word),
-            f"{len(words)} saved values have short digits")
-
-
 def check_facts(driver):
     names = driver.find_elements(By.CSS_SELECTOR, ".files bdi")
     require(names and all(name.get_attribute("dir") == "ltr" for name in names), "file names are read from the left")
@@ -211,11 +202,11 @@ def run(driver, arguments):
             count = driver.execute_script("return lacuna.visible_loops()")
             if driver.execute_script("return lacuna.points") > 0:
                 report_section.check(driver, count)
+                report_tools.check(driver, count)
             if count > 0:
                 check_filter(driver, count)
                 check_typed(driver, count)
                 check_place(driver)
-                check_csv(driver)
                 check_flight(driver)
                 check_keys(driver)
                 report_marks.check(driver, count)

@@ -48,7 +48,17 @@ class Page {
     }
     try {
       this.view = new View(find("canvas"), context, this.data, {
-        on_frame: (view) => { draw_scale(view, this.units); draw_triad(view.navigation.camera); },
+        on_frame: (view) => {
+          draw_scale(view, this.units);
+          draw_triad(view.navigation.camera);
+          if (this.data.report.crs) draw_north(view.navigation.camera);
+          if (this.measure) this.measure.draw();
+        },
+        on_pick: (x, y) => {
+          if (!this.measure.is_on) return false;
+          this.measure.pick(x, y);
+          return true;
+        },
         on_loop: (index) => this.click_loop(index),
         on_hover: (index, x, y) => this.hover(index, x, y),
       });
@@ -82,6 +92,7 @@ class Page {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
       f: () => side("fit"), 1: () => side("top"), 2: () => side("front"), 3: () => side("side"),
       c: () => this.next_colouring(), t: () => find("through").click(),
+      m: () => find("measure").click(),
       0: () => this.set_mark(kNoMark), e: () => this.edit_note(),
       ...Object.fromEntries(kMarks.map(({name, key}) => [key, () => this.set_mark(name)])),
     }});
@@ -92,6 +103,9 @@ class Page {
     find("colouring").addEventListener("change", () => this.set_colouring(find("colouring").value));
     connect_settings();
     if (!this.view) return;
+    this.measure = new Measure(this.view, this.units, this.decimals);
+    find("measure").disabled = this.data.points.count === 0;
+    find("picture").addEventListener("click", () => this.view.save_picture((blob) => save_blob(blob, `${this.file_title()}_view.png`)));
     connect_shown(this.view.scenes);
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
@@ -242,8 +256,12 @@ class Page {
     if (!is_flight && this.view) this.view.navigation.end_flight();
   }
 
-  // Deselects, and goes back to the view and the section before the flight.
+  // Ends a measurement; else deselects, and goes back to the view and the section before the flight.
   escape() {
+    if (this.measure && this.measure.is_on) {
+      this.measure.set(false);
+      return;
+    }
     if (this.former && this.view) {
       this.view.navigation.fly(this.former);
       this.section.close_again();

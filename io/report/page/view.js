@@ -5,7 +5,8 @@ const kPrintRatio = 1.5;  // of pixels in pictures for paper: lines and points a
 
 class View {
   // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
-  constructor(canvas, context, data, {on_frame, on_loop, on_hover}) {
+  // `on_pick(x, y)` may take a click before the loops: then it returns true.
+  constructor(canvas, context, data, {on_frame, on_loop, on_hover, on_pick}) {
     Object.assign(this, {canvas, data, on_frame});
     this.renderer = new THREE.WebGLRenderer({canvas, context});
     this.renderer.autoClear = false;
@@ -19,7 +20,7 @@ class View {
     this.picker = new LoopPicker(this.renderer, this.scenes.pick);
     connect_pointer(canvas, {
       zoom: (factor, x, y) => this.navigation.zoom(factor, x, y),
-      click: (x, y) => on_loop(this.loop_at(x, y)),
+      click: (x, y) => { if (!on_pick(x, y)) on_loop(this.loop_at(x, y)); },
       double_click: (x, y) => this.centre_at(x, y),
       hover: (x, y) => on_hover(this.loop_at(x, y), x, y),
       leave: () => on_hover(-1, 0, 0),
@@ -38,12 +39,18 @@ class View {
     return this.picker.loop_at(x - box.left, y - box.top, this.navigation.camera, this.target);
   }
 
+  // {place, distance} of the nearest point of the sample under the pointer; null without any.
+  point_at(x, y) {
+    const {navigation} = this;
+    const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
+    return point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
+                       tangent, this.spacing, this.uniforms.section.value);
+  }
+
   // Turns about the nearest point under the pointer from now on.
   centre_at(x, y) {
     const {navigation} = this;
-    const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
-    const found = point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
-                              tangent, this.spacing, this.uniforms.section.value);
+    const found = this.point_at(x, y);
     if (!found) return;
     const pose = navigation.pose();
     navigation.fly({...pose, target: found.place, distance: Math.min(pose.distance, found.distance)});
@@ -120,6 +127,12 @@ class View {
     this.navigation.update_depths(nearest);
     update_camera_uniforms(this.uniforms, camera, this.canvas.height);
     this.scenes.draw(this.renderer, this.target, camera, count, this.navigation.target_distance());
+  }
+
+  // The picture as a PNG file, for `take(blob)`.
+  save_picture(take) {
+    this.draw();
+    this.canvas.toBlob(take, "image/png");
   }
 
   // The picture as {width, height, pixels}: rows from the bottom, 4 bytes a pixel.
