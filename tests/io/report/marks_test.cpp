@@ -35,7 +35,7 @@ Scene::Loops loops(const std::vector<std::pair<std::uint64_t, LoopMeasures>>& dr
 }
 
 LoopMeasures hole(double x, double diameter) {
-  return {.diameter = diameter, .centroid = {x, 0, 0}};
+  return {.diameter = diameter, .centroid = {x, 0, 0}, .track = {}};
 }
 
 LoopMark mark(std::uint64_t id, double x, double diameter) {
