@@ -189,7 +189,7 @@ class Page {
 
   // ---- Marks
 
-  // Of the row in focus, else of the selected loop.
+  // The loop of the row in focus gets it, else the selected one.
   set_mark(name) {
     const focused = this.table.focused_loop();
     const index = focused >= 0 ? focused : this.selected;

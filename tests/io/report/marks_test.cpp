@@ -167,7 +167,7 @@ class Sheet {
   }
   std::string out() const { return (scratch_ / "out").string(); }
   const test::ScratchFolder& scratch() const { return scratch_; }
-  // Of all loops, as the page saves them.
+  // Entries for all loops, as the page saves them.
   json marks() const {
     json marks = json::array();
     for (const json& loop : test::read_json(scratch_ / "out" / "holes.json").at("loops")) {
