@@ -8,7 +8,7 @@ import math
 import re
 import struct
 
-from report_browser import next_picture, press, require, still, wait_for
+from report_browser import camera, next_picture, press, require, still, wait_for
 
 try:
     from selenium.webdriver.common.by import By
@@ -95,6 +95,31 @@ def check_north(driver):
         require(abs(turn) < 0.5, "from above it shows up")
 
 
+def choose_up(driver, axis):
+    driver.execute_script("const list = document.getElementById('up-axis'); list.value = arguments[0]; list.dispatchEvent(new Event('change'));", axis)
+    next_picture(driver)
+    still(driver)
+
+
+def check_up(driver):
+    """From above, the camera is along the axis that is up. The section has the heights along it."""
+    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
+    still(driver)
+    home = camera(driver)
+    for axis in (0, 1, 2):
+        choose_up(driver, axis)
+        driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
+        still(driver)
+        eye = [a - b for a, b in zip(camera(driver), driver.execute_script("return lacuna.target()"))]
+        require(eye[axis] > 0.999 * math.hypot(*eye), f"with {'xyz'[axis]} up, Top looks along it")
+        low, high = driver.execute_script("return lacuna.bounds()[arguments[0]]", axis)
+        slider = driver.find_element(By.ID, "above-slider")
+        ends = [float(slider.get_attribute(name)) for name in ("min", "max")]
+        step = float(slider.get_attribute("step"))
+        require(abs(ends[0] - low) <= step and abs(ends[1] - high) <= step, f"the section reaches from {ends[0]} to {ends[1]}")
+    require(all(abs(a - b) < 1e-6 * (1 + abs(b)) for a, b in zip(camera(driver), home)), "z again, the view is as at first")
+
+
 def type_in(driver, name, text):
     field = driver.find_element(By.ID, name)
     field.send_keys(Keys.CONTROL + "a")
@@ -147,6 +172,7 @@ def check(driver, count):
     check_measure(driver)
     check_picture(driver)
     check_north(driver)
+    check_up(driver)
     if count > 0:
         check_range(driver, count)
         check_table(driver, count)

@@ -51,7 +51,7 @@ class Page {
         on_frame: (view) => {
           draw_scale(view, this.units);
           draw_triad(view.navigation.camera);
-          if (this.data.report.crs) draw_north(view.navigation.camera);
+          if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
           if (this.measure) this.measure.draw();
         },
         on_pick: (x, y) => {
@@ -107,10 +107,21 @@ class Page {
     find("measure").disabled = this.data.points.count === 0;
     find("picture").addEventListener("click", () => this.view.save_picture((blob) => save_blob(blob, `${this.file_title()}_view.png`)));
     connect_shown(this.view.scenes);
+    find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
+  }
+
+  // 0, 1 or 2: x, y or z points up from now on.
+  turn_up(up) {
+    this.data.frame.up = up;
+    this.former = null;
+    find("north").setAttribute("hidden", "");
+    this.view.turn_up();
+    this.section.turn_up();
+    this.update_chip();
   }
 
   fly_to_side(name) {
@@ -155,7 +166,8 @@ class Page {
 
   update_legend() {
     const {low, high} = this.view.bounds.box;
-    const heights = [low[2], high[2]].map((z) => to_real(this.data.frame, [0, 0, z])[2]);
+    const {frame} = this.data;
+    const heights = [low[frame.up], high[frame.up]].map((height) => real_height(frame, height));
     draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops,
                 this.section.words());
   }

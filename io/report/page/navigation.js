@@ -9,22 +9,30 @@ class Navigation {
   constructor(canvas, data, bounds, spacing, frames) {
     Object.assign(this, {canvas, data, bounds, spacing, frames});
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
-    this.camera.up.set(0, 0, 1);
     this.is_reduced = matchMedia("(prefers-reduced-motion: reduce)");
     this.flight = null;
     this.held = new Map();  // key held down: function of seconds
-    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.make_controls();
+  }
+
+  // OrbitControls keep the direction that is up when they are made.
+  make_controls() {
+    const target = this.controls ? this.controls.target : new THREE.Vector3();
+    if (this.controls) this.controls.dispose();
+    this.camera.up.set(...upright(0, 0, 1, this.data.frame.up));
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.target.copy(target);
     this.controls.enableKeys = false;
     this.controls.screenSpacePanning = true;
     this.controls.minDistance = 1e-6;
     this.controls.maxDistance = 40;
-    this.controls.addEventListener("change", () => frames.changed());
+    this.controls.addEventListener("change", () => this.frames.changed());
     this.controls.addEventListener("start", () => { this.flight = null; });
   }
 
   // ---- Poses
 
-  pose() { return pose_of(this.camera, this.controls.target); }
+  pose() { return pose_of(this.camera, this.controls.target, this.data.frame.up); }
 
   set_pose(pose) {
     const direction = pose_direction({...pose, polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, pose.polar))});
@@ -35,7 +43,7 @@ class Navigation {
   }
 
   fit_pose(polar, azimuth) {
-    const pose = pose_of_places(this.bounds.outline, {polar, azimuth}, this.camera.aspect);
+    const pose = pose_of_places(this.bounds.outline, {polar, azimuth, up: this.data.frame.up}, this.camera.aspect);
     return {...pose, distance: pose.distance * 1.12};
   }
 

@@ -9,9 +9,12 @@ class Plan {
   constructor(data, heights) {
     this.data = data;
     const {low, high} = scene_bounds(data).box;
-    const margin = 0.03 * Math.max(high[0] - low[0], high[1] - low[1], 1e-6);
-    this.corner = [low[0] - margin, high[1] + margin];
-    const wide = high[0] - low[0] + 2 * margin, tall = high[1] - low[1] + 2 * margin;
+    const {up} = data.frame;
+    this.axes = [(up + 1) % 3, (up + 2) % 3];  // to the right, and to the top of the plan
+    const [a, b] = this.axes;
+    const margin = 0.03 * Math.max(high[a] - low[a], high[b] - low[b], 1e-6);
+    this.corner = [low[a] - margin, high[b] + margin];
+    const wide = high[a] - low[a] + 2 * margin, tall = high[b] - low[b] + 2 * margin;
     this.factor = Math.min(kPlanWidth / wide, kPlanHeight / tall);
     this.size = [Math.ceil(wide * this.factor), Math.ceil(tall * this.factor)];
     this.source = this.draw(heights);
@@ -19,17 +22,18 @@ class Plan {
 
   // Pixels of a scene position.
   at(values, i) {
-    return [(values[3 * i] - this.corner[0]) * this.factor, (this.corner[1] - values[3 * i + 1]) * this.factor];
+    const [a, b] = this.axes;
+    return [(values[3 * i + a] - this.corner[0]) * this.factor, (this.corner[1] - values[3 * i + b]) * this.factor];
   }
 
   draw([lowest, highest]) {
-    const {points, loops} = this.data;
+    const {points, loops, frame} = this.data;
     const [width, height] = this.size;
     const [canvas, pen] = paper(width, height);
     pen.fillStyle = "#c9cfd1";
     for (let i = 0; i < points.count; ++i) {
-      const z = points.positions[3 * i + 2];
-      if (z < lowest || z > highest) continue;
+      const at_height = points.positions[3 * i + frame.up];
+      if (at_height < lowest || at_height > highest) continue;
       const [x, y] = this.at(points.positions, i);
       pen.fillRect(x - 0.75, y - 0.75, 1.5, 1.5);
     }
@@ -50,7 +54,7 @@ class Plan {
     if (box) {
       const middle = box.low.map((value, axis) => (value + box.high[axis]) / 2);
       const [x, y] = this.at(middle, 0);
-      const radius = Math.max(16, 0.62 * Math.hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]) * this.factor);
+      const radius = Math.max(16, 0.62 * Math.hypot(...this.axes.map((axis) => box.high[axis] - box.low[axis])) * this.factor);
       const line = (x1, y1, x2, y2) => drawing("line", {x1, y1, x2, y2});
       over.append(drawing("circle", {cx: x, cy: y, r: radius}), line(0, y, x - radius, y), line(x + radius, y, width, y),
                   line(x, 0, x, y - radius), line(x, y + radius, x, height));
@@ -58,7 +62,7 @@ class Plan {
     return element("figure", {class: "plan"},
                    element("div", {class: "plan-box", style: `aspect-ratio:${width}/${height};width:min(100%, ${(84 * width / height).toFixed(2)}mm)`},
                            element("img", {src: this.source, alt: ""}), over),
-                   element("figcaption", {class: "quiet"}, "From above, y up"));
+                   element("figcaption", {class: "quiet"}, `From above, ${"xyz"[this.axes[0]]} to the right, ${"xyz"[this.axes[1]]} to the top`));
   }
 }
 
@@ -107,10 +111,11 @@ function painted_loop({points, loops, frame}, index, width, height, units) {
   const size = Math.max(1e-9, Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2);
   const given = Array.from(loops.normal.subarray(3 * index, 3 * index + 3)).map((value) => (Number.isFinite(value) ? value : 0));
   const length = Math.hypot(...given);
-  const side = given[2] < 0 ? -1 : 1;
-  const back = length > 0 ? given.map((value) => (side * value) / length) : [0, 0, 1];
-  const flat = Math.hypot(back[0], back[1]);
-  const right = flat > 0.02 ? [-back[1] / flat, back[0] / flat, 0] : [1, 0, 0];
+  const side = given[frame.up] < 0 ? -1 : 1;
+  const back = length > 0 ? given.map((value) => (side * value) / length) : upright(0, 0, 1, frame.up);
+  const [first, second] = level_parts(back, frame.up);
+  const flat = Math.hypot(first, second);
+  const right = flat > 0.02 ? upright(-second / flat, first / flat, 0, frame.up) : upright(1, 0, 0, frame.up);
   const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]];
   const factor = height / (4.2 * size);
   const along = (axis, values, i) => axis.reduce((sum, value, k) => sum + value * (values[3 * i + k] - middle[k]), 0);

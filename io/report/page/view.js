@@ -15,7 +15,6 @@ class View {
     this.frames = new Frames(data.points.count, {move: () => this.navigation.move(), draw: (count) => this.draw(count)});
     this.scenes = new Scenes(data, this.spacing, this.uniforms, () => this.frames.request());
     this.bounds = scene_bounds(data);
-    this.scenes.cloud.set_heights(this.bounds.box.low[2], this.bounds.box.high[2]);
     this.navigation = new Navigation(canvas, data, this.bounds, this.spacing, this.frames);
     this.picker = new LoopPicker(this.renderer, this.scenes.pick);
     connect_pointer(canvas, {
@@ -26,10 +25,25 @@ class View {
       leave: () => on_hover(-1, 0, 0),
       is_busy: () => Boolean(this.navigation.flight),
     });
+    this.set_heights();
     this.resize();
     this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener("webglcontextrestored", () => this.frames.request());
+  }
+
+  set_heights() {
+    const {up} = this.data.frame;
+    this.uniforms.up.value.set(...upright(0, 0, 1, up));
+    this.scenes.cloud.set_heights(this.bounds.box.low[up], this.bounds.box.high[up]);
+  }
+
+  // After frame.up has changed.
+  turn_up() {
+    this.set_heights();
+    this.navigation.flight = null;
+    this.navigation.make_controls();
+    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
   }
 
   // Index of the loop drawn nearest to the place of the window, -1 if none is near.
@@ -44,7 +58,7 @@ class View {
     const {navigation} = this;
     const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
     return point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
-                       tangent, this.spacing, this.uniforms.section.value);
+                       tangent, this.spacing, this.uniforms.section.value, this.data.frame.up);
   }
 
   // Turns about the nearest point under the pointer from now on.
