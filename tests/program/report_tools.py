@@ -164,6 +164,7 @@ def check_table(driver, count):
     require(all(float(word) is not None and len(re.sub(r"[-.]|e.*", "", word).lstrip("0")) <= 15 for word in values),
             f"{len(values)} numbers have no noise of binary fractions")
     require(driver.execute_script("return lacuna.short_place(849393.9500000001)") == 849393.95, "849393.9500000001 is written as 849393.95")
+    driver.execute_script("const note = document.getElementById('note'); note.value = ''; note.dispatchEvent(new Event('input'));")
     press(driver, Keys.ESCAPE)
     still(driver)
 
@@ -176,3 +177,5 @@ def check(driver, count):
     if count > 0:
         check_range(driver, count)
         check_table(driver, count)
+    driver.find_element(By.CSS_SELECTOR, "[data-side=front]").click()
+    still(driver)
