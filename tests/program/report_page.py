@@ -3,8 +3,11 @@
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
     report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks]
+                   [--save-marks FILE] [--has-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
+--save-marks  writes the marks that the checks have made
+--has-marks   checks that the page begins with the marks and notes of this file
 --no-webgl    a browser without WebGL: the message, the table and the facts
 Prints what it checked; exits with 1 and one line on failure, with 77 if Selenium or Chromium is missing.
 Debian: python3-selenium chromium chromium-driver.
@@ -191,6 +194,8 @@ def run(driver, arguments):
     messages = [entry["message"] for entry in driver.get_log("browser") if "GPU stall" not in entry["message"]
                 and "GL Driver Message" not in entry["message"]]
     require(not messages, "no message in the console" + (f": {messages[0]}" if messages else ""))
+    if arguments.has_marks:
+        report_marks.check_has(driver, arguments.has_marks)
     if not arguments.no_checks:
         check_policy(driver)
         check_facts(driver)
@@ -211,6 +216,8 @@ def run(driver, arguments):
                 check_keys(driver)
                 report_marks.check(driver, count)
                 report_print.check(driver)
+    if arguments.save_marks:
+        arguments.save_marks.write_text(driver.execute_script("return lacuna.marks_text()"), encoding="utf-8")
     if arguments.run:
         print("run:", driver.execute_script(arguments.run))
         still(driver)
@@ -228,6 +235,8 @@ def main():
     parser.add_argument("--dark", action="store_true")
     parser.add_argument("--no-webgl", action="store_true")
     parser.add_argument("--no-checks", action="store_true")
+    parser.add_argument("--save-marks", type=Path)
+    parser.add_argument("--has-marks", type=Path)
     parser.add_argument("--run", help="JavaScript before the picture")
     arguments = parser.parse_args()
     if not report_browser.is_installed():
