@@ -127,7 +127,7 @@ struct InputConfig {
 };
 
 // How the annotated scan is written.
-enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv };
+enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv, kLaz };
 
 struct OutputConfig {
   bool points = false;  // write the annotated scan: every point of the input with its results
@@ -138,6 +138,7 @@ struct OutputConfig {
   bool vtp = false;                      // for VTK and ParaView
   bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
   bool shp = false;                      // Shapefile
+  bool lids = false;                     // triangulated lids of the holes
   bool polygons = false;                 // files for GIS have the loops as polygons, too
   double coverage = 0;                   // write coverage.tif with cells of this edge; 0: off
   bool no_coordinates = false;           // loops of holes.json have ids alone
