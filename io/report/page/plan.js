@@ -56,6 +56,11 @@ class Plan {
       const [x, y] = this.at(middle, 0);
       const radius = Math.max(16, 0.62 * Math.hypot(...this.axes.map((axis) => box.high[axis] - box.low[axis])) * this.factor);
       const line = (x1, y1, x2, y2) => drawing("line", {x1, y1, x2, y2});
+      const {first, vertices} = this.data.loops;
+      const step = Math.max(1, Math.floor((first[index + 1] - first[index]) / 300));
+      const places = [];
+      for (let i = first[index]; i < first[index + 1]; i += step) places.push(this.at(vertices, i).map((value) => value.toFixed(1)).join());
+      over.append(drawing("polygon", {points: places.join(" ")}));
       over.append(drawing("circle", {cx: x, cy: y, r: radius}), line(0, y, x - radius, y), line(x + radius, y, width, y),
                   line(x, 0, x, y - radius), line(x, y + radius, x, height));
     }
