@@ -84,6 +84,11 @@ def check_picture(driver):
     require(len(png) > 5000, f"it is not empty ({len(png)} bytes)")
 
 
+def needle_turn(needle):
+    """Degrees clockwise."""
+    return float(re.search(r"rotate\((.*?)\)", needle.find_element(By.TAG_NAME, "path").get_attribute("transform")).group(1))
+
+
 def check_north(driver):
     has_crs = driver.execute_script("return lacuna.crs !== null")
     driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
@@ -91,8 +96,14 @@ def check_north(driver):
     needle = driver.find_element(By.ID, "north")
     require(needle.is_displayed() == has_crs, "an arrow shows north" if has_crs else "without a CRS nothing shows north")
     if has_crs:
-        turn = float(re.search(r"rotate\((.*?)\)", needle.find_element(By.TAG_NAME, "path").get_attribute("transform")).group(1))
-        require(abs(turn) < 0.5, "from above it shows up")
+        require(abs(needle_turn(needle)) < 0.5, "from above it shows up")
+        driver.execute_script("document.getElementById('canvas').focus()")
+        press(driver, Keys.ARROW_LEFT * 3)
+        still(driver)
+        name = next(text for text in driver.find_elements(By.CSS_SELECTOR, "#triad text") if text.get_attribute("textContent") == "y")
+        x, y = (float(name.get_attribute(key)) for key in "xy")
+        wanted = math.degrees(math.atan2(x, 3.5 - y))
+        require(abs(wanted) > 1 and abs(needle_turn(needle) - wanted) < 0.5, f"it turns with the view, as y does ({wanted:.1f} degrees)")
 
 
 def choose_up(driver, axis):
@@ -112,11 +123,17 @@ def check_up(driver):
         still(driver)
         eye = [a - b for a, b in zip(camera(driver), driver.execute_script("return lacuna.target()"))]
         require(eye[axis] > 0.999 * math.hypot(*eye), f"with {'xyz'[axis]} up, Top looks along it")
+        driver.find_element(By.CSS_SELECTOR, "[data-side=front]").click()
+        still(driver)
+        name = next(text for text in driver.find_elements(By.CSS_SELECTOR, "#triad text") if text.get_attribute("textContent") == "xyz"[axis])
+        require(abs(float(name.get_attribute("x"))) < 0.5 and float(name.get_attribute("y")) < -20, "from the front it goes up")
         low, high = driver.execute_script("return lacuna.bounds()[arguments[0]]", axis)
         slider = driver.find_element(By.ID, "above-slider")
         ends = [float(slider.get_attribute(name)) for name in ("min", "max")]
         step = float(slider.get_attribute("step"))
         require(abs(ends[0] - low) <= step and abs(ends[1] - high) <= step, f"the section reaches from {ends[0]} to {ends[1]}")
+    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
+    still(driver)
     require(all(abs(a - b) < 1e-6 * (1 + abs(b)) for a, b in zip(camera(driver), home)), "z again, the view is as at first")
 
 

@@ -12,7 +12,7 @@ function upright(first, second, height, up) {
   return vector;
 }
 
-// Of a vector: the part along the level axes, and the part along up.
+// The parts of a vector along the level axes, then that along up.
 function level_parts(vector, up) {
   return [vector[(up + 1) % 3], vector[(up + 2) % 3], vector[up]];
 }

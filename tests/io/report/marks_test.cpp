@@ -170,7 +170,8 @@ class Sheet {
   // Entries for all loops, as the page saves them.
   json marks() const {
     json marks = json::array();
-    for (const json& loop : test::read_json(scratch_ / "out" / "holes.json").at("loops")) {
+    const json holes = test::read_json(scratch_ / "out" / "holes.json");
+    for (const json& loop : holes.at("loops")) {
       marks.push_back({{"id", loop.at("id")},
                        {"kind", loop.at("kind")},
                        {"centroid", loop.at("centroid")},
