@@ -102,7 +102,7 @@ class PrintPages {
         if (!loop_box(data.loops, index)) continue;
         view.scenes.set_selected(index);
         const pose = navigation.loop_pose(index, navigation.fit_pose(kHomePolar, kHomeAzimuth));
-        made.of.set(index, picture(pose, 0.55 * pose.distance, units));
+        made.of.set(index, picture(pose, navigation.loop_front(index, pose), units));
       }
     });
     view.scenes.set_selected(selected);
