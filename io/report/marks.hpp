@@ -45,8 +45,8 @@ struct MarkMatches {
 
 // Finds marks again in a result with other ids. A mark and its loop have one kind, and a loop has one mark.
 // 1. In the order of marks: the loop with its id, if its centroid is no farther than the smaller diameter.
-// 2. Of the others, the nearest pairs first: centroids are within half of the mark's diameter, and the
-//    diameters differ by a factor of 1.5 at most. Equally near ones go in the order of marks, then of loops.
+// 2. The other marks, the nearest pairs first: centroids are within half of the mark's diameter. Diameters
+//    differ by a factor of 1.5 at most. Equally near pairs go in the order of marks, then of loops.
 // Cost: the number of marks times that of loops.
 MarkMatches match_marks(std::span<const LoopMark> marks, const Scene::Loops& loops);
 

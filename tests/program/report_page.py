@@ -3,8 +3,11 @@
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
     report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks]
+                   [--save-marks FILE] [--has-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
+--save-marks  writes the marks that the checks have made
+--has-marks   checks that the page begins with the marks and notes of this file
 --no-webgl    a browser without WebGL: the message, the table and the facts
 Prints what it checked; exits with 1 and one line on failure, with 77 if Selenium or Chromium is missing.
 Debian: python3-selenium chromium chromium-driver.
@@ -18,7 +21,10 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # none among the sources
 
 import report_browser
+import report_marks
+import report_print
 import report_section
+import report_tools
 from report_browser import Failed, camera, move_slider, open_browser, press, require, still, wait_for
 
 try:
@@ -119,6 +125,7 @@ def check_without_webgl(driver):
         move_slider(driver, "size-slider", 1000)
         driver.find_element(By.ID, "reset").click()
         wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all loops")
+        report_print.check_pages(driver)
 
 
 def check_policy(driver):
@@ -142,7 +149,7 @@ def type_in(driver, name, text):
 
 def check_typed(driver, count):
     most = driver.execute_script("return Math.max(...Array.from(document.querySelectorAll('#body tr[data-row]'),"
-                                 "row => Number(row.children[4].textContent.replace(/,/g, ''))))")
+                                 "row => Number(row.querySelector('.column-diameter').textContent.replace(/,/g, ''))))")
     least = f"{most / 2:.4f}"
     type_in(driver, "size-number", least)
     with_point = driver.execute_script("return lacuna.visible_loops()")
@@ -155,16 +162,6 @@ def check_typed(driver, count):
     require(driver.execute_script("return lacuna.visible_loops()") == count, "it filters nothing")
     type_in(driver, "size-number", "0")
     require(field.get_attribute("aria-invalid") == "false", "a number clears the mark")
-
-
-def check_csv(driver):
-    """Numbers of the saved table have no noise of binary fractions."""
-    driver.execute_script("URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; });"
-                          "return '#'; }; document.getElementById('csv').click();")
-    wait_for(driver, "window.saved", "a table is saved")
-    words = [word for line in driver.execute_script("return window.saved").split("\n")[1:] for word in line.split(",")]
-    require(all(len(word.replace("-", "").replace(".", "").lstrip("0")) <= 12 for word in words if "e" not in word),
-            f"{len(words)} saved values have short digits")
 
 
 def check_facts(driver):
@@ -197,6 +194,8 @@ def run(driver, arguments):
     messages = [entry["message"] for entry in driver.get_log("browser") if "GPU stall" not in entry["message"]
                 and "GL Driver Message" not in entry["message"]]
     require(not messages, "no message in the console" + (f": {messages[0]}" if messages else ""))
+    if arguments.has_marks:
+        report_marks.check_has(driver, arguments.has_marks)
     if not arguments.no_checks:
         check_policy(driver)
         check_facts(driver)
@@ -208,13 +207,17 @@ def run(driver, arguments):
             count = driver.execute_script("return lacuna.visible_loops()")
             if driver.execute_script("return lacuna.points") > 0:
                 report_section.check(driver, count)
+                report_tools.check(driver, count)
             if count > 0:
                 check_filter(driver, count)
                 check_typed(driver, count)
                 check_place(driver)
-                check_csv(driver)
                 check_flight(driver)
                 check_keys(driver)
+                report_marks.check(driver, count)
+                report_print.check(driver)
+    if arguments.save_marks:
+        arguments.save_marks.write_text(driver.execute_script("return lacuna.marks_text()"), encoding="utf-8")
     if arguments.run:
         print("run:", driver.execute_script(arguments.run))
         still(driver)
@@ -232,6 +235,8 @@ def main():
     parser.add_argument("--dark", action="store_true")
     parser.add_argument("--no-webgl", action="store_true")
     parser.add_argument("--no-checks", action="store_true")
+    parser.add_argument("--save-marks", type=Path)
+    parser.add_argument("--has-marks", type=Path)
     parser.add_argument("--run", help="JavaScript before the picture")
     arguments = parser.parse_args()
     if not report_browser.is_installed():

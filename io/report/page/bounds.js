@@ -18,9 +18,9 @@ function scene_bounds({points, loops, report, frame}) {
 
 // [low, high] of the scan; without far outliers, which would leave no more than a few steps of a slider for the rest.
 function scene_heights(bounds, {report, frame}) {
-  const usual = [bounds.box.low[2], bounds.box.high[2]];
+  const usual = [bounds.box.low[frame.up], bounds.box.high[frame.up]];
   if (!report.bounds) return usual;
-  const all = [report.bounds.min, report.bounds.max].map((place) => to_scene(frame, place)[2]);
+  const all = [report.bounds.min, report.bounds.max].map((place) => to_scene(frame, place)[frame.up]);
   return all[1] - all[0] <= 2 * (usual[1] - usual[0]) ? all : usual;
 }
 

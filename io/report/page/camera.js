@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the camera is: a pose looks at a target from a direction, z is up. Flights go from pose to pose.
+// Where the camera is: a pose looks at a target from a direction, with an axis that is up. Flights go from pose to pose.
 
 const kFieldOfView = 38;  // degrees, vertical
 const kLeastPolar = 1e-4;
 
-// {target: [x, y, z], distance, polar (from z), azimuth}
-function pose_of(camera, target) {
+// {target: [x, y, z], distance, polar (from up), azimuth, up}
+function pose_of(camera, target, up) {
   const offset = camera.position.clone().sub(target);
   const distance = Math.max(offset.length(), 1e-12);
+  const [first, second, height] = level_parts(offset.toArray(), up);
   return {
     target: target.toArray(),
     distance,
-    polar: Math.acos(Math.min(1, Math.max(-1, offset.z / distance))),
-    azimuth: Math.atan2(offset.y, offset.x),
+    polar: Math.acos(Math.min(1, Math.max(-1, height / distance))),
+    azimuth: Math.atan2(second, first),
+    up,
   };
 }
 
 function pose_direction(pose) {
   const across = Math.sin(pose.polar);
-  return [across * Math.cos(pose.azimuth), across * Math.sin(pose.azimuth), Math.cos(pose.polar)];
+  return upright(across * Math.cos(pose.azimuth), across * Math.sin(pose.azimuth), Math.cos(pose.polar), pose.up);
 }
 
 // The pose that has all of `places` (numbers x, y, z, x, ...) in the middle of the picture, from the direction of `from`.
 function pose_of_places(places, from, aspect) {
   const back = pose_direction(from);
-  const right = [-Math.sin(from.azimuth), Math.cos(from.azimuth), 0];
+  const right = upright(-Math.sin(from.azimuth), Math.cos(from.azimuth), 0, from.up);
   const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
               back[0] * right[1] - back[1] * right[0]];
   const axes = [right, up, back];
@@ -58,22 +60,23 @@ function pose_of_places(places, from, aspect) {
     }
   }
   const target = [0, 1, 2].map((axis) => axes.reduce((sum, unit, k) => sum + unit[axis] * middle[k], 0));
-  return {target, distance, polar: from.polar, azimuth: from.azimuth};
+  return {target, distance, polar: from.polar, azimuth: from.azimuth, up: from.up};
 }
 
 // Looks along a normal from the side where the camera is. Straight from above the picture keeps its turn.
 function pose_along(normal, target, distance, now) {
   const length = Math.hypot(...normal);
-  if (!(length > 0)) return {target, distance, polar: now.polar, azimuth: now.azimuth};
+  if (!(length > 0)) return {target, distance, polar: now.polar, azimuth: now.azimuth, up: now.up};
   const eye = pose_direction(now).map((value, axis) => now.target[axis] + value * now.distance - target[axis]);
   const side = eye[0] * normal[0] + eye[1] * normal[1] + eye[2] * normal[2] < 0 ? -1 : 1;
-  const [x, y, z] = normal.map((value) => (side * value) / length);
-  const is_upright = Math.hypot(x, y) < 0.02;
+  const [first, second, height] = level_parts(normal.map((value) => (side * value) / length), now.up);
+  const is_upright = Math.hypot(first, second) < 0.02;
   return {
     target,
     distance,
-    polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, Math.acos(Math.min(1, Math.max(-1, z))))),
-    azimuth: is_upright ? now.azimuth : Math.atan2(y, x),
+    polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, Math.acos(Math.min(1, Math.max(-1, height))))),
+    azimuth: is_upright ? now.azimuth : Math.atan2(second, first),
+    up: now.up,
   };
 }
 
@@ -90,5 +93,6 @@ function poses_between(a, b, part) {
     distance,
     polar: mix(a.polar, b.polar),
     azimuth: a.azimuth + turn * eased,
+    up: b.up,
   };
 }

@@ -114,7 +114,7 @@ function read_loops(loops) {
 function read_data() {
   const element = document.getElementById("report");
   const report = element ? JSON.parse(element.textContent) : {};
-  const frame = report.frame || {origin: [0, 0, 0], edge: 1};
+  const frame = {...(report.frame || {origin: [0, 0, 0], edge: 1}), up: 2};
   const bytes = take_bytes("positions");
   const count = Math.floor(bytes.length / 8);
   const step = spread_step(count);

@@ -19,11 +19,8 @@ class Details {
       return;
     }
     const {loops} = this.data;
-    const {units} = this;
     const name = loops.is_hole[index] ? "hole" : "outer";
-    const vector = (column, digits) =>
-        [0, 1, 2].map((axis) => format_place(column[3 * index + axis], digits));
-    const place = vector(loops.centroid, this.decimals);
+    const place = this.vector(loops.centroid, index, this.decimals);
     const copy = element("button", {type: "button", id: "copy"}, "Copy place");
     copy.addEventListener("click", () => copy_text(place.join(" ").replace(/−/g, "-"), copy));
     const link = element("button", {type: "button", id: "copy-link", title: "The address of this page at this loop"}, "Copy link");
@@ -32,26 +29,40 @@ class Details {
     fly.addEventListener("click", () => this.actions.fly(index));
     const close = element("button", {type: "button"}, "Deselect");
     close.addEventListener("click", () => this.actions.close());
-    const axes = (values) => element("span", {class: "axes"},
-        ...values.map((value, axis) => element("span", {}, element("i", {}, "xyz"[axis]), value)));
     find("details-heading").replaceChildren(element("i", {class: `swatch ${name}`}), loop_name(loops, index));
     body.replaceChildren(
         mark_fields(this.marks, index),
-        description([
-          ["Area", units.area(loops.area[index], 4)],
-          ["Perimeter", units.length(loops.perimeter[index], 4)],
-          ["Diameter", units.length(loops.diameter[index], 4)],
-          ["Confidence", format_fraction(loops.confidence[index])],
-          ["Found at scales", scales(loops, index, units)],
-          ["Planarity", format_fraction(loops.planarity[index])],
-          ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
-          ["Points", format_count(loops.points[index])],
-          [`Centroid${units.name ? ", " + units.name : ""}`, axes(place), "wide"],
-          ["Normal", axes(vector(loops.normal, 4)), "wide"],
-        ]),
+        this.measures(index),
         element("div", {class: "buttons"}, copy, link, fly, close));
     update_mark_fields(this.marks, index);
   }
+
+  // Texts of three numbers of a loop.
+  vector(column, index, digits) {
+    return [0, 1, 2].map((axis) => format_place(column[3 * index + axis], digits));
+  }
+
+  // Pairs of names and values.
+  measures(index) {
+    const {data: {loops}, units} = this;
+    return description([
+      ["Area", units.area(loops.area[index], 4)],
+      ["Perimeter", units.length(loops.perimeter[index], 4)],
+      ["Diameter", units.length(loops.diameter[index], 4)],
+      ["Confidence", format_fraction(loops.confidence[index])],
+      ["Found at scales", scales(loops, index, units)],
+      ["Planarity", format_fraction(loops.planarity[index])],
+      ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
+      ["Points", format_count(loops.points[index])],
+      [`Centroid${units.name ? ", " + units.name : ""}`, axes(this.vector(loops.centroid, index, this.decimals)), "wide"],
+      ["Normal", axes(this.vector(loops.normal, index, 4)), "wide"],
+    ]);
+  }
+}
+
+function axes(values) {
+  return element("span", {class: "axes"},
+      ...values.map((value, axis) => element("span", {}, element("i", {}, "xyz"[axis]), value)));
 }
 
 // From the first to the last lattice at which the hole is found.

@@ -16,10 +16,16 @@ function expose(page) {
     note: (id) => page.marks.note[data.loops.id.indexOf(id)],
     marks_text: () => page.marks.text(),
     load_marks: (text) => page.marks.load(text),
+    bounds: () => [0, 1, 2].map((axis) => [data.report.bounds.min[axis], data.report.bounds.max[axis]]),
+    measured: () => page.measure.places.map((place) => to_real(data.frame, place)),
+    diameters: () => Array.from(data.loops.diameter),
+    unit: page.units.unit,
+    crs: data.report.crs || null,
+    short_place,
     selected: () => (page.selected < 0 ? null : data.loops.id[page.selected]),
     loop_heights: (id) => {
       const {low, high} = loop_box(data.loops, data.loops.id.indexOf(id));
-      return [low, high].map((place) => to_real(data.frame, place)[2]);
+      return [low, high].map((place) => to_real(data.frame, place)[data.frame.up]);
     },
     theme: (name) => page.set_theme(name),
     colouring: (name) => page.set_colouring(name),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loops are shown: kind, mark, least diameter, least confidence. Sliders and number fields say the same.
+// Which loops are shown: kind, mark, diameter from and to, least confidence. Sliders and number fields say the same.
 
 class LoopFilter {
   // `on_change()` after each change, at most once a picture.
@@ -10,6 +10,7 @@ class LoopFilter {
     this.kind = "all";
     this.mark = "any";
     this.size = 0;        // least diameter, in the scan's unit
+    this.most_size = Infinity;
     this.confidence = 0;
     const sizes = Array.from(loops.diameter).filter((value) => value > 0);
     this.least = sizes.reduce((a, b) => Math.min(a, b), Infinity);
@@ -42,6 +43,12 @@ class LoopFilter {
           : Math.round((1000 * Math.log(this.size / least)) / Math.log((most * 1.02) / least));
       this.changed();
     });
+    const largest = find("size-most");
+    largest.addEventListener("input", () => {
+      const value = typed_number(largest);
+      this.most_size = Number.isNaN(value) ? Infinity : value / this.scale.factor;
+      this.changed();
+    });
     const confidence = find("confidence-slider"), field = find("confidence-number");
     confidence.addEventListener("input", () => {
       this.confidence = Number(confidence.value);
@@ -59,14 +66,26 @@ class LoopFilter {
 
   reset() {
     find("filters").reset();
-    for (const name of ["size-number", "confidence-number"]) typed_number(find(name));
+    for (const name of ["size-number", "size-most", "confidence-number"]) typed_number(find(name));
     this.kind = "all";
     this.mark = "any";
     this.size = this.confidence = 0;
+    this.most_size = Infinity;
     this.changed();
   }
 
-  is_active() { return this.kind !== "all" || this.mark !== "any" || this.size > 0 || this.confidence > 0; }
+  is_active() { return this.kind !== "all" || this.mark !== "any" || this.size > 0 || this.most_size < Infinity || this.confidence > 0; }
+
+  // What it leaves out, in words; nothing if nothing.
+  words(units) {
+    const parts = [];
+    if (this.kind !== "all") parts.push(this.kind === "hole" ? "holes" : "outer curves");
+    if (this.mark !== "any") parts.push(`mark: ${mark_title(this.mark).toLowerCase()}`);
+    if (this.size > 0) parts.push(`diameter at least ${units.length(this.size)}`);
+    if (this.most_size < Infinity) parts.push(`diameter at most ${units.length(this.most_size)}`);
+    if (this.confidence > 0) parts.push(`confidence at least ${format_number(this.confidence, 2)}`);
+    return parts.join(", ");
+  }
 
   passes(i) {
     const {is_hole, diameter, confidence} = this.loops;
@@ -74,6 +93,7 @@ class LoopFilter {
     if (this.kind === "outer" && is_hole[i]) return false;
     if (this.mark !== "any" && this.marks.mark[i] !== this.mark) return false;
     if (this.size > 0 && !(diameter[i] >= this.size)) return false;
+    if (this.most_size < Infinity && !(diameter[i] <= this.most_size)) return false;
     return !(this.confidence > 0) || confidence[i] >= this.confidence;
   }
 

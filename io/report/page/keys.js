@@ -15,8 +15,12 @@ function connect_keys({navigation, press}) {
   const is_typing = (target) => target.matches("input[inputmode=decimal], textarea, select");
   const needs_arrows = (target) => target.matches("input, [role=tab]") || target.closest(".rows, .side");
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || find("help").open) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
     const key = event.key.toLowerCase();
+    if (key === "escape" && event.target.matches("textarea")) {
+      event.target.blur();
+      return;
+    }
     if (is_typing(event.target) && key !== "escape") return;
     if (key in press) {
       press[key]();

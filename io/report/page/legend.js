@@ -40,6 +40,19 @@ function draw_scale(view, units) {
   find("scale-text").textContent = units.length(length, 1);
 }
 
+// Where north is, the y axis of a projected coordinate system.
+function draw_north(camera) {
+  const e = camera.matrixWorldInverse.elements;
+  const [x, y] = [e[4], -e[5]];
+  const length = Math.hypot(x, y);
+  find("north").toggleAttribute("hidden", length < 0.12);  // nearly along the view: its direction says nothing
+  if (length < 0.12) return;
+  const turn = (Math.atan2(x, -y) * 180) / Math.PI;
+  find("north").replaceChildren(
+      drawing("path", {d: "M0 -19 L6 13 L0 8 L-6 13 Z", transform: `rotate(${turn.toFixed(1)})`}),
+      drawing("text", {x: (26 * x / length).toFixed(2), y: (26 * y / length + 3.5).toFixed(2)}, "N"));
+}
+
 function draw_triad(camera) {
   const e = camera.matrixWorldInverse.elements;
   const axes = ["x", "y", "z"].map((name, k) => ({name, x: e[4 * k], y: -e[4 * k + 1], z: e[4 * k + 2]}));

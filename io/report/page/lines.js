@@ -23,7 +23,7 @@ const kLineVertexShader = `
     float side = mod(code, 2.0) > 0.5 ? 1.0 : -1.0;
     vec3 mine = to_view(position), far_end = to_view(other);
     along = more.x;
-    vec2 heights = vec2(position.z, other.z);
+    vec2 heights = vec2(height_of(position), height_of(other));
     if (max(heights.x, heights.y) < section.x || min(heights.x, heights.y) > section.y) return;
     vec2 shown = clamp(heights, section.x, section.y);
     if (shown != heights) {

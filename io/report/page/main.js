@@ -48,7 +48,17 @@ class Page {
     }
     try {
       this.view = new View(find("canvas"), context, this.data, {
-        on_frame: (view) => { draw_scale(view, this.units); draw_triad(view.navigation.camera); },
+        on_frame: (view) => {
+          draw_scale(view, this.units);
+          draw_triad(view.navigation.camera);
+          if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
+          if (this.measure) this.measure.draw();
+        },
+        on_pick: (x, y) => {
+          if (!this.measure.is_on) return false;
+          this.measure.pick(x, y);
+          return true;
+        },
         on_loop: (index) => this.click_loop(index),
         on_hover: (index, x, y) => this.hover(index, x, y),
       });
@@ -70,6 +80,7 @@ class Page {
     connect_tabs();
     window.addEventListener("hashchange", () => this.open_link(true));
     this.connect_view();
+    this.print_pages = new PrintPages(this);
     find("csv").addEventListener("click", () => this.save_csv());
     find("reset").addEventListener("click", () => this.reset());
     const step = (direction) => {
@@ -81,6 +92,7 @@ class Page {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
       f: () => side("fit"), 1: () => side("top"), 2: () => side("front"), 3: () => side("side"),
       c: () => this.next_colouring(), t: () => find("through").click(),
+      m: () => find("measure").click(),
       0: () => this.set_mark(kNoMark), e: () => this.edit_note(),
       ...Object.fromEntries(kMarks.map(({name, key}) => [key, () => this.set_mark(name)])),
     }});
@@ -91,11 +103,25 @@ class Page {
     find("colouring").addEventListener("change", () => this.set_colouring(find("colouring").value));
     connect_settings();
     if (!this.view) return;
+    this.measure = new Measure(this.view, this.units, this.decimals);
+    find("measure").disabled = this.data.points.count === 0;
+    find("picture").addEventListener("click", () => this.view.save_picture((blob) => save_blob(blob, `${this.file_title()}_view.png`)));
     connect_shown(this.view.scenes);
+    find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
+  }
+
+  // 0, 1 or 2: x, y or z points up from now on.
+  turn_up(up) {
+    this.data.frame.up = up;
+    this.former = null;
+    find("north").setAttribute("hidden", "");
+    this.view.turn_up();
+    this.section.turn_up();
+    this.update_chip();
   }
 
   fly_to_side(name) {
@@ -132,15 +158,16 @@ class Page {
     draw_charts(this.data, this.units, this.filter, theme);
   }
 
-  update_colours() {
+  update_colours(theme = this.theme) {
     if (!this.view) return;
-    this.view.scenes.set_theme(this.theme, this.colouring);
+    this.view.scenes.set_theme(theme, this.colouring);
     this.update_legend();
   }
 
   update_legend() {
     const {low, high} = this.view.bounds.box;
-    const heights = [low[2], high[2]].map((z) => to_real(this.data.frame, [0, 0, z])[2]);
+    const {frame} = this.data;
+    const heights = [low[frame.up], high[frame.up]].map((height) => real_height(frame, height));
     draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops,
                 this.section.words());
   }
@@ -174,7 +201,7 @@ class Page {
 
   // ---- Marks
 
-  // Of the row in focus, else of the selected loop.
+  // The loop of the row in focus gets it, else the selected one.
   set_mark(name) {
     const focused = this.table.focused_loop();
     const index = focused >= 0 ? focused : this.selected;
@@ -241,8 +268,12 @@ class Page {
     if (!is_flight && this.view) this.view.navigation.end_flight();
   }
 
-  // Deselects, and goes back to the view and the section before the flight.
+  // Ends a measurement; else deselects, and goes back to the view and the section before the flight.
   escape() {
+    if (this.measure && this.measure.is_on) {
+      this.measure.set(false);
+      return;
+    }
     if (this.former && this.view) {
       this.view.navigation.fly(this.former);
       this.section.close_again();

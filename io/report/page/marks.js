@@ -227,6 +227,7 @@ function match_marks(entries, loops) {
   entries.forEach((entry, at) => {
     if (loop_of[at] >= 0) return;
     for (let i = 0; i < loops.count; ++i) {
+      if (!(Math.abs(loops.centroid[3 * i] - entry.centroid[0]) <= entry.diameter / 2)) continue;  // of most pairs
       const sizes = loops.diameter[i] / entry.diameter;
       if (is_taken[i] || !is_kind(entry, i) || !(sizes <= kMostSizes && sizes >= 1 / kMostSizes)) continue;
       const distance = away(entry, i);

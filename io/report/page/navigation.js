@@ -2,28 +2,37 @@
 // Moves the camera: to poses, in flights, by zoom, and by keys held down.
 
 const kFlightMilliseconds = 700;
+const kHomePolar = 0.95, kHomeAzimuth = -1.05;  // radians: where a page begins
 
 class Navigation {
   // `bounds` of scene_bounds(), `spacing` of sample_spacing().
   constructor(canvas, data, bounds, spacing, frames) {
     Object.assign(this, {canvas, data, bounds, spacing, frames});
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
-    this.camera.up.set(0, 0, 1);
     this.is_reduced = matchMedia("(prefers-reduced-motion: reduce)");
     this.flight = null;
     this.held = new Map();  // key held down: function of seconds
-    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.make_controls();
+  }
+
+  // OrbitControls keep the direction that is up when they are made.
+  make_controls() {
+    const target = this.controls ? this.controls.target : new THREE.Vector3();
+    if (this.controls) this.controls.dispose();
+    this.camera.up.set(...upright(0, 0, 1, this.data.frame.up));
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.target.copy(target);
     this.controls.enableKeys = false;
     this.controls.screenSpacePanning = true;
     this.controls.minDistance = 1e-6;
     this.controls.maxDistance = 40;
-    this.controls.addEventListener("change", () => frames.changed());
+    this.controls.addEventListener("change", () => this.frames.changed());
     this.controls.addEventListener("start", () => { this.flight = null; });
   }
 
   // ---- Poses
 
-  pose() { return pose_of(this.camera, this.controls.target); }
+  pose() { return pose_of(this.camera, this.controls.target, this.data.frame.up); }
 
   set_pose(pose) {
     const direction = pose_direction({...pose, polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, pose.polar))});
@@ -34,7 +43,7 @@ class Navigation {
   }
 
   fit_pose(polar, azimuth) {
-    const pose = pose_of_places(this.bounds.outline, {polar, azimuth}, this.camera.aspect);
+    const pose = pose_of_places(this.bounds.outline, {polar, azimuth, up: this.data.frame.up}, this.camera.aspect);
     return {...pose, distance: pose.distance * 1.12};
   }
 
@@ -47,16 +56,29 @@ class Navigation {
     return this.fit_pose(now.polar, now.azimuth);
   }
 
-  loop_pose(index) {
+  // `now`: the pose that says from which side; that of the camera without one.
+  loop_pose(index, now = this.pose()) {
     const {loops} = this.data;
     const box = loop_box(loops, index);
-    if (!box) return this.pose();  // a loop through strays: it is not drawn
+    if (!box) return now;  // a loop through strays: it is not drawn
     const target = box.low.map((value, axis) => (value + box.high[axis]) / 2);
     const size = Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2;
     const tall = Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.camera.aspect);
     const distance = Math.max((2.1 * size) / tall, 12 * this.spacing);
     const normal = Array.from(loops.normal.subarray(3 * index, 3 * index + 3)).map((v) => (Number.isFinite(v) ? v : 0));
-    return pose_along(normal, target, distance, this.pose());
+    return pose_along(normal, target, distance, now);
+  }
+
+  // How far from the eye of loop_pose() what is shown begins: shortly before the loop, so that no ceiling or wall hides it.
+  loop_front(index, pose) {
+    const {first, vertices} = this.data.loops;
+    const direction = pose_direction(pose);
+    const size = Math.max(loop_radius(vertices, first[index], first[index + 1]), 3 * this.spacing);
+    let before = 0;
+    for (let i = first[index]; i < first[index + 1]; ++i) {
+      before = Math.max(before, direction.reduce((sum, value, k) => sum + value * (vertices[3 * i + k] - pose.target[k]), 0));
+    }
+    return Math.max(0, pose.distance - Math.max(0.9 * size, 1.2 * before));
   }
 
   // ---- Movements
@@ -146,14 +168,14 @@ class Navigation {
 
   target_distance() { return this.camera.position.distanceTo(this.controls.target); }
 
-  // Sets the depths between which all of the scan lies.
-  update_depths() {
+  // Sets the depths between which all of the scan lies; `nearest` is the least of them.
+  update_depths(nearest = 0) {
     const {camera} = this;
     const {middle, radius} = this.bounds;
     const away = camera.position.distanceTo(middle);
     const to_target = this.target_distance();
     camera.far = Math.max(away + radius, to_target) * 1.05;
-    camera.near = Math.max((away - radius) * 0.95, Math.min(to_target * 0.01, camera.far * 0.01), camera.far * 1e-6);
+    camera.near = Math.max(nearest, (away - radius) * 0.95, Math.min(to_target * 0.01, camera.far * 0.01), camera.far * 1e-6);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
   }

@@ -51,7 +51,8 @@ class PointCloud {
           return normalize(n);
         }
         void main() {
-          if (position.z < section.x || position.z > section.y) {
+          float height = height_of(position);
+          if (height < section.x || height > section.y) {
             gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
             return;
           }
@@ -59,7 +60,7 @@ class PointCloud {
           gl_Position = projectionMatrix * vec4(place, 1.0);
           diameter = clamp(size * focal / max(-place.z, 1e-9), 1.6 * pixel_ratio, 48.0 * pixel_ratio);
           gl_PointSize = diameter;
-          float value = colouring < 0.5 ? traits.x : (position.z - low) / max(high - low, 1e-9);
+          float value = colouring < 0.5 ? traits.x : (height - low) / max(high - low, 1e-9);
           colour = texture2D(ramp, vec2((clamp(value, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;
           float darkest = 0.55;
           #ifdef HAS_COLOURS

@@ -8,19 +8,25 @@ const kSliderSteps = 200;  // at least
 // One of the two heights: a slider and a number field that say the same. At its end of the range it hides nothing.
 class HeightLimit {
   // `name` of its controls, "above" or "below"; the range in the scan's unit; `on_change()` when the user has moved it.
-  constructor(name, {low, high, step, decimals}, off, units, on_change) {
-    Object.assign(this, {name, low, high, decimals, off, units});
+  constructor(name, range, off, units, on_change) {
+    Object.assign(this, {name, units});
     this.slider = find(`${name}-slider`);
     this.number = find(`${name}-number`);
     find(`${name}-unit`).textContent = units.name;
-    Object.assign(this.slider, {min: this.text(low), max: this.text(high), step: this.text(step)});
     this.slider.addEventListener("input", () => { this.set(Number(this.slider.value)); on_change(); });
     this.number.addEventListener("input", () => {
       const value = typed_number(this.number);
-      this.set(Number.isNaN(value) ? off : value, true);
+      this.set(Number.isNaN(value) ? this.off : value, true);
       on_change();
     });
     this.number.addEventListener("change", () => this.set(this.value));
+    this.set_range(range, off);
+  }
+
+  // `off`: the end at which it hides nothing. It is there afterwards.
+  set_range({low, high, step, decimals}, off) {
+    Object.assign(this, {low, high, decimals, off});
+    Object.assign(this.slider, {min: this.text(low), max: this.text(high), step: this.text(step)});
     this.set(off);
   }
 
@@ -53,13 +59,29 @@ class HeightLimit {
 class Section {
   // `on_change(low, high)` gives the heights that are shown, in scene coordinates, after each change.
   constructor(data, bounds, units, on_change) {
-    Object.assign(this, {frame: data.frame, on_change});
+    Object.assign(this, {data, bounds, frame: data.frame, on_change});
     this.former = null;  // heights before the flight to a loop that they hid
-    const range = slider_range(...scene_heights(bounds, data).map((z) => to_real(data.frame, [0, 0, z])[2]));
+    const range = this.range();
     const changed = () => { this.former = null; this.changed(); };
     this.above = new HeightLimit("above", range, range.high, units, changed);
     this.below = new HeightLimit("below", range, range.low, units, changed);
-    find("section").disabled = data.points.count + data.loops.count === 0 || range.low === range.high;
+    this.update(range);
+  }
+
+  range() { return slider_range(...scene_heights(this.bounds, this.data).map((height) => real_height(this.frame, height))); }
+
+  update({low, high}) {
+    find("section").disabled = this.data.points.count + this.data.loops.count === 0 || low === high;
+  }
+
+  // After frame.up has changed: all heights are shown.
+  turn_up() {
+    const range = this.range();
+    this.former = null;
+    this.above.set_range(range, range.high);
+    this.below.set_range(range, range.low);
+    this.update(range);
+    this.changed();
   }
 
   is_active() { return this.above.is_active() || this.below.is_active(); }
@@ -73,7 +95,7 @@ class Section {
   // [low, high] in scene coordinates.
   heights() {
     return [this.below, this.above].map(
-        (limit, i) => (limit.is_active() ? to_scene(this.frame, [0, 0, limit.value])[2] : kAllHeights[i]));
+        (limit, i) => (limit.is_active() ? scene_height(this.frame, limit.value) : kAllHeights[i]));
   }
 
   changed() { this.on_change(...this.heights()); }
@@ -92,7 +114,7 @@ class Section {
   // Moves the heights that hide any of the box (scene coordinates, may be null) to where they hide nothing.
   open_for(box) {
     const [low, high] = this.heights();
-    const is_above = Boolean(box) && box.high[2] > high, is_below = Boolean(box) && box.low[2] < low;
+    const is_above = Boolean(box) && box.high[this.frame.up] > high, is_below = Boolean(box) && box.low[this.frame.up] < low;
     if (!is_above && !is_below) return;
     const now = [this.above.value, this.below.value];
     this.former = this.former || now;

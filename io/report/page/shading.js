@@ -13,6 +13,8 @@ const kCameraShader = `
 // Lowest and highest height that is drawn, in scene coordinates.
 const kSectionShader = `
   uniform vec2 section;
+  uniform vec3 up;
+  float height_of(vec3 place) { return dot(place, up); }
 `;
 
 const kDepthShader = `
@@ -34,6 +36,7 @@ function make_camera_uniforms() {
     eye_low: {value: new THREE.Vector3()},
     turn: {value: new THREE.Matrix3()},
     section: {value: new THREE.Vector2(...kAllHeights)},
+    up: {value: new THREE.Vector3(0, 0, 1)},
     near: {value: 0.1},
     far: {value: 10},
     focal: {value: 1000},  // pixels at distance 1

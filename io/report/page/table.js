@@ -227,14 +227,20 @@ class LoopTable {
 
   // Comma-separated values of the rows shown, with the digits of the report: holes.csv has all of them.
   csv() {
-    const {loops} = this;
+    const {loops, marks} = this;
+    const unit = this.units.unit ? ` (${this.units.unit})` : "", square = this.units.unit ? ` (${this.units.unit}^2)` : "";
     const text = (value) => (Number.isFinite(value) ? String(value) : "");
-    const lines = ["id,kind,points,confidence,persistence,first_scale,last_scale,perimeter,area,diameter,planarity,mean_probability,x,y,z,nx,ny,nz"];
+    const quoted = (words) => (/[",\r\n]/.test(words) ? `"${words.replace(/"/g, '""')}"` : words);
+    const place = (value) => (Number.isFinite(value) ? String(short_place(value)) : "");
+    const names = ["points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
+    const units = {first_scale: unit, last_scale: unit, perimeter: unit, area: square, diameter: unit};
+    const lines = [["id", "kind", ...names.map((name) => name + (units[name] || "")), ...["x", "y", "z"].map((name) => name + unit),
+                    "nx", "ny", "nz", "mark", "note"].join(",")];
     for (const i of this.shown) {
-      const numbers = ["points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
-      lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...numbers.map((name) => text(loops[name][i])),
-                  ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), text),
-                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text)].join(","));
+      lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...names.map((name) => text(loops[name][i])),
+                  ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), place),
+                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text),
+                  marks.mark[i] === kNoMark ? "" : marks.mark[i], quoted(marks.note[i])].join(","));
     }
     return lines.join("\n") + "\n";
   }

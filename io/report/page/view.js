@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 3D view: connects canvas, camera, scenes and pointer, and draws a picture when something has changed.
 
+const kPrintRatio = 1.5;  // of pixels in pictures for paper: lines and points as thick as these
+
 class View {
   // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
-  constructor(canvas, context, data, {on_frame, on_loop, on_hover}) {
+  // `on_pick(x, y)` may take a click before the loops: then it returns true.
+  constructor(canvas, context, data, {on_frame, on_loop, on_hover, on_pick}) {
     Object.assign(this, {canvas, data, on_frame});
     this.renderer = new THREE.WebGLRenderer({canvas, context});
     this.renderer.autoClear = false;
@@ -12,21 +15,35 @@ class View {
     this.frames = new Frames(data.points.count, {move: () => this.navigation.move(), draw: (count) => this.draw(count)});
     this.scenes = new Scenes(data, this.spacing, this.uniforms, () => this.frames.request());
     this.bounds = scene_bounds(data);
-    this.scenes.cloud.set_heights(this.bounds.box.low[2], this.bounds.box.high[2]);
     this.navigation = new Navigation(canvas, data, this.bounds, this.spacing, this.frames);
     this.picker = new LoopPicker(this.renderer, this.scenes.pick);
     connect_pointer(canvas, {
       zoom: (factor, x, y) => this.navigation.zoom(factor, x, y),
-      click: (x, y) => on_loop(this.loop_at(x, y)),
+      click: (x, y) => { if (!on_pick(x, y)) on_loop(this.loop_at(x, y)); },
       double_click: (x, y) => this.centre_at(x, y),
       hover: (x, y) => on_hover(this.loop_at(x, y), x, y),
       leave: () => on_hover(-1, 0, 0),
       is_busy: () => Boolean(this.navigation.flight),
     });
+    this.set_heights();
     this.resize();
-    this.navigation.set_pose(this.navigation.fit_pose(0.95, -1.05));
+    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener("webglcontextrestored", () => this.frames.request());
+  }
+
+  set_heights() {
+    const {up} = this.data.frame;
+    this.uniforms.up.value.set(...upright(0, 0, 1, up));
+    this.scenes.cloud.set_heights(this.bounds.box.low[up], this.bounds.box.high[up]);
+  }
+
+  // After frame.up has changed.
+  turn_up() {
+    this.set_heights();
+    this.navigation.flight = null;
+    this.navigation.make_controls();
+    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
   }
 
   // Index of the loop drawn nearest to the place of the window, -1 if none is near.
@@ -36,12 +53,18 @@ class View {
     return this.picker.loop_at(x - box.left, y - box.top, this.navigation.camera, this.target);
   }
 
+  // {place, distance} of the nearest point of the sample under the pointer; null without any.
+  point_at(x, y) {
+    const {navigation} = this;
+    const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
+    return point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
+                       tangent, this.spacing, this.uniforms.section.value, this.data.frame.up);
+  }
+
   // Turns about the nearest point under the pointer from now on.
   centre_at(x, y) {
     const {navigation} = this;
-    const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
-    const found = point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
-                              tangent, this.spacing, this.uniforms.section.value);
+    const found = this.point_at(x, y);
     if (!found) return;
     const pose = navigation.pose();
     navigation.fly({...pose, target: found.place, distance: Math.min(pose.distance, found.distance)});
@@ -56,17 +79,41 @@ class View {
   resize() {
     const {clientWidth, clientHeight} = this.canvas.parentElement;
     const ratio = Math.min(2, window.devicePixelRatio || 1);
-    const size = `${clientWidth} ${clientHeight} ${ratio}`;
-    if (clientWidth === 0 || clientHeight === 0 || size === this.size) return;
+    const size = [clientWidth, clientHeight, ratio];
+    if (clientWidth === 0 || clientHeight === 0 || String(size) === String(this.size)) return;
     this.size = size;
+    this.set_size(...size);
+    if (this.frames.is_begun) this.draw();
+  }
+
+  // `wide` and `tall` in units that look equally large at each `ratio` of pixels.
+  set_size(wide, tall, ratio) {
     this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(clientWidth, clientHeight, false);
-    this.navigation.camera.aspect = clientWidth / clientHeight;
+    this.renderer.setSize(wide, tall, false);
+    this.navigation.camera.aspect = wide / tall;
     const {width, height} = this.canvas;
     if (this.target) this.target.setSize(width, height); else this.make_target(width, height);
     this.uniforms.resolution.value.set(width, height);
     this.uniforms.pixel_ratio.value = ratio;
-    if (this.frames.is_begun) this.draw();
+  }
+
+  // Calls `take` with a function that gives the address of a JPEG picture of this size, in pixels, from a pose. What
+  // lies nearer than its `nearest` is left out. Afterwards the view is as before.
+  take_pictures(width, height, take) {
+    const {navigation} = this;
+    const former = navigation.pose();
+    const ratio = kPrintRatio;
+    this.set_size(width / ratio, height / ratio, ratio);
+    take((pose, nearest, units) => {
+      navigation.set_pose(pose);
+      this.render(this.data.points.count, nearest);
+      const [canvas, pen] = paper(this.canvas.width, this.canvas.height);
+      pen.drawImage(this.canvas, 0, 0);
+      draw_bar(pen, canvas.width, canvas.height, this.data.frame.edge * pose.distance / this.uniforms.focal.value, units);
+      return canvas.toDataURL("image/jpeg", 0.88);
+    });
+    if (this.size) this.set_size(...this.size);
+    navigation.set_pose(former);
   }
 
   // Points are drawn to it first: their depths hide lines, and shade edges.
@@ -84,11 +131,22 @@ class View {
   draw(count = this.data.points.count) {
     if (!this.target) return;
     this.frames.is_begun = true;
+    this.render(count, 0);
+    this.on_frame(this);
+  }
+
+  // Without what lies nearer than `nearest`.
+  render(count, nearest) {
     const {camera} = this.navigation;
-    this.navigation.update_depths();
+    this.navigation.update_depths(nearest);
     update_camera_uniforms(this.uniforms, camera, this.canvas.height);
     this.scenes.draw(this.renderer, this.target, camera, count, this.navigation.target_distance());
-    this.on_frame(this);
+  }
+
+  // The picture as a PNG file, for `take(blob)`.
+  save_picture(take) {
+    this.draw();
+    this.canvas.toBlob(take, "image/png");
   }
 
   // The picture as {width, height, pixels}: rows from the bottom, 4 bytes a pixel.

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report on paper: a summary, then a page for each hole that the filters show, the largest first.
+//
+// The pages are made when printing begins, and go when it ends. Pictures are JPEG: a PDF takes them as they are.
+
+const kMostPages = 100;            // of holes, unless the reader chooses another number
+const kSummaryRows = 12;
+const kPrintWidth = 1200, kPrintHeight = 690;  // pixels of a picture
+
+class PrintPages {
+  // `page`: the parts of the page and its state.
+  constructor(page) {
+    this.page = page;
+    this.place = find("print");
+    window.addEventListener("beforeprint", () => { if (!this.is_filled) this.fill(); });
+    window.addEventListener("afterprint", () => this.clear());
+    find("print-open").addEventListener("click", () => this.open());
+    find("print-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (this.most() === null) return;
+      find("print-dialog").close();
+      this.print();
+    });
+    find("print-cancel").addEventListener("click", () => find("print-dialog").close());
+    find("print-most").addEventListener("input", () => this.most());
+  }
+
+  open() {
+    const count = this.loops().length;
+    find("print-count").textContent = `${plural(count, this.name(1), this.name(2))} ${count === 1 ? "passes" : "pass"} the filters. Each has a page of its own, the largest first.`;
+    find("print-dialog").showModal();
+  }
+
+  // Pages of holes at most; null where the field has no whole number, which marks it.
+  most() {
+    const field = find("print-most"), value = typed_number(field);
+    const is_right = Number.isInteger(value) && value >= 0;
+    field.setAttribute("aria-invalid", String(!is_right));
+    field.title = is_right ? "" : "A whole number from 0 is needed";
+    return is_right ? value : null;
+  }
+
+  // With the pages ready before: other browsers than Chromium do not wait for their pictures.
+  async print() {
+    this.fill();
+    await Promise.all(Array.from(this.place.querySelectorAll("img"), (image) => image.decode().catch(() => null)));
+    window.print();
+  }
+
+  clear() {
+    this.place.replaceChildren();
+    this.is_filled = false;
+  }
+
+  // Outer curves have pages where the filter shows them alone.
+  name(count) {
+    const is_outer = this.page.filter.kind === "outer";
+    return count === 1 ? (is_outer ? "outer curve" : "hole") : is_outer ? "outer curves" : "holes";
+  }
+
+  // Indices of what has pages, the largest first.
+  loops() {
+    const {loops} = this.page.data;
+    const wanted = this.page.filter.kind === "outer" ? 0 : 1;
+    const size = (i) => (loops.area[i] >= 0 ? loops.area[i] : -1);
+    return this.page.table.shown.filter((i) => loops.is_hole[i] === wanted).sort((a, b) => size(b) - size(a) || a - b);
+  }
+
+  fill() {
+    const all = this.loops();
+    const most = this.most();
+    const shown = all.slice(0, most === null ? kMostPages : most);
+    const root = document.documentElement, {theme} = this.page;
+    root.dataset.theme = "light";  // of the pictures, too
+    root.classList.add("on-paper");
+    this.page.update_colours("light");
+    const pictures = this.pictures(shown);
+    const plan = new Plan(this.page.data, this.page.section ? this.page.section.heights() : kAllHeights);
+    root.classList.remove("on-paper");
+    root.dataset.theme = theme;
+    this.page.update_colours(theme);
+    this.place.replaceChildren(this.summary(all, shown, pictures, plan),
+                               ...shown.map((index, at) => this.loop_page(index, at, shown.length, pictures, plan)));
+    this.is_filled = true;
+  }
+
+  // {summary, of: by index}: addresses of pictures; null where there is none.
+  pictures(shown) {
+    const {data, view, units} = this.page;
+    const made = {summary: null, of: new Map()};
+    if (!view) {
+      for (const index of shown) made.of.set(index, painted_loop(data, index, kPrintWidth, kPrintHeight, units));
+      return made;
+    }
+    const selected = view.scenes.selected;
+    view.take_pictures(kPrintWidth, kPrintHeight, (picture) => {
+      const {navigation} = view;
+      view.scenes.set_selected(-1);
+      made.summary = picture(navigation.fit_pose(kHomePolar, kHomeAzimuth), 0, units);
+      view.set_section(...kAllHeights);
+      for (const index of shown) {
+        if (!loop_box(data.loops, index)) continue;
+        view.scenes.set_selected(index);
+        const pose = navigation.loop_pose(index, navigation.fit_pose(kHomePolar, kHomeAzimuth));
+        made.of.set(index, picture(pose, navigation.loop_front(index, pose), units));
+      }
+    });
+    view.scenes.set_selected(selected);
+    view.set_section(...this.page.section.heights());
+    return made;
+  }
+
+  // ---- Pages
+
+  head(title, right) {
+    return element("header", {class: "print-head"}, element("h2", {}, title), element("span", {}, right));
+  }
+
+  summary(all, shown, pictures, plan) {
+    const {data, units, filter, marks} = this.page;
+    const {report, loops} = data;
+    const counts = report.counts || {};
+    const sum = all.reduce((area, i) => area + (loops.area[i] || 0), 0);
+    const pages = shown.length === all.length
+        ? `The pages that follow show ${all.length === 0 ? "none" : "all"} of them.`
+        : `The pages that follow show the ${format_count(shown.length)} largest of them.`;
+    const words = filter.words(units);
+    const rows = [["Points", format_count(counts.points)], ["Holes", format_count(counts.holes)],
+                  ["Outer curves", format_count(counts.outer)],
+                  [`Area of the ${this.name(2)} here`, units.area(sum, 4)]];
+    if (report.bounds) {
+      const {min, max} = report.bounds;
+      rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × ")]);
+    }
+    const origin = [["Unit", units.name || "not stated"], ["CRS", report.crs ? crs_name(report.crs) : "not stated"],
+                    ["Method", report.method || kMissing]];
+    const marked = kMarks.map(({name, title}) => [element("span", {}, mark_sign(name), title),
+                                                  format_count(all.filter((i) => marks.mark[i] === name).length)]);
+    return element("section", {class: "print-page print-summary"},
+        this.head(report.title || "Scan", `Lacuna report, ${new Date().toISOString().slice(0, 10)}`),
+        pictures.summary ? element("img", {src: pictures.summary, class: "print-picture", alt: ""}) : plan.figure(-1),
+        element("p", {class: "print-words"},
+                `${plural(all.length, this.name(1), this.name(2))} ${all.length === 1 ? "passes" : "pass"} the filters` +
+                `${words ? ` (${words})` : ""}. ${pages}`),
+        element("div", {class: "print-columns"}, description(rows), description([...marked, ...origin])),
+        shown.length > 0 ? this.summary_table(shown) : "");
+  }
+
+  summary_table(shown) {
+    const {data: {loops}, units, table, marks} = this.page;
+    const names = ["Id", "Area", "Diameter", "Confidence", "Mark", `Place x, y, z${units.name ? `, ${units.name}` : ""}`];
+    const rows = shown.slice(0, kSummaryRows).map((i) => element("tr", {},
+        ...[String(loops.id[i]), units.area(loops.area[i]), units.length(loops.diameter[i]), format_fraction(loops.confidence[i]),
+            marks.mark[i] === kNoMark ? "" : mark_title(marks.mark[i]), table.place(i).join("  ")].map((text) => element("td", {}, text))));
+    return element("table", {class: "print-table"},
+                   element("caption", {}, shown.length > kSummaryRows ? `The ${kSummaryRows} largest` : "By size"),
+                   element("thead", {}, element("tr", {}, ...names.map((name) => element("th", {scope: "col"}, name)))),
+                   element("tbody", {}, ...rows));
+  }
+
+  loop_page(index, at, count, pictures, plan) {
+    const {data, marks, details} = this.page;
+    const {loops} = data;
+    const picture = pictures.of.get(index);
+    const name = marks.mark[index];
+    return element("section", {class: "print-page"},
+        this.head(loop_name(loops, index), `${at + 1} of ${format_count(count)} · ${data.report.title || "Scan"}`),
+        picture ? element("img", {src: picture, class: "print-picture", alt: ""})
+                : element("p", {class: "print-words"}, "Not drawn: it passes through points far from all others."),
+        element("div", {class: "print-columns"}, plan.figure(index), details.measures(index)),
+        element("div", {class: "print-note"},
+                element("p", {}, element("span", {class: "quiet"}, "Mark "),
+                        name === kNoMark ? "none" : element("span", {}, mark_sign(name), mark_title(name))),
+                element("p", {class: "print-note-text"}, element("span", {class: "quiet"}, "Note "), marks.note[index])));
+  }
+}
