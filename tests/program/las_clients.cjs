@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens OUT/points.las of a run with copc.js. Compares it with the LAS or LAZ inputs, read by copc.js too, and with the
-// run's other results.
-//     node las_clients.cjs FOLDER_OF_COPC OUT INPUT...
+// Opens OUT/points.las or points.laz of a run with copc.js, which decompresses by laz-perf. Compares it with the LAS or LAZ
+// inputs, read by copc.js too, and with the run's other results.
+//     node las_clients.cjs FOLDER_OF_COPC OUT las|laz INPUT...
 "use strict";
 const assert = require("node:assert/strict");
 const fs = require("node:fs");
 const path = require("node:path");
 
-const [folder, out, ...inputs] = process.argv.slice(2);
+const [folder, out, extension, ...inputs] = process.argv.slice(2);
 const { Las } = require(path.join(folder, "node_modules", "copc"));
 
 const RESULTS = [["probability", "float", 4], ["angle", "float", 4], ["halfdisc", "float", 4], ["shape", "float", 4],
@@ -24,8 +24,9 @@ async function open(file) {
   const extra = described ? Las.ExtraBytes.parse(described.data) : [];
   extra.forEach((one, i) => { one.description = description(described.data, i); });
   const start = header.pointDataOffset, length = header.pointCount * header.pointDataRecordLength;
-  const points = bytes[104] & 0x80 ? await Las.PointData.decompressFile(bytes) : bytes.subarray(start, start + length);
-  return { bytes, header, records, extra, count: header.pointCount, view: Las.View.create(points, header, extra) };
+  const isCompressed = (bytes[104] & 0x80) !== 0;
+  const points = isCompressed ? await Las.PointData.decompressFile(bytes) : bytes.subarray(start, start + length);
+  return { bytes, header, records, extra, isCompressed, count: header.pointCount, view: Las.View.create(points, header, extra) };
 }
 
 // Reads a little-endian PLY file with one element.
@@ -62,11 +63,17 @@ function checkHeader(las, sources) {
     const textBit = format >= 6 ? 16 : 0;
     assert.equal(header.globalEncoding, (first.globalEncoding & ~16) | textBit);
   }
-  // Behind the points and the records there is nothing.
+  // Behind the points and the records there is nothing. A chunk table, behind compressed points, has its number of chunks in it.
   const last = las.records.filter((record) => record.isExtended).at(-1);
-  const end = header.pointDataOffset + count * header.pointDataRecordLength;
-  assert.equal(bytes.length, last ? last.contentOffset + last.contentLength : end);
-  if (last) assert.equal(header.evlrOffset, end);
+  if (last) assert.equal(bytes.length, last.contentOffset + last.contentLength);
+  if (las.isCompressed) {
+    const table = Number(bytes.readBigInt64LE(header.pointDataOffset));
+    assert(table > header.pointDataOffset && table + 8 < (last ? header.evlrOffset : bytes.length));
+    assert.deepEqual([bytes.readUInt32LE(table), bytes.readUInt32LE(table + 4)], [0, Math.ceil(count / 50_000)]);
+  } else {
+    const end = header.pointDataOffset + count * header.pointDataRecordLength;
+    assert.equal(last ? header.evlrOffset : bytes.length, end);
+  }
 
   const returns = Array(16).fill(0), number = view.getter("ReturnNumber");
   for (let i = 0; i < count; ++i) ++returns[number(i)];
@@ -153,7 +160,10 @@ function checkResults({ view, count }, name) {
 }
 
 (async () => {
-  const las = await open(path.join(out, "points.las"));
+  const found = ["points.las", "points.laz"].filter((name) => fs.existsSync(path.join(out, name)));
+  assert.deepEqual(found, [`points.${extension}`]);
+  const las = await open(path.join(out, found[0]));
+  assert.equal(las.isCompressed, extension === "laz");
   const sources = await Promise.all(inputs.map(open));
   checkHeader(las, sources);
   checkRecords(las, sources[0]);
