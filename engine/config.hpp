@@ -138,6 +138,7 @@ struct OutputConfig {
   bool vtp = false;                      // for VTK and ParaView
   bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
   bool shp = false;                      // Shapefile
+  bool lids = false;                     // triangulated lids of the holes
   bool polygons = false;                 // files for GIS have the loops as polygons, too
   double coverage = 0;                   // write coverage.tif with cells of this edge; 0: off
   bool no_coordinates = false;           // loops of holes.json have ids alone

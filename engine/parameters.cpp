@@ -181,6 +181,9 @@ std::vector<Parameter> parameters(Config& config) {
        "Write loops.geojson too: the loops as GeoJSON, for GIS and the web.", kNothing},
       {"output", "shp", &output.shp, 0, 1, "true or false",
        "Write loops.shp too, with its .shx, .dbf and .prj: the loops as a Shapefile.", kNothing},
+      {"output", "lids", &output.lids, 0, 1, "true or false",
+       "Write lids.obj, lids.ply and lids.csv too: a triangulated lid for each hole, a preview of filling.",
+       kNothing},
       {"output", "polygons", &output.polygons, 0, 1, "true or false",
        "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
        "others.",

@@ -12,14 +12,12 @@ namespace lacuna::io {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
-PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset)
-    : out_(out), offset_(offset) {
+PlyWriter::PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset,
+                     std::uint64_t list_bytes)
+    : out_(out), offset_(offset), missing_bytes_(list_bytes) {
   const PlyHeader header{
       .format = PlyFormat::kLittleEndian, .elements = std::move(elements), .offset = offset};
-  for (const PlyElement& element : header.elements) {
-    assert(!element.has_lists());
-    missing_bytes_ += element.count * element.layout().stride;
-  }
+  for (const PlyElement& element : header.elements) missing_bytes_ += element.count * element.layout().stride;
   out_.write(print_ply_header(header, "lacuna detect"));
 }
 

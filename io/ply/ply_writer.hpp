@@ -19,9 +19,10 @@ inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1
 
 class PlyWriter {
  public:
-  // Writes the header. The elements have no lists; their counts are final. Coordinates are relative to the
-  // offset, if there is one.
-  PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset = {});
+  // Writes the header. The counts of the elements are final. Coordinates are relative to the offset, if there
+  // is one. `list_bytes`: of all lists with the numbers before them, which are put like other values.
+  PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset = {},
+            std::uint64_t list_bytes = 0);
 
   // Values must follow in the order and with the types of the header.
   template <class T>

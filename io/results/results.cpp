@@ -8,6 +8,7 @@
 #include "io/report/report.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
+#include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/loops_dxf.hpp"
 #include "io/results/loops_obj.hpp"
@@ -41,6 +42,15 @@ bool always(C) {
 template <PointsFormat format>
 bool has_points(C config) {
   return config.output.points && config.output.points_format == format;
+}
+
+bool has_lids(C config) {
+  return config.output.lids;
+}
+
+// The complete lids.obj of the same run.
+std::filesystem::path lids_obj(const OutputFile& out) {
+  return out.place().parent_path() / "lids.obj";
 }
 
 // The parts of a Shapefile that GDAL makes together with its .shp.
@@ -96,6 +106,12 @@ const std::vector<ResultFile>& all_results() {
       shapefile_part("loops.dbf"),
       shapefile_part("loops.prj"),  // with a crs
       shapefile_part("loops.cpg"),
+      {"lids.obj", kLidsObjMark, [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
+      {"lids.ply", kPlyMark,
+       [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); }, has_lids,
+       Writer::kThis, true},
+      {"lids.csv", kLidsHeader, [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); },
+       has_lids, Writer::kThis, true},
       {"coverage.tif", coverage_mark(), write_coverage, [](C c) { return c.output.coverage > 0; },
        Writer::kLibrary},
       {"report.html", kReportMark,

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/lids/make_lid.hpp"
+
+#include "io/lids/fair.hpp"
+#include "io/lids/refine.hpp"
+#include "io/lids/relax_edges.hpp"
+#include "io/lids/self_intersections.hpp"
+#include "io/lids/triangulate_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace lacuna::io {
+namespace {
+
+Lid without_lid(std::string reason) {
+  return {.mesh = {}, .area = 0, .left_out = std::move(reason)};
+}
+
+// A loop as it is triangulated. It begins where its shape says, so that ids do not change the lid. Its
+// coordinates are at most 1: squares of lengths neither overflow nor lose digits.
+struct Normalised {
+  std::size_t start = 0;   // the point of the loop that is the first one here: the farthest from the middle
+  Eigen::Vector3d middle;  // of the points
+  double scale = 1;        // a power of 2
+  std::vector<Eigen::Vector3d> points, surface;
+};
+
+Normalised normalised(const Loop& loop) {
+  const std::size_t n = loop.size();
+  Normalised made;
+  made.middle.setZero();
+  for (const LoopPoint& point : loop)
+    made.middle += (point.position - loop[0].position) / static_cast<double>(n);
+  made.middle += loop[0].position;
+  double extent = 0;
+  for (const LoopPoint& point : loop)
+    extent = std::max(extent, (point.position - made.middle).cwiseAbs().maxCoeff());
+  made.scale = std::ldexp(1.0, std::ilogb(std::max(extent, std::numeric_limits<double>::min())) + 1);
+  const auto place = [&](std::size_t i) {
+    return Eigen::Vector3d((loop[i].position - made.middle) / made.scale);
+  };
+  double farthest = -1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double distance = place(i).squaredNorm();
+    if (distance > farthest) {
+      farthest = distance;
+      made.start = i;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = (made.start + i) % n;
+    made.points.push_back(place(at));
+    made.surface.push_back(loop[at].surface.cast<double>());
+  }
+  return made;
+}
+
+// Back in the place and the order of the loop, whose points keep all digits.
+Lid placed(LidMesh mesh, const Normalised& normalised, const Loop& loop) {
+  const std::size_t n = loop.size();
+  Lid lid{.mesh = std::move(mesh), .area = 0, .left_out = {}};
+  lid.area = area(lid.mesh) * normalised.scale * normalised.scale;
+  for (std::size_t i = 0; i < lid.mesh.vertices.size(); ++i) {
+    Eigen::Vector3d& vertex = lid.mesh.vertices[i];
+    vertex = i < n ? loop[i].position : Eigen::Vector3d(vertex * normalised.scale + normalised.middle);
+  }
+  for (LidTriangle& triangle : lid.mesh.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      if (corner < n) corner = static_cast<std::uint32_t>((corner + normalised.start) % n);
+    }
+  }
+  return lid;
+}
+
+}  // namespace
+
+std::string left_out(std::uint64_t points) {
+  if (points < 3) return "fewer than 3 points";
+  if (points > kMostLoopPoints) return "more than " + std::to_string(kMostLoopPoints) + " points";
+  return {};
+}
+
+Lid make_lid(const Loop& loop) {
+  if (std::string reason = left_out(loop.size()); !reason.empty()) return without_lid(std::move(reason));
+  const Normalised shape = normalised(loop);
+  LidMesh unfaired = triangulate_polygon(shape.points);
+  constexpr double kNoArea = 1e-12;
+  if (!(area(unfaired) > kNoArea)) return without_lid("all points in one line");
+  relax_edges(unfaired);
+  refine(unfaired);
+
+  LidMesh lid = unfaired;
+  const Fairing fairing = fair(lid, shape.surface);
+  if (!has_intersections(lid)) return placed(std::move(lid), shape, loop);
+  if (fairing == Fairing::kThinPlate) {
+    lid = unfaired;
+    fair_membrane(lid);
+    if (!has_intersections(lid)) return placed(std::move(lid), shape, loop);
+  }
+  if (has_intersections(unfaired)) {
+    return without_lid(crosses_itself(shape.points) ? "the loop crosses itself, and its lid does"
+                                                    : "the lid passes through itself");
+  }
+  return placed(std::move(unfaired), shape, loop);
+}
+
+}  // namespace lacuna::io

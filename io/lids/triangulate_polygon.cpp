@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/lids/triangulate_polygon.hpp"
+
+#include <cassert>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace lacuna::io {
+namespace {
+
+using Polygon = std::vector<std::uint32_t>;  // indices of points, in the order of the loop
+using Points = std::span<const Eigen::Vector3d>;
+
+double area_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+// The apex of the best triangle on each diagonal, as indices into the polygon.
+class LeastArea {
+ public:
+  LeastArea(Points points, const Polygon& polygon)
+      : size_(polygon.size()), least_(size_ * size_, 0.0), apex_(size_ * size_, 0) {
+    for (std::size_t width = 2; width < size_; ++width) {
+      for (std::size_t first = 0; first + width < size_; ++first) {
+        const std::size_t last = first + width;
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t best = first + 1;
+        for (std::size_t k = first + 1; k < last; ++k) {
+          const double sum = least_[at(first, k)] + least_[at(k, last)] +
+                             area_of(points[polygon[first]], points[polygon[k]], points[polygon[last]]);
+          if (sum < least) {
+            least = sum;
+            best = k;
+          }
+        }
+        least_[at(first, last)] = least;
+        apex_[at(first, last)] = static_cast<std::uint16_t>(best);
+      }
+    }
+  }
+
+  // visit(first, apex, last) for each triangle.
+  template <class Visit>
+  void for_each_triangle(Visit&& visit) const {
+    std::vector<std::pair<std::size_t, std::size_t>> diagonals = {{0, size_ - 1}};
+    while (!diagonals.empty()) {
+      const auto [first, last] = diagonals.back();
+      diagonals.pop_back();
+      if (last - first < 2) continue;
+      const std::size_t apex = apex_[at(first, last)];
+      visit(first, apex, last);
+      diagonals.emplace_back(apex, last);
+      diagonals.emplace_back(first, apex);
+    }
+  }
+
+ private:
+  std::size_t at(std::size_t first, std::size_t last) const { return first * size_ + last; }
+
+  std::size_t size_;
+  std::vector<double> least_;
+  std::vector<std::uint16_t> apex_;
+};
+
+// The polygon with kMostAtOnce of its vertices, as indices into it: those that turn most.
+// Visvalingam, Whyatt, *Line generalisation by repeated elimination of points*, Cartographic Journal 1993.
+std::vector<std::size_t> simplify(Points points, const Polygon& polygon) {
+  const std::size_t n = polygon.size();
+  std::vector<std::size_t> before(n), after(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    before[i] = (i + n - 1) % n;
+    after[i] = (i + 1) % n;
+  }
+  const auto triangle = [&](std::size_t i) {
+    return area_of(points[polygon[before[i]]], points[polygon[i]], points[polygon[after[i]]]);
+  };
+  using Entry = std::tuple<double, std::size_t, std::uint32_t>;  // area, vertex, version
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> smallest;
+  std::vector<std::uint32_t> version(n, 0);
+  std::vector<char> is_left(n, 1);
+  for (std::size_t i = 0; i < n; ++i) smallest.emplace(triangle(i), i, 0);
+  for (std::size_t left = n; left > kMostAtOnce;) {
+    const auto [area, i, entered] = smallest.top();
+    smallest.pop();
+    if (!is_left[i] || entered != version[i]) continue;
+    is_left[i] = 0;
+    --left;
+    after[before[i]] = after[i];
+    before[after[i]] = before[i];
+    for (const std::size_t neighbour : {before[i], after[i]})
+      smallest.emplace(triangle(neighbour), neighbour, ++version[neighbour]);
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_left[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
+// The vertices of the polygon from one to another, the last one left out.
+void append_part(Polygon& part, const Polygon& polygon, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i != to; i = (i + 1) % polygon.size()) part.push_back(polygon[i]);
+}
+
+}  // namespace
+
+LidMesh triangulate_polygon(Points loop) {
+  assert(loop.size() >= 3);
+  LidMesh mesh{.vertices = {loop.begin(), loop.end()}, .loop_points = loop.size(), .triangles = {}};
+  std::vector<Polygon> polygons(1);
+  for (std::uint32_t i = 0; i < loop.size(); ++i) polygons[0].push_back(i);
+  while (!polygons.empty()) {
+    const Polygon polygon = std::move(polygons.back());
+    polygons.pop_back();
+    if (polygon.size() <= kMostAtOnce) {
+      LeastArea(loop, polygon).for_each_triangle([&](std::size_t first, std::size_t apex, std::size_t last) {
+        mesh.triangles.push_back({polygon[first], polygon[apex], polygon[last]});
+      });
+      continue;
+    }
+    const std::vector<std::size_t> kept = simplify(loop, polygon);
+    Polygon coarse;
+    for (const std::size_t i : kept) coarse.push_back(polygon[i]);
+    // Corners that follow each other are the ends of a part of the loop; others of a diagonal.
+    const auto append = [&](Polygon& part, std::size_t from, std::size_t to) {
+      if ((from + 1) % kept.size() == to) return append_part(part, polygon, kept[from], kept[to]);
+      part.push_back(coarse[from]);
+    };
+    LeastArea(loop, coarse).for_each_triangle([&](std::size_t first, std::size_t apex, std::size_t last) {
+      Polygon part;
+      append(part, first, apex);
+      append(part, apex, last);
+      append(part, last, first);
+      polygons.push_back(std::move(part));
+    });
+  }
+  return mesh;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// triangulate_polygon: the triangles of least area between the points of a loop.
+// Barequet, Sharir, *Filling gaps in the boundary of a polyhedron*, CAGD 1995.
+#pragma once
+
+#include "io/lids/lid_mesh.hpp"
+
+#include <span>
+
+namespace lacuna::io {
+
+// Loops of more points are triangulated in parts.
+inline constexpr std::size_t kMostAtOnce = 200;
+
+// n - 2 triangles without new vertices, whose areas have the least sum, by dynamic programming over the
+// diagonals. The area of a plane polygon is exactly that sum. Among sums that rounding could exchange, any
+// one is chosen.
+//
+// Differs from the paper: of a loop of more than kMostAtOnce points, the vertex with the smallest triangle
+// between its neighbours is left out, again and again, until so many are left. Their triangulation is the
+// least one. In it, each triangle with edges that stand for parts of the loop is replaced by a triangulation
+// of the polygon of these parts. The sum is then near the least one.
+//
+// Precondition: three points or more. Cost: O(n min(n, kMostAtOnce)^2) time, 200 kB and O(n) memory.
+LidMesh triangulate_polygon(std::span<const Eigen::Vector3d> loop);
+
+}  // namespace lacuna::io

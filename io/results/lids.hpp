@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lids of holes, as meshes and as a table. io/lids/make_lid.hpp says what they are.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/model/detection.hpp"
+#include "io/file_scan.hpp"
+#include "io/results/output_file.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace lacuna::io {
+
+// How lids.obj and lids.csv begin: earlier ones are recognised by it.
+inline constexpr std::string_view kLidsObjMark = "# lacuna detect, lids\n";
+inline constexpr std::string_view kLidsHeader = "loop,triangles,lid_area,reason";
+
+// lids.obj: of each hole, in order, its object "hole_12" (the id), vertices with all digits and triangles.
+// Comments have the numbers of both and the area. Of a hole without a lid there is one comment, with the
+// reason. Outer curves have no lids. The threads make several lids at once: kLidBytes for each, within a
+// quarter of the memory limit if one fits. Throws `Error`.
+void write_lids_obj(const Detection& detection, OutputFile& out);
+
+// Both are made of the complete lids.obj, which they stream. Throw `Error`.
+//
+// lids.ply: element vertex with x y z in the coordinates of loops.ply; element face with list vertex_indices
+// and loop, the id of the hole.
+void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const FileScan& scan,
+                    const OutputConfig& config, OutputFile& out);
+// lids.csv: a line for each hole. lid_area is empty where it has no lid, and reason where it has one.
+void write_lids_table(const std::filesystem::path& lids_obj, OutputFile& out);
+
+}  // namespace lacuna::io

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/parallel.hpp"
+#include "io/lids/make_lid.hpp"
+#include "io/results/digits.hpp"
+#include "io/results/lids.hpp"
+#include "io/results/lids_reader.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace lacuna::io {
+namespace {
+
+Lid lid_of(const Detection& detection, std::size_t id, const Loop& loop) {
+  const std::string reason = left_out(detection.loops[id].points);
+  return reason.empty() ? make_lid(loop) : Lid{.mesh = {}, .area = 0, .left_out = reason};
+}
+
+// A loop that is too long may be larger than memory: none of it is read.
+Loop read_fitting(const Detection& detection, std::size_t id) {
+  return left_out(detection.loops[id].points).empty() ? detection.read_loop(id).points : Loop();
+}
+
+std::string head_of(std::size_t id, const Lid& lid) {
+  std::string text = "\n# " + std::string(kLidVertices) + " " + std::to_string(lid.mesh.vertices.size()) +
+                     "\n# " + std::string(kLidTriangles) + " " + std::to_string(lid.mesh.triangles.size()) +
+                     "\n# " + std::string(kLidArea) + " ";
+  append_shortest(text, lid.area);
+  return text + "\no hole_" + std::to_string(id) + "\n";
+}
+
+void write_lid(std::size_t id, const Lid& lid, std::uint64_t first, OutputFile& out) {
+  if (!lid.left_out.empty()) {
+    out.write("\n# hole_" + std::to_string(id) + std::string(kNoLid) + lid.left_out + "\n");
+    return;
+  }
+  out.write(head_of(id, lid));
+  std::string line;
+  for (const Eigen::Vector3d& vertex : lid.mesh.vertices) {
+    line = "v";
+    for (const double component : vertex) append_plain(line += " ", component);
+    out.write(line += "\n");
+  }
+  for (const LidTriangle& triangle : lid.mesh.triangles) {
+    line = "f";
+    for (const std::uint32_t corner : triangle) line += " " + std::to_string(first + corner);
+    out.write(line += "\n");
+  }
+}
+
+// Lids that are made before they are written. As many as threads or more are at work at once, fewer alone
+// where memory is short.
+std::size_t batch_size(std::uint64_t memory_limit) {
+  const std::size_t threads = threads_here();
+  const std::size_t fitting = std::max<std::uint64_t>(1, memory_limit / 4 / kLidBytes);
+  constexpr std::size_t kRounds = 4;  // so that one large lid does not keep the other threads idle
+  return fitting < threads ? fitting : kRounds * threads;
+}
+
+}  // namespace
+
+void write_lids_obj(const Detection& detection, OutputFile& out) {
+  std::vector<std::size_t> holes;
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+    if (detection.loops[id].kind == LoopKind::kHole) holes.push_back(id);
+  }
+  out.write(kLidsObjMark);
+  const std::size_t batch = batch_size(detection.summary.memory_limit);
+  std::uint64_t next = 1;  // vertices count from 1, over all objects
+  for (std::size_t begin = 0; begin < holes.size(); begin += batch) {
+    const std::size_t count = std::min(batch, holes.size() - begin);
+    std::vector<Loop> loops;
+    for (std::size_t i = 0; i < count; ++i) loops.push_back(read_fitting(detection, holes[begin + i]));
+    std::vector<Lid> lids(count);
+    for_each_here(count, [&](std::size_t i) { lids[i] = lid_of(detection, holes[begin + i], loops[i]); });
+    for (std::size_t i = 0; i < count; ++i) {
+      write_lid(holes[begin + i], lids[i], next, out);
+      next += lids[i].mesh.vertices.size();
+    }
+  }
+}
+
+}  // namespace lacuna::io
