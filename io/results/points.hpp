@@ -39,7 +39,7 @@ void write_points_ply(const Detection& detection, const FileScan& scan, const Ou
 // left out.
 void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out);
-// The same file as LAZ, with the same records. Point formats 0 to 3 and 6 to 8.
+// As write_points_las(), and compressed: point formats 0 to 3 and 6 to 8.
 void write_points_laz(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out);
 FileMark points_las_mark();  // of both

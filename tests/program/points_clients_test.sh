@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Whether other programs open the annotated scan: CloudCompare the PLY and the text, PCL the PCD, and CloudCompare, pdal or
-# lasinfo the LAS. 77: none of them is there.
+# lasinfo the LAS, and pdal the LAZ. 77: none of them is there.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 work=$(mktemp -d)
@@ -11,7 +11,7 @@ tried=0
 has() { command -v "$1" >/dev/null; }
 
 "$program" synth surface torus.ply --kind torus --points 20000 --holes 3 >/dev/null
-for format in ply las pcd csv; do
+for format in ply las laz pcd csv; do
   "$program" detect torus.ply --out "$format" --points --points-format "$format" --quiet
 done
 points=$(grep -a -m1 '^element vertex' ply/points.ply | cut -d' ' -f3)
@@ -28,7 +28,7 @@ if has CloudCompare && has xvfb-run; then
   cloudcompare ply/points.ply "$work/ply.asc"
   [[ $(head -1 ply.asc) == "//X Y Z probability angle halfdisc shape boundary coherent loop"* ]]
   cloudcompare csv/points.csv "$work/csv.asc"
-  for format in las pcd; do  # only builds with these plugins open them; Debian's has neither
+  for format in las laz pcd; do  # only builds with these plugins open them; Debian's has neither
     QT_QPA_PLATFORM=offscreen timeout 300 xvfb-run -a CloudCompare -SILENT -O "$format/points.$format" >"$format.log" 2>&1 || true
     grep -q "unhandled file extension" "$format.log" || grep -q "Found one cloud with $points points" "$format.log"
   done
@@ -51,6 +51,7 @@ if has pdal; then
   tried=1
   pdal info --metadata las/points.las | grep -q "\"count\": $points"
   pdal info --schema las/points.las | grep -q probability
+  pdal info --stats laz/points.laz | grep -q "\"count\": $points"
 elif has lasinfo; then
   tried=1
   lasinfo las/points.las | grep -q "$points"

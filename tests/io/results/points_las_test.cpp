@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_writer.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
 #include "tests/support/laz_data.hpp"
@@ -145,9 +146,11 @@ TEST_CASE("points.las of a LAZ file is LAS with the same points, without what LA
       laz_point_data(layout, std::as_bytes(std::span(points)), std::vector<std::uint64_t>{5}, bytes.size()));
   std::string out[2];
   const std::string files[] = {plain, folder.write("a.laz", bytes)};
+  Config config = las_config();
+  config.output.points_format = PointsFormat::kLas;
   for (std::size_t i = 0; i < 2; ++i) {
     FileScan scan({files[i]}, {});
-    out[i] = detect_to(folder, scan, 5, las_config());
+    out[i] = detect_to(folder, scan, 5, config);
   }
   CHECK((out[0] == out[1]));
   CHECK_THAT(out[1], !Contains("laszip"));

@@ -80,6 +80,7 @@ TEST_CASE("the annotated scan of another format goes, and one of another program
   const auto detection = FakeDetection().with_results(1);
   const std::vector<std::pair<PointsFormat, std::string>> formats = {{PointsFormat::kPly, "points.ply"},
                                                                      {PointsFormat::kLas, "points.las"},
+                                                                     {PointsFormat::kLaz, "points.laz"},
                                                                      {PointsFormat::kPcd, "points.pcd"},
                                                                      {PointsFormat::kCsv, "points.csv"}};
   for (const auto& [before, older] : formats) {
@@ -94,9 +95,8 @@ TEST_CASE("the annotated scan of another format goes, and one of another program
   }
   for (const auto& [format, name] : formats) {
     const ScratchFolder mine;
-    const std::string content = name == "points.las"   ? las_bytes()
-                                : name == "points.pcd" ? kPcd
-                                                       : "x,y,z\n1,2,3\n";
+    const bool is_las = name == "points.las" || name == "points.laz";
+    const std::string content = is_las ? las_bytes() : name == "points.pcd" ? kPcd : "x,y,z\n1,2,3\n";
     mine.write(name, content);
     for (const auto& [wanted, other] : formats) {
       const std::string error = error_of(
@@ -254,7 +254,7 @@ TEST_CASE("blocks of results do not change the bytes of any format", "[io][resul
     text += std::to_string(i) + (i % 7 == 0 ? " nan" : " 1.25") + " 2 1 2 3 " + std::to_string(i) + "\n";
   const auto file = folder.write("a.txt", text);
   for (const PointsFormat format :
-       {PointsFormat::kPly, PointsFormat::kLas, PointsFormat::kPcd, PointsFormat::kCsv}) {
+       {PointsFormat::kPly, PointsFormat::kLas, PointsFormat::kLaz, PointsFormat::kPcd, PointsFormat::kCsv}) {
     std::string one;
     for (const std::size_t block : {1u, 3u, 99u, 1000u}) {
       FileScan scan({file}, {});
