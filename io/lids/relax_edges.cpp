@@ -56,7 +56,7 @@ class Swaps {
     const double size = (std::abs(dot_c) + left.norm()) * (std::abs(dot_d) + right.norm());
     constexpr double kTie = 1e-9;
     if (sum >= -kTie * size) return false;
-    // Of the pair: the swap does not change it.
+    // The area vector of both: the swap does not change it.
     const Eigen::Vector3d whole = left + right;
     const Eigen::Vector3d new_left = (d - c).cross(b - c), new_right = (a - c).cross(d - c);
     const double least = kTie * whole.squaredNorm();

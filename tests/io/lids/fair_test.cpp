@@ -44,7 +44,7 @@ double height(const LidMesh& mesh) {
 }  // namespace
 
 TEST_CASE("in a plane, neither thin plate nor membrane moves a vertex") {
-  const Loop loop = test::hole_in_plane(test::with_points(test::letter_l(), 12));
+  const Loop loop = test::hole_in_plane(test::with_points(test::shape_of_l(), 12));
   const LidMesh before = unfaired(loop);
   LidMesh plate = before, membrane = before;
   CHECK(fair(plate, surface_of(loop)) == Fairing::kThinPlate);

@@ -77,7 +77,7 @@ TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area
     star.emplace_back(r * std::cos(turn), r * std::sin(turn), 0);
   }
   for (const Line& polygon :
-       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::letter_l(), 9),
+       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::shape_of_l(), 9),
         with_points(test::comb(), 7), with_points(test::comb(), 60), star}) {
     const Lid lid = made(hole_in_plane(polygon));
     CHECK(lid.mesh.vertices.size() > polygon.size());

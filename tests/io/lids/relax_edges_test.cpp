@@ -72,7 +72,7 @@ TEST_CASE("an edge stays where the new one exists already") {
 }
 
 TEST_CASE("in a plane, the result is Delaunay and as large as before, without a flat triangle") {
-  for (const test::Line& corners : {test::letter_l(), test::comb()}) {
+  for (const test::Line& corners : {test::shape_of_l(), test::comb()}) {
     LidMesh mesh = triangulate_polygon(test::with_points(corners, 12));
     const double before = area(mesh);
     relax_edges(mesh);

@@ -24,7 +24,7 @@ Line random_polygon(int points, std::uint64_t seed) {
   return polygon;
 }
 
-// Of all triangulations: every apex on the first edge, and what it leaves on both sides.
+// Tries all triangulations: every apex on the first edge, and what it leaves on both sides.
 double least_area(const Line& polygon) {
   if (polygon.size() < 3) return 0;
   double least = std::numeric_limits<double>::infinity();
