@@ -124,16 +124,16 @@ TEST_CASE("a lid has the side of its loop, in either direction") {
 }
 
 TEST_CASE("a turn, a place as of UTM and another first point do not change the area of a lid") {
-  const Loop loop = wavy_hole(150);
+  const Loop loop = wavy_hole(158);
   const double area = made(loop).area;
   const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1, 2, 3).normalized());
-  CHECK(made(test::moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-9));
+  CHECK(made(test::moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
   // There, coordinates are rounded to 1e-9.
   const Eigen::Isometry3d to_utm(Eigen::Translation3d(500'000.3, 5'400'000.7, 312.9));
   CHECK(made(test::moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
   Loop rotated = loop;
   std::rotate(rotated.begin(), rotated.begin() + 41, rotated.end());
-  CHECK(made(rotated).area == Approx(area).epsilon(1e-9));
+  CHECK(made(rotated).area == Approx(area).epsilon(1e-11));
 }
 
 TEST_CASE("equal loops have equal lids, to the last bit") {
