@@ -2,9 +2,10 @@
 #include "bench/scan_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/little_endian.hpp"
 #include "tests/support/e57_encoder.hpp"
-#include "tests/support/laz_encoder.hpp"
+#include "tests/support/laz_data.hpp"
 
 #include <algorithm>
 #include <array>
@@ -198,7 +199,7 @@ void write_las(const PointBatch& sample, const std::filesystem::path& file, std:
   const std::vector<std::byte> records = las_records(sample, format, scale);
   const auto layout = test::laz_layout(static_cast<int>(format), 0, 50'000, format >= 6 ? 3 : 2);
   test::LazBytes laszip;
-  if (is_compressed) laszip = test::laz_record(layout);
+  if (is_compressed) laszip = laz::layout_record(layout);
 
   std::vector<std::byte> head(minor == 4 ? 375 : 227);
   const auto header_bytes = static_cast<std::uint16_t>(head.size());

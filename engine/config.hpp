@@ -127,7 +127,7 @@ struct InputConfig {
 };
 
 // How the annotated scan is written.
-enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv };
+enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv, kLaz };
 
 struct OutputConfig {
   bool points = false;  // write the annotated scan: every point of the input with its results

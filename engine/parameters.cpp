@@ -16,7 +16,7 @@ constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
 constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
-constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv"};
+constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv", "laz"};
 
 template <class Enum>
 NamedValue named(Enum& value, std::span<const std::string_view> names) {
@@ -161,10 +161,9 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write the annotated scan too: every point of the input with its probabilities.", kNothing},
-      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 4,
-       "input, ply, las, pcd or csv",
-       "Format of the annotated scan; input: that of the scan, LAS for LAZ, PLY where it cannot be written.",
-       kPoints},
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 5,
+       "input, ply, las, pcd, csv or laz",
+       "Format of the annotated scan; input: that of the scan, PLY where it cannot be written.", kPoints},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to the annotated scan, unless a scan brings its own.", kPoints},
       {"output", "vdb", &output.vdb, 0, 1, "true or false",

@@ -77,7 +77,7 @@ void for_each_block(const Found& found, const py::function& visit) {
 
 fs::path write_report(const fs::path& folder, bool overwrite) {
   const py::gil_scoped_release unlocked;
-  return io::write_report(folder, overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn);
+  return io::write_report(folder, overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn).file;
 }
 
 std::string evaluate(const fs::path& result_path, const fs::path& truth_path,

@@ -10,10 +10,11 @@
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/result_bytes.hpp"
+#include "tools/attribute_counts.hpp"
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
-#include "tools/parameter_options.hpp"
 #include "tools/own_process.hpp"
+#include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
@@ -55,7 +56,7 @@ struct FileInfo {
   std::string crs, unit;
   bool is_geographic = false;
   RowLayout layout;
-  std::uint64_t points = 0;
+  AttributeCounts counts;
 };
 
 struct RunInfo {
@@ -66,11 +67,13 @@ struct RunInfo {
   double seconds = 0;
 };
 
-std::uint64_t count_rows(ScanReader& reader, std::size_t rows_at_a_time) {
-  if (const auto expected = reader.expected_rows()) return *expected;
-  std::uint64_t rows = 0;
-  for (RowBatch batch; reader.next(batch, rows_at_a_time);) rows += batch.count;
-  return rows;
+// Without a pass over the file, where its head has all.
+AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
+  const RowLayout& layout = reader.layout();
+  const bool has_attributes =
+      layout.find("classification") != nullptr || layout.find("return_number") != nullptr;
+  if (const auto expected = reader.expected_rows(); expected && !has_attributes) return {.rows = *expected};
+  return count_attributes(reader, rows_at_a_time);
 }
 
 FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
@@ -81,7 +84,7 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
           .unit = reader->length_unit(),
           .is_geographic = reader->is_geographic(),
           .layout = reader->layout(),
-          .points = count_rows(*reader, scan.batch_rows(file))};
+          .counts = counts_of_file(*reader, scan.batch_rows(file))};
 }
 
 // Some scans have more columns than a format holds with the results.
@@ -127,7 +130,9 @@ std::string print_point(const Eigen::Vector3d& point) {
 void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
-              << print_count(file.points);
+              << print_count(file.counts.rows);
+    if (!file.counts.classes.empty()) std::cout << "\n  classes     " << print_classes(file.counts);
+    if (file.counts.has_returns) std::cout << "\n  returns     " << print_returns(file.counts);
     if (!file.crs.empty()) std::cout << "\n  crs         " << crs_name(file.crs);
     if (file.is_geographic) std::cout << "\n  unit        degrees, which lacuna detect refuses";
     if (!file.unit.empty()) std::cout << "\n  unit        " << file.unit;
@@ -169,6 +174,11 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << ", with what else this machine does now\n";
 }
 
+Json returns_of(const AttributeCounts& counts) {
+  if (!counts.has_returns) return {};
+  return {{"only", counts.only}, {"first", counts.first}, {"later", counts.later}};
+}
+
 void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
@@ -177,9 +187,13 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
     for (const Property& property : file.layout.properties) {
       properties.push_back({{"name", property.name}, {"type", ply_name(property.type)}});
     }
+    Json classes = Json::object();
+    for (const auto& [number, count] : file.counts.classes) classes[std::to_string(number)] = count;
     root["files"].push_back({{"file", file.file.string()},
                              {"format", file.format},
-                             {"points", file.points},
+                             {"points", file.counts.rows},
+                             {"classes", std::move(classes)},
+                             {"returns", returns_of(file.counts)},
                              {"crs", file.crs.empty() ? Json() : Json(file.crs)},
                              {"unit", file.is_geographic ? "degree" : file.unit},
                              {"properties", std::move(properties)}});

@@ -9,9 +9,11 @@
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
@@ -55,6 +57,27 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
     }
   }
   if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
+}
+
+// The ept.json that a name stands for: itself, or the one in a folder. Empty: none.
+fs::path find_ept(const fs::path& input) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(input, error) ? input / "ept.json" : input;
+  return file.filename() == "ept.json" && fs::is_regular_file(file, error) ? file : fs::path();
+}
+
+// Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): each point is in one of the
+// files of ept-data.
+void add_ept(const fs::path& ept, const ReadOptions& options, std::vector<ScanInput>& files) {
+  std::ifstream in(ept);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto type = json.is_object() ? json.find("dataType") : json.end();
+  if (type == json.end() || !type->is_string())
+    throw Error(ept.string() + ": has no \"dataType\", which each ept.json has");
+  if (*type != "laszip")
+    throw Error(ept.string() + ": its points are of the type \"" + visible(type->get<std::string>()) +
+                "\"; allowed: laszip");
+  add_folder(ept.parent_path() / "ept-data", options, files);
 }
 
 Pose find_pose(const fs::path& folder, std::string_view text) {
@@ -103,6 +126,8 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const R
     }
     if (input.string().starts_with('@') && !fs::exists(input, error)) {
       add_list(input.string().substr(1), files);
+    } else if (const fs::path ept = find_ept(input); !ept.empty()) {
+      add_ept(ept, options, files);
     } else if (fs::is_directory(input, error)) {
       add_folder(input, options, files);
     } else {

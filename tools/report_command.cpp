@@ -2,11 +2,14 @@
 #include "tools/report_command.hpp"
 
 #include "io/report/report.hpp"
+#include "tools/measures_text.hpp"
 #include "tools/visible_text.hpp"
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,13 +20,28 @@ namespace {
 
 struct ReportArguments {
   std::filesystem::path folder;
+  std::optional<std::filesystem::path> marks;
   bool overwrite = false;
 };
 
+void print_matches(const MatchedMarks& marks) {
+  const auto& [by, by_id, by_place] = marks.matches;
+  std::cout << "marks: " << by_id + by_place << " of " << by.size() << " found their loops, " << by_id
+            << " by id and " << by_place << " by place\n";
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    if (by[i]) continue;
+    const LoopMark& mark = marks.marks[i];
+    std::cout << "no loop fits: " << mark.mark << ", " << name_of(mark.kind) << " " << mark.id << " at "
+              << print_place(mark.centroid, mark.diameter) << ", diameter " << print_length(mark.diameter, "")
+              << "\n";
+  }
+}
+
 void run_report(const ReportArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  const std::filesystem::path file = write_report(arguments.folder, overwrite);
-  std::cout << "written: " << visible(file.string()) << "\n";
+  const WrittenReport report = write_report(arguments.folder, overwrite, arguments.marks);
+  std::cout << "written: " << visible(report.file.string()) << "\n";
+  if (arguments.marks) print_matches(report.marks);
 }
 
 }  // namespace
@@ -37,6 +55,10 @@ void add_report_command(CLI::App& app) {
       ->required();
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace a report.html that Lacuna did not write, too");
+  command
+      ->add_option("--marks", arguments->marks,
+                   "File of marks that the report starts with, as Save marks of a report writes it")
+      ->type_name("FILE");
   command->callback([arguments] { run_report(*arguments); });
 }
 

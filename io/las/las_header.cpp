@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_header.hpp"
 
+#include "io/las/las_records.hpp"
 #include "io/little_endian.hpp"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ void read_record(InputFile& in, LasHeader& header) {
   in.read(data.data(), data.size());
   if (is_extra_bytes(user, number)) header.extra_bytes = extra_bytes_of(data);
   if (user == kProjection) header.crs.take(number, data);
-  if (user == "laszip encoded" && number == 22204) header.laszip = std::move(data);
+  if (user == kLaszip && number == kLaszipLayout) header.laszip = std::move(data);
 }
 
 // Reads the records of LAS 1.4 behind the points: `count` of them, the first at byte `place`.

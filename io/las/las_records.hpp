@@ -17,6 +17,9 @@ namespace lacuna::io {
 // "LASF_Projection" and "LASF_Spec" are the users of the records that the specification defines.
 inline constexpr std::string_view kLasProjection = "LASF_Projection", kLasSpecification = "LASF_Spec";
 inline constexpr std::uint16_t kLasExtraBytes = 4, kLasWellKnownText = 2112, kLasGeoKeys = 34735;
+// That of LASzip says how points are compressed.
+inline constexpr std::string_view kLaszip = "laszip encoded";
+inline constexpr std::uint16_t kLaszipLayout = 22204;
 inline constexpr std::size_t kLasRecordHead = 54, kMostLasRecordData = 65535;  // not extended ones
 
 // What stands before the data of a record.

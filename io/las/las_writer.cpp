@@ -3,6 +3,7 @@
 
 #include "io/las/las_bytes.hpp"
 #include "io/las/las_records.hpp"
+#include "io/laz/laz_encoder.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -13,9 +14,10 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 375;
 constexpr std::uint16_t kTimeBit = 1, kTextBit = 16;  // of the global encoding
+constexpr int kCompressed = 0x80;                     // of the point format
 
 bool goes_over(const LasRecordPlace& record, const LasOrigin& origin) {
-  if (record.user == "laszip encoded" || record.user == "copc") return false;
+  if (record.user == kLaszip || record.user == "copc") return false;
   if (record.user == kLasProjection && !origin.has_crs) return false;
   return record.user != kLasSpecification || record.number != kLasExtraBytes;
 }
@@ -86,7 +88,8 @@ std::string header_of(const std::optional<LasOrigin>& origin, const LasForm& for
 }  // namespace
 
 LasWriter::LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraBytes> results,
-                     std::optional<LasOrigin> origin, std::string_view crs)
+                     std::optional<LasOrigin> origin, std::string_view crs,
+                     std::optional<LasCompression> compression)
     : out_(out), form_(std::move(form)), origin_(std::move(origin)), record_bytes_(form_.record_bytes) {
   min_.fill(std::numeric_limits<std::int32_t>::max());
   max_.fill(std::numeric_limits<std::int32_t>::min());
@@ -97,15 +100,18 @@ LasWriter::LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraByte
     record_bytes_ += las_extra_size(result);
   }
   header_ = header_of(origin_, form_, crs);
+  if (compression) put_at(header_, 104, static_cast<std::uint8_t>(form_.point_format | kCompressed));
   put_at(header_, 105, static_cast<std::uint16_t>(record_bytes_));
   out_.write(header_);
   written_ = header_.size();
-  write_records(extra, crs);
+  write_records(extra, crs, compression);
   put_at(header_, 96, static_cast<std::uint32_t>(written_));
   put_at(header_, 100, records_);
+  points_out_ = las_points_writer(out_, written_, std::move(compression));
 }
 
-void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs) {
+void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs,
+                              const std::optional<LasCompression>& compression) {
   const auto write = [&](std::string_view user, std::uint16_t number, std::string_view data,
                          std::string_view description) {
     out_.write(las_record_head(false, user, number, data.size(), description));
@@ -135,12 +141,15 @@ void LasWriter::write_records(const std::vector<LasExtraBytes>& extra, std::stri
   for (const LasExtraBytes& one : extra)
     descriptors.append(reinterpret_cast<const char*>(one.descriptor.data()), one.descriptor.size());
   if (!extra.empty()) write(kLasSpecification, kLasExtraBytes, descriptors, "Extra Bytes Record");
+  if (compression) {
+    const std::vector<std::byte> layout = laz::layout_record(compression->layout);
+    write(kLaszip, kLaszipLayout, {reinterpret_cast<const char*>(layout.data()), layout.size()}, "LASzip");
+  }
 }
 
 void LasWriter::put(std::span<const std::byte> records) {
-  out_.write(records);
+  points_out_->put(records);
   points_ += records.size() / record_bytes_;
-  written_ += records.size();
   if (origin_ && origin_->has_counts) return;
   const unsigned mask = is_extended_format(form_.point_format) ? 15 : 7;
   for (const std::byte* at = records.data(); at != records.data() + records.size(); at += record_bytes_) {
@@ -199,6 +208,7 @@ void LasWriter::complete_header() {
 }
 
 void LasWriter::finish() {
+  written_ += points_out_->finish();
   write_extended();
   complete_header();
   out_.overwrite_start(header_);

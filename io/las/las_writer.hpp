@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A LAS 1.4 file as a stream of point records (ASPRS LAS specification 1.4 R15).
+// A LAS 1.4 file, compressed or not, as a stream of point records (ASPRS LAS specification 1.4 R15).
 #pragma once
 
 #include "io/las/las_join.hpp"
+#include "io/las/las_points_writer.hpp"
 #include "io/results/output_file.hpp"
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,9 +38,11 @@ class LasWriter {
  public:
   // Writes the header and the records before the points. `results`: extra bytes behind those of the form.
   // Without an origin, the file has neither identity nor date. Unless the origin has_crs, `crs` is written:
-  // well-known text, or the code of a projected or geographic (4000 to 4999) system as keys of GeoTIFF.
+  // well-known text, or the code of a projected or geographic (4000 to 4999) system as keys of GeoTIFF. With
+  // a compression, which is one for the points of the form with the results, the file is LAZ.
   LasWriter(OutputFile& out, LasForm form, std::span<const LasExtraBytes> results,
-            std::optional<LasOrigin> origin, std::string_view crs);
+            std::optional<LasOrigin> origin, std::string_view crs,
+            std::optional<LasCompression> compression = {});
 
   std::size_t record_bytes() const { return record_bytes_; }
   void put(std::span<const std::byte> records);
@@ -46,7 +50,8 @@ class LasWriter {
   void finish();
 
  private:
-  void write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs);
+  void write_records(const std::vector<LasExtraBytes>& extra, std::string_view crs,
+                     const std::optional<LasCompression>& compression);
   void write_extended();
   void complete_header();
 
@@ -55,8 +60,9 @@ class LasWriter {
   std::optional<LasOrigin> origin_;
   std::size_t record_bytes_;
   std::string header_;
-  std::uint64_t written_ = 0;  // bytes
-  std::string long_text_;      // a well-known text that needs an extended record
+  std::uint64_t written_ = 0;  // bytes, but for the points
+  std::unique_ptr<LasPointsWriter> points_out_;
+  std::string long_text_;  // a well-known text that needs an extended record
   std::uint32_t records_ = 0, extended_ = 0;
   std::uint64_t points_ = 0, extended_at_ = 0, waveforms_at_ = 0;
   std::array<std::uint64_t, 15> returns_{};  // points of each number of return

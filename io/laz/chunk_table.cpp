@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of where chunks begin (LAZ, "Chunk table").
-#include "io/laz/integer_decoder.hpp"
+#include "io/laz/integer_coder.hpp"
 #include "io/laz/laz.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace lacuna::io::laz {
 namespace {
@@ -50,7 +52,7 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
   if (count > 0) {
     const ChunkInMemory sizes(table.subspan(kHeaderBytes));
     ArithmeticDecoder decoder(sizes, 0, sizes.size());
-    const auto numbers = std::make_unique<IntegerDecoder<32, 2>>();
+    const auto numbers = std::make_unique<IntegerCoder<32, 2>>();
     const bool variable = layout.chunk_points == kVariableChunks;
     std::uint64_t offset = first_chunk, left = points;
     std::uint32_t chunk_points = 0, bytes = 0;
@@ -75,6 +77,25 @@ std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::b
   std::uint64_t held = 0;
   for (const Chunk& chunk : chunks) held += chunk.points;
   throw Corrupt("the chunks have " + std::to_string(held) + " points, the file " + std::to_string(points));
+}
+
+std::vector<std::byte> encode_chunk_table(const Layout& layout, std::span<const Chunk> chunks) {
+  std::vector<std::byte> table(kHeaderBytes);
+  store(table.data() + 4, static_cast<std::uint32_t>(chunks.size()));  // behind version 0
+  if (chunks.empty()) return table;
+  ArithmeticEncoder encoder;
+  const auto numbers = std::make_unique<IntegerCoder<32, 2>>();
+  const bool variable = layout.chunk_points == kVariableChunks;
+  std::uint32_t last_points = 0, last_bytes = 0;
+  for (const Chunk& chunk : chunks) {
+    const auto points = static_cast<std::uint32_t>(chunk.points),
+               bytes = static_cast<std::uint32_t>(chunk.bytes);
+    if (variable) numbers->encode(encoder, std::exchange(last_points, points), points, kPointsContext);
+    numbers->encode(encoder, std::exchange(last_bytes, bytes), bytes, kBytesContext);
+  }
+  const std::vector<std::byte> sizes = encoder.finish();
+  table.insert(table.end(), sizes.begin(), sizes.end());
+  return table;
 }
 
 }  // namespace lacuna::io::laz

@@ -2,10 +2,13 @@
 // GPS times of GPSTIME11 version 2 and of POINT14 (LAZ, "GPSTIME11" and "POINT14, GPS time layer").
 #pragma once
 
-#include "io/laz/integer_decoder.hpp"
+#include "io/laz/integer_coder.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace lacuna::io::laz {
 
@@ -16,9 +19,9 @@ enum class GpsTimeCodes { kGpsTime11, kPoint14 };
 // Bits of double values, predicted as integers from up to four interleaved sequences of times, such as of
 // several flight lines. In a sequence a difference is often a multiple of the last one.
 template <GpsTimeCodes kCodes>
-class GpsTimeDecoder {
+class GpsTimeCoder {
  public:
-  explicit GpsTimeDecoder(std::uint64_t first) { times_[0] = first; }
+  explicit GpsTimeCoder(std::uint64_t first) { times_[0] = first; }
 
   // The next time, as the bits of a double.
   std::uint64_t decode(ArithmeticDecoder& decoder) {
@@ -27,6 +30,28 @@ class GpsTimeDecoder {
       if (differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder)) return times_[current_];
     }
     throw Corrupt("the compressed GPS times are damaged");
+  }
+
+  void encode(ArithmeticEncoder& encoder, std::uint64_t time) {
+    const bool is_first = differences_[current_] == 0;
+    const auto put = [&](unsigned of_first, unsigned of_next) {
+      is_first ? encoder.symbol(first_, of_first) : encoder.symbol(next_, of_next);
+    };
+    if (kHasUnchanged && time == times_[current_]) return put(0, kUnchanged);
+    if (const auto difference = difference_to(current_, time)) {
+      is_first ? encode_first(encoder, *difference) : encode_next(encoder, *difference);
+      return;
+    }
+    for (unsigned step = 1; step < 4; ++step) {
+      if (!difference_to((current_ + step) % 4, time)) continue;
+      put(kFirstFull + step, kFull + step);
+      change_sequence(step);
+      return encode(encoder, time);
+    }
+    put(kFirstFull, kFull);
+    integers_.encode(encoder, high_half(times_[current_]), high_half(time), kHighHalf);
+    encoder.bits(static_cast<std::uint32_t>(time), 32);
+    begin_sequence(time);
   }
 
  private:
@@ -53,11 +78,15 @@ class GpsTimeDecoder {
     if (symbol == kFirstFull) {
       decode_full(decoder);
     } else if (symbol == kFirstDifference) {
-      differences_[current_] = integers_.decode_signed(decoder, 0, kFirst);
-      add(differences_[current_]);
-      extremes_[current_] = 0;
+      begin_differences(integers_.decode_signed(decoder, 0, kFirst));
     }
     return true;
+  }
+
+  void encode_first(ArithmeticEncoder& encoder, std::int32_t difference) {
+    encoder.symbol(first_, kFirstDifference);
+    integers_.encode_signed(encoder, 0, difference, kFirst);
+    begin_differences(difference);
   }
 
   bool decode_next(ArithmeticDecoder& decoder) {
@@ -66,23 +95,54 @@ class GpsTimeDecoder {
     if (symbol == kFull) {
       decode_full(decoder);
     } else if (symbol <= kSmallestFactor) {
-      const bool negative = symbol > kLargestFactor;
-      const std::uint32_t factor = negative ? 0u - (symbol - kLargestFactor) : symbol;
-      const std::uint32_t prediction = factor * static_cast<std::uint32_t>(differences_[current_]);
-      const auto difference =
-          static_cast<std::int32_t>(integers_.decode(decoder, prediction, factor_context(symbol)));
-      add(difference);
-      if (symbol == 1) {
-        extremes_[current_] = 0;
-      } else if (symbol == 0 || symbol == kLargestFactor || symbol == kSmallestFactor) {
-        // The fourth in succession that does not fit the last difference well: it becomes the last one.
-        if (++extremes_[current_] > 3) {
-          differences_[current_] = difference;
-          extremes_[current_] = 0;
-        }
-      }
+      go_on(symbol,
+            static_cast<std::int32_t>(integers_.decode(decoder, predict(symbol), factor_context(symbol))));
     }
     return true;
+  }
+
+  void encode_next(ArithmeticEncoder& encoder, std::int32_t difference) {
+    const double factor = std::round(static_cast<double>(difference) / differences_[current_]);
+    constexpr double kMost = kLargestFactor, kLeast = -static_cast<double>(kSmallestFactor - kLargestFactor);
+    const auto nearest = static_cast<int>(std::clamp(factor, kLeast, kMost));
+    const auto symbol =
+        nearest >= 0 ? static_cast<unsigned>(nearest) : kLargestFactor + static_cast<unsigned>(-nearest);
+    encoder.symbol(next_, symbol);
+    integers_.encode(encoder, predict(symbol), static_cast<std::uint32_t>(difference),
+                     factor_context(symbol));
+    go_on(symbol, difference);
+  }
+
+  // The difference that the symbol of a factor stands for.
+  std::uint32_t predict(unsigned symbol) const {
+    const std::uint32_t factor = symbol > kLargestFactor ? 0u - (symbol - kLargestFactor) : symbol;
+    return factor * static_cast<std::uint32_t>(differences_[current_]);
+  }
+
+  void go_on(unsigned symbol, std::int32_t difference) {
+    add(difference);
+    if (symbol == 1) {
+      extremes_[current_] = 0;
+    } else if (symbol == 0 || symbol == kLargestFactor || symbol == kSmallestFactor) {
+      // The fourth in succession that does not fit the last difference well: it becomes the last one.
+      if (++extremes_[current_] > 3) {
+        differences_[current_] = difference;
+        extremes_[current_] = 0;
+      }
+    }
+  }
+
+  void begin_differences(std::int32_t difference) {
+    differences_[current_] = difference;
+    extremes_[current_] = 0;
+    add(difference);
+  }
+
+  // None: it does not fit 32 bits.
+  std::optional<std::int32_t> difference_to(unsigned sequence, std::uint64_t time) const {
+    const auto difference = static_cast<std::int64_t>(time - times_[sequence]);
+    if (difference != static_cast<std::int32_t>(difference)) return std::nullopt;
+    return static_cast<std::int32_t>(difference);
   }
 
   static unsigned factor_context(unsigned symbol) {
@@ -104,14 +164,19 @@ class GpsTimeDecoder {
   }
 
   void decode_full(ArithmeticDecoder& decoder) {
-    const auto last_high = static_cast<std::uint32_t>(times_[current_] >> 32);
-    const std::uint64_t high = integers_.decode(decoder, last_high, kHighHalf);
+    const std::uint64_t high = integers_.decode(decoder, high_half(times_[current_]), kHighHalf);
+    begin_sequence(high << 32 | decoder.bits(32));
+  }
+
+  void begin_sequence(std::uint64_t time) {
     newest_ = (newest_ + 1) % 4;
     current_ = newest_;
-    times_[current_] = high << 32 | decoder.bits(32);
+    times_[current_] = time;
     differences_[current_] = 0;
     extremes_[current_] = 0;
   }
+
+  static std::uint32_t high_half(std::uint64_t time) { return static_cast<std::uint32_t>(time >> 32); }
 
   std::array<std::uint64_t, 4> times_{};
   std::array<std::int32_t, 4> differences_{};
@@ -120,7 +185,7 @@ class GpsTimeDecoder {
 
   SymbolModel<kFirstSymbols> first_;
   SymbolModel<kSymbols> next_;
-  IntegerDecoder<32, 9> integers_;
+  IntegerCoder<32, 9> integers_;
 };
 
 }  // namespace lacuna::io::laz

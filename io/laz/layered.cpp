@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/layered.hpp"
 
-#include "io/laz/channel_values.hpp"
+#include "io/laz/layered_channels.hpp"
 #include "io/laz/point14.hpp"
-#include "io/laz/rgb.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -13,10 +13,10 @@ namespace lacuna::io::laz {
 namespace {
 
 // RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
-class Colour {
+class ColourDecoder {
  public:
-  Colour(bool has_nir, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
-      : has_nir_(has_nir), channels_(rule, channel, values(has_nir, first), Models()) {
+  ColourDecoder(bool has_nir, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
+      : has_nir_(has_nir), channels_(rule, channel, read_colour(has_nir, first), ColourModels()) {
     rgb_ = layers.next();
     if (has_nir_) nir_ = layers.next();
   }
@@ -25,37 +25,21 @@ class Colour {
     const auto [last, models] = channels_.choose(channel, changed_channel);
     if (rgb_) last.rgb = models.rgb.decode(*rgb_, last.rgb);
     if (nir_) last.nir = models.nir.decode(*nir_, last.nir);
-    std::memcpy(item, &last, bytes(has_nir_));
+    std::memcpy(item, &last, colour_bytes(has_nir_));
   }
 
  private:
-  struct Values {
-    Rgb rgb;
-    std::uint16_t nir;
-  };
-  struct Models {
-    RgbModels rgb;
-    NirModels nir;
-  };
-  static std::size_t bytes(bool has_nir) { return has_nir ? sizeof(Values) : sizeof(Rgb); }
-  static Values values(bool has_nir, const std::byte* item) {
-    Values values{};
-    std::memcpy(&values, item, bytes(has_nir));
-    return values;
-  }
-
   bool has_nir_;
   Layer rgb_, nir_;
-  ChannelValues<Values, Models> channels_;
+  ColourChannels channels_;
 };
 
 // BYTE14: a layer for each byte, of differences to that of the last point (LAZ, "BYTE14").
-class ExtraBytes {
+class BytesDecoder {
  public:
-  ExtraBytes(std::size_t count, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
-      : channels_(rule, channel, std::vector<std::byte>(first, first + count),
-                  std::vector<SymbolModel<256>>(count)) {
-    for (std::size_t i = 0; i < count; ++i) layers_.push_back(layers.next());
+  BytesDecoder(ChannelRule rule, unsigned channel, std::span<const std::byte> first, Layers& layers)
+      : channels_(byte_channels(rule, channel, first)) {
+    for (std::size_t i = 0; i < first.size(); ++i) layers_.push_back(layers.next());
   }
 
   void decode(unsigned channel, bool changed_channel, std::byte* item) {
@@ -70,7 +54,7 @@ class ExtraBytes {
 
  private:
   std::vector<Layer> layers_;
-  ChannelValues<std::vector<std::byte>, std::vector<SymbolModel<256>>> channels_;
+  ByteChannels channels_;
 };
 
 class LayeredDecoder final : public RecordDecoder {
@@ -79,7 +63,7 @@ class LayeredDecoder final : public RecordDecoder {
       : record_bytes_(first.size()),
         layers_(bytes, record_bytes_, layer_count(layout)),
         point_(first.data(), layers_) {
-    const ChannelRule rule = layout.items[0].version == 3 ? ChannelRule::kVersion3 : ChannelRule::kVersion4;
+    const ChannelRule rule = channel_rule(layout);
     std::size_t at = 0;
     for (const Item& item : layout.items) {
       if (item.type == item_type::kRgb14 || item.type == item_type::kRgbNir14) {
@@ -87,7 +71,7 @@ class LayeredDecoder final : public RecordDecoder {
         colour_.emplace(has_nir, rule, point_.channel(), &first[at], layers_);
         colour_at_ = at;
       } else if (item.type == item_type::kByte14) {
-        extra_bytes_.emplace(item.size, rule, point_.channel(), &first[at], layers_);
+        extra_bytes_.emplace(rule, point_.channel(), first.subspan(at, item.size), layers_);
         extra_bytes_at_ = at;
       }
       at += item.size;
@@ -108,16 +92,16 @@ class LayeredDecoder final : public RecordDecoder {
  private:
   std::size_t record_bytes_;
   Layers layers_;
-  Point14 point_;
-  std::optional<Colour> colour_;
-  std::optional<ExtraBytes> extra_bytes_;
+  Point14Decoder point_;
+  std::optional<ColourDecoder> colour_;
+  std::optional<BytesDecoder> extra_bytes_;
   std::size_t colour_at_ = 0, extra_bytes_at_ = 0;
 };
 
 }  // namespace
 
 std::size_t layer_count(const Layout& layout) {
-  std::size_t count = Point14::kLayers;
+  std::size_t count = point14::kLayers;
   for (const Item& item : layout.items) {
     if (item.type == item_type::kRgb14) count += 1;
     if (item.type == item_type::kRgbNir14) count += 2;

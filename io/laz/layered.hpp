@@ -5,13 +5,19 @@
 #include "io/laz/laz.hpp"
 #include "io/laz/record_decoder.hpp"
 
+#include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace lacuna::io::laz {
 
 // The records of a chunk after the first, which is not compressed.
 std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                std::span<const std::byte> first);
+
+// A chunk of these records, at least one.
+std::vector<std::byte> layered_chunk(const Layout& layout, std::span<const std::byte> records);
 
 std::size_t layer_count(const Layout& layout);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The record of the LAS header that says how points are compressed (LAZ, "LASzip VLR").
 #include "io/laz/laz.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/little_endian.hpp"
 
 #include <string>
@@ -8,7 +9,8 @@
 namespace lacuna::io::laz {
 namespace {
 
-constexpr std::size_t kCompressorAt = 0, kCoderAt = 2, kChunkPointsAt = 12, kItemCountAt = 32, kItemsAt = 34;
+constexpr std::size_t kCompressorAt = 0, kCoderAt = 2, kVersionAt = 4, kChunkPointsAt = 12,
+                      kSpecialCountAt = 16, kSpecialOffsetAt = 24, kItemCountAt = 32, kItemsAt = 34;
 constexpr std::size_t kItemBytes = 6;
 
 enum class Order { kPointwise, kLayered };
@@ -108,6 +110,27 @@ Layout parse_layout(std::span<const std::byte> record) {
     layout.items.push_back(item);
   }
   return layout;
+}
+
+std::vector<std::byte> layout_record(const Layout& layout) {
+  std::vector<std::byte> record(kItemsAt + kItemBytes * layout.items.size());
+  store(&record[kCompressorAt], layout.compressor);
+  // The version of LASzip that such points came with, 3.4 revision 3; readers do not depend on it.
+  store(&record[kVersionAt], std::uint8_t{3});
+  store(&record[kVersionAt + 1], std::uint8_t{4});
+  store(&record[kVersionAt + 2], std::uint16_t{3});
+  store(&record[kChunkPointsAt], layout.chunk_points);
+  store(&record[kSpecialCountAt], std::int64_t{-1});  // no special extended records
+  store(&record[kSpecialOffsetAt], std::int64_t{-1});
+  store(&record[kItemCountAt], static_cast<std::uint16_t>(layout.items.size()));
+  std::byte* at = &record[kItemsAt];
+  for (const Item& item : layout.items) {
+    for (const std::uint16_t number : {item.type, item.size, item.version}) {
+      store(at, number);
+      at += sizeof number;
+    }
+  }
+  return record;
 }
 
 }  // namespace lacuna::io::laz

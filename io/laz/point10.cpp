@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/point10.hpp"
 
+#include "io/laz/wrapped.hpp"
+
 #include <cstring>
 
 namespace lacuna::io::laz {
@@ -50,20 +52,58 @@ void Point10::decode(ArithmeticDecoder& decoder, std::byte* item) {
     last_.point_source = static_cast<std::uint16_t>(point_source_.decode(decoder, last_.point_source));
   }
 
-  // Sums are of unsigned numbers: those of damaged data may overflow.
   const bool only = n == 1;
   const std::int32_t dx = dx_.decode_signed(decoder, x_medians_[context].middle(), only);
   x_medians_[context].add(dx);
-  last_.x = static_cast<std::int32_t>(static_cast<std::uint32_t>(last_.x) + static_cast<std::uint32_t>(dx));
+  last_.x = wrapped_sum(last_.x, dx);
   const std::int32_t dy =
       dy_.decode_signed(decoder, y_medians_[context].middle(), k_context(dx_.k(), kLargestYContext, only));
   y_medians_[context].add(dy);
-  last_.y = static_cast<std::int32_t>(static_cast<std::uint32_t>(last_.y) + static_cast<std::uint32_t>(dy));
+  last_.y = wrapped_sum(last_.y, dy);
   std::int32_t& height = last_heights_[return_level(n, r)];
   height = z_.decode_signed(decoder, height, k_context((dx_.k() + dy_.k()) / 2, kLargestZContext, only));
   last_.z = height;
 
   std::memcpy(item, &last_, kBytes);
+}
+
+void Point10::encode(ArithmeticEncoder& encoder, const std::byte* item) {
+  Fields now;
+  std::memcpy(&now, item, kBytes);
+  const unsigned r = now.returns & 7, n = now.returns >> 3 & 7;
+  const unsigned context = kReturnContext[n][r];
+  std::uint16_t& intensity = last_intensities_[context];
+
+  const unsigned changed = (now.returns != last_.returns ? kReturns : 0) |
+                           (now.intensity != intensity ? kIntensity : 0) |
+                           (now.classification != last_.classification ? kClassification : 0) |
+                           (now.scan_angle != last_.scan_angle ? kScanAngle : 0) |
+                           (now.user_data != last_.user_data ? kUserData : 0) |
+                           (now.point_source != last_.point_source ? kPointSource : 0);
+  encoder.symbol(changed_, changed);
+  if (changed & kReturns) encoder.symbol(returns_[last_.returns], now.returns);
+  if (changed & kIntensity) {
+    intensity_.encode(encoder, intensity, now.intensity, std::min(context, 3u));
+    intensity = now.intensity;
+  }
+  if (changed & kClassification) encoder.symbol(classification_[last_.classification], now.classification);
+  if (changed & kScanAngle) {
+    const unsigned direction = now.returns >> 6 & 1;
+    encoder.symbol(scan_angle_[direction], static_cast<std::uint8_t>(now.scan_angle - last_.scan_angle));
+  }
+  if (changed & kUserData) encoder.symbol(user_data_[last_.user_data], now.user_data);
+  if (changed & kPointSource) point_source_.encode(encoder, last_.point_source, now.point_source);
+
+  const bool only = n == 1;
+  const std::int32_t dx = wrapped_difference(now.x, last_.x), dy = wrapped_difference(now.y, last_.y);
+  dx_.encode_signed(encoder, x_medians_[context].middle(), dx, only);
+  x_medians_[context].add(dx);
+  dy_.encode_signed(encoder, y_medians_[context].middle(), dy, k_context(dx_.k(), kLargestYContext, only));
+  y_medians_[context].add(dy);
+  std::int32_t& height = last_heights_[return_level(n, r)];
+  z_.encode_signed(encoder, height, now.z, k_context((dx_.k() + dy_.k()) / 2, kLargestZContext, only));
+  height = now.z;
+  last_ = now;
 }
 
 }  // namespace lacuna::io::laz

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/laz/contexts.hpp"
-#include "io/laz/integer_decoder.hpp"
+#include "io/laz/integer_coder.hpp"
 #include "io/laz/streaming_median.hpp"
 
 #include <array>
@@ -20,6 +20,8 @@ class Point10 {
 
   // Writes the next point.
   void decode(ArithmeticDecoder& decoder, std::byte* item);
+  // Reads the next point.
+  void encode(ArithmeticEncoder& encoder, const std::byte* item);
 
  private:
   struct Fields {
@@ -40,14 +42,14 @@ class Point10 {
 
   SymbolModel<64> changed_;
   ModelByValue<256, 256> returns_;
-  IntegerDecoder<16, 4> intensity_;
+  IntegerCoder<16, 4> intensity_;
   ModelByValue<256, 256> classification_;
   std::array<SymbolModel<256>, 2> scan_angle_;
   ModelByValue<256, 256> user_data_;
-  IntegerDecoder<16> point_source_;
-  IntegerDecoder<32, 2> dx_;
-  IntegerDecoder<32, 22> dy_;
-  IntegerDecoder<32, 20> z_;
+  IntegerCoder<16> point_source_;
+  IntegerCoder<32, 2> dx_;
+  IntegerCoder<32, 22> dy_;
+  IntegerCoder<32, 20> z_;
 };
 
 }  // namespace lacuna::io::laz

@@ -8,6 +8,7 @@
 #include "io/little_endian.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
 
 namespace lacuna::io::laz {
@@ -16,11 +17,14 @@ namespace {
 // GPSTIME11, version 2.
 class GpsTime11 {
  public:
-  explicit GpsTime11(const std::byte* first) : decoder_(load<std::uint64_t>(first)) {}
-  void decode(ArithmeticDecoder& decoder, std::byte* item) { store(item, decoder_.decode(decoder)); }
+  explicit GpsTime11(const std::byte* first) : coder_(load<std::uint64_t>(first)) {}
+  void decode(ArithmeticDecoder& decoder, std::byte* item) { store(item, coder_.decode(decoder)); }
+  void encode(ArithmeticEncoder& encoder, const std::byte* item) {
+    coder_.encode(encoder, load<std::uint64_t>(item));
+  }
 
  private:
-  GpsTimeDecoder<GpsTimeCodes::kGpsTime11> decoder_;
+  GpsTimeCoder<GpsTimeCodes::kGpsTime11> coder_;
 };
 
 // RGB12, version 2.
@@ -30,6 +34,11 @@ class Rgb12 {
   void decode(ArithmeticDecoder& decoder, std::byte* item) {
     last_ = models_.decode(decoder, last_);
     std::memcpy(item, &last_, sizeof last_);
+  }
+  void encode(ArithmeticEncoder& encoder, const std::byte* item) {
+    const Rgb before = last_;
+    std::memcpy(&last_, item, sizeof last_);
+    models_.encode(encoder, before, last_);
   }
 
  private:
@@ -46,6 +55,13 @@ class ExtraBytes {
       last_[i] = static_cast<std::byte>(std::to_integer<unsigned>(last_[i]) + decoder.symbol(models_[i]));
     }
     std::copy(last_.begin(), last_.end(), item);
+  }
+  void encode(ArithmeticEncoder& encoder, const std::byte* item) {
+    for (std::size_t i = 0; i < last_.size(); ++i) {
+      const unsigned now = std::to_integer<unsigned>(item[i]);
+      encoder.symbol(models_[i], (now - std::to_integer<unsigned>(last_[i])) & 255);
+      last_[i] = item[i];
+    }
   }
 
  private:
@@ -91,7 +107,16 @@ struct Items {
     if (rgb) rgb->decode(decoder, record + rgb_at);
     if (extra_bytes) extra_bytes->decode(decoder, record + extra_bytes_at);
   }
+
+  void encode(ArithmeticEncoder& encoder, const std::byte* record) {
+    point->encode(encoder, record);
+    if (gps_time) gps_time->encode(encoder, record + gps_time_at);
+    if (rgb) rgb->encode(encoder, record + rgb_at);
+    if (extra_bytes) extra_bytes->encode(encoder, record + extra_bytes_at);
+  }
 };
+using ItemsOfVersion1 = Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>;
+using ItemsOfVersion2 = Items<Point10, GpsTime11, Rgb12, ExtraBytes>;
 
 template <class Items>
 class PointwiseDecoder final : public RecordDecoder {
@@ -116,10 +141,24 @@ class PointwiseDecoder final : public RecordDecoder {
 
 std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                  std::span<const std::byte> first) {
-  using Version1 = Items<version1::Point10, version1::GpsTime11, version1::Rgb12, version1::ExtraBytes>;
-  using Version2 = Items<Point10, GpsTime11, Rgb12, ExtraBytes>;
-  if (layout.items[0].version == 1) return std::make_unique<PointwiseDecoder<Version1>>(layout, bytes, first);
-  return std::make_unique<PointwiseDecoder<Version2>>(layout, bytes, first);
+  if (layout.items[0].version == 1)
+    return std::make_unique<PointwiseDecoder<ItemsOfVersion1>>(layout, bytes, first);
+  return std::make_unique<PointwiseDecoder<ItemsOfVersion2>>(layout, bytes, first);
+}
+
+std::vector<std::byte> pointwise_chunk(const Layout& layout, std::span<const std::byte> records) {
+  assert(layout.items[0].version == 2);
+  const std::size_t record_bytes = layout.record_bytes();
+  ArithmeticEncoder encoder;
+  ItemsOfVersion2 items(layout, records.data());
+  for (std::size_t at = record_bytes; at < records.size(); at += record_bytes)
+    items.encode(encoder, records.data() + at);
+
+  const auto first = records.first(record_bytes);
+  std::vector<std::byte> chunk(first.begin(), first.end());
+  const std::vector<std::byte> rest = encoder.finish();
+  chunk.insert(chunk.end(), rest.begin(), rest.end());
+  return chunk;
 }
 
 }  // namespace lacuna::io::laz

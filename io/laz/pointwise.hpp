@@ -6,12 +6,18 @@
 #include "io/laz/laz.hpp"
 #include "io/laz/record_decoder.hpp"
 
+#include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace lacuna::io::laz {
 
 // The records of a chunk after the first, which is not compressed.
 std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                  std::span<const std::byte> first);
+
+// A chunk of these records, at least one, with items of version 2.
+std::vector<std::byte> pointwise_chunk(const Layout& layout, std::span<const std::byte> records);
 
 }  // namespace lacuna::io::laz

@@ -47,12 +47,48 @@ Rgb RgbModels::decode(ArithmeticDecoder& decoder, const Rgb& last) {
   return {red, value(green_low, green_high), value(blue_low, blue_high)};
 }
 
+void RgbModels::encode(ArithmeticEncoder& encoder, const Rgb& last, const Rgb& now) {
+  unsigned changed = now[0] != now[1] || now[0] != now[2] ? kColoured : 0;
+  for (unsigned channel = 0; channel < 3; ++channel) {
+    if (low(now[channel]) != low(last[channel])) changed |= 1u << (2 * channel);
+    if (high(now[channel]) != high(last[channel])) changed |= 2u << (2 * channel);
+  }
+  encoder.symbol(changed_, changed);
+  const auto byte = [&](unsigned index, int last_byte, int change, int now_byte) {
+    if (!(changed & 1u << index)) return;
+    const int predicted = std::clamp(last_byte + change, 0, 255);
+    encoder.symbol(bytes_[index], static_cast<unsigned>(now_byte - predicted) & 255);
+  };
+
+  byte(0, low(last[0]), 0, low(now[0]));
+  byte(1, high(last[0]), 0, high(now[0]));
+  if (!(changed & kColoured)) return;
+
+  int change = low(now[0]) - low(last[0]);
+  byte(2, low(last[1]), change, low(now[1]));
+  change = (change + low(now[1]) - low(last[1])) / 2;
+  byte(4, low(last[2]), change, low(now[2]));
+
+  change = high(now[0]) - high(last[0]);
+  byte(3, high(last[1]), change, high(now[1]));
+  change = (change + high(now[1]) - high(last[1])) / 2;
+  byte(5, high(last[2]), change, high(now[2]));
+}
+
 std::uint16_t NirModels::decode(ArithmeticDecoder& decoder, std::uint16_t last) {
   const unsigned changed = decoder.symbol(changed_);
   unsigned low_byte = last & 255, high_byte = last >> 8;
   if (changed & 1) low_byte = (low_byte + decoder.symbol(bytes_[0])) & 255;
   if (changed & 2) high_byte = (high_byte + decoder.symbol(bytes_[1])) & 255;
   return static_cast<std::uint16_t>(high_byte << 8 | low_byte);
+}
+
+void NirModels::encode(ArithmeticEncoder& encoder, std::uint16_t last, std::uint16_t now) {
+  const unsigned low_change = static_cast<unsigned>(low(now) - low(last)) & 255,
+                 high_change = static_cast<unsigned>(high(now) - high(last)) & 255;
+  encoder.symbol(changed_, (low_change > 0 ? 1u : 0u) | (high_change > 0 ? 2u : 0u));
+  if (low_change > 0) encoder.symbol(bytes_[0], low_change);
+  if (high_change > 0) encoder.symbol(bytes_[1], high_change);
 }
 
 }  // namespace lacuna::io::laz

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/laz/arithmetic_decoder.hpp"
+#include "io/laz/arithmetic_encoder.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,6 +17,7 @@ using Rgb = std::array<std::uint16_t, 3>;
 class RgbModels {
  public:
   Rgb decode(ArithmeticDecoder& decoder, const Rgb& last);
+  void encode(ArithmeticEncoder& encoder, const Rgb& last, const Rgb& now);
 
  private:
   SymbolModel<128> changed_;
@@ -25,6 +27,7 @@ class RgbModels {
 class NirModels {
  public:
   std::uint16_t decode(ArithmeticDecoder& decoder, std::uint16_t last);
+  void encode(ArithmeticEncoder& encoder, std::uint16_t last, std::uint16_t now);
 
  private:
   SymbolModel<4> changed_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/version1.hpp"
 
+#include "io/laz/wrapped.hpp"
 #include "io/little_endian.hpp"
 
 #include <algorithm>
@@ -10,10 +11,6 @@ namespace {
 
 std::int32_t middle(const std::array<std::int32_t, 3>& values) {
   return std::max(std::min(values[0], values[1]), std::min(std::max(values[0], values[1]), values[2]));
-}
-
-std::int32_t wrapped_sum(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
 // Bits of the symbol that says which fields differ from the last point's; not in the order of version 2.

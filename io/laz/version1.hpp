@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/laz/contexts.hpp"
-#include "io/laz/integer_decoder.hpp"
+#include "io/laz/integer_coder.hpp"
 #include "io/laz/rgb.hpp"
 
 #include <array>
@@ -28,13 +28,13 @@ class Point10 {
   std::array<std::int32_t, 3> last_dx_{}, last_dy_{};
   std::size_t next_difference_ = 0;
 
-  IntegerDecoder<32> dx_;
-  IntegerDecoder<32, 20> dy_, z_;
+  IntegerCoder<32> dx_;
+  IntegerCoder<32, 20> dy_, z_;
   SymbolModel<64> changed_;
-  IntegerDecoder<16> intensity_;
+  IntegerCoder<16> intensity_;
   ModelByValue<256, 256> returns_, classification_, user_data_;
-  IntegerDecoder<8, 2> scan_angle_;
-  IntegerDecoder<16> point_source_;
+  IntegerCoder<8, 2> scan_angle_;
+  IntegerCoder<16> point_source_;
 };
 
 class GpsTime11 {
@@ -52,7 +52,7 @@ class GpsTime11 {
   int extremes_ = 0;
   SymbolModel<3> first_;
   SymbolModel<kFactors + 2> next_;
-  IntegerDecoder<32, 6> integers_;
+  IntegerCoder<32, 6> integers_;
 };
 
 class Rgb12 {
@@ -63,7 +63,7 @@ class Rgb12 {
  private:
   std::array<std::uint8_t, 6> last_;
   SymbolModel<64> changed_;
-  IntegerDecoder<8, 6> bytes_;
+  IntegerCoder<8, 6> bytes_;
 };
 
 class ExtraBytes {
@@ -73,8 +73,8 @@ class ExtraBytes {
 
  private:
   std::vector<std::byte> last_;
-  std::vector<SymbolModel<9>> ks_;  // the contexts of an IntegerDecoder<8>, as many as bytes
-  IntegerDecoder<8> integers_;
+  std::vector<SymbolModel<9>> ks_;  // the contexts of an IntegerCoder<8>, as many as bytes
+  IntegerCoder<8> integers_;
 };
 
 }  // namespace lacuna::io::laz::version1

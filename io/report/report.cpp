@@ -143,7 +143,7 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   return json;
 }
 
-Json report_of(const Scene& scene) {
+Json report_of(const Scene& scene, const MatchedMarks& marks) {
   const Json& holes = scene.holes;
   const Scene::Points& points = scene.points;
   return {{"lacuna", holes.at("lacuna")},
@@ -168,7 +168,8 @@ Json report_of(const Scene& scene) {
             {"spacing", points.spacing},
             {"has_normals", true},
             {"has_colours", !points.colours.empty()}}},
-          {"loops", loops_of(scene.loops, place_decimals(holes))}};
+          {"loops", loops_of(scene.loops, place_decimals(holes))},
+          {"marks", marks_json(marks, scene.loops)}};
 }
 
 // No text of it ends the element that it stands in.
@@ -180,12 +181,12 @@ std::string without_tags(std::string text) {
 
 }  // namespace
 
-void write_report(const Scene& scene, OutputFile& out) {
+void write_report(const Scene& scene, OutputFile& out, const MatchedMarks& marks) {
   const std::size_t data = kReportPage.find(kDataPlace);
   out.write(kReportPage.substr(0, data));
   Json report;
   try {
-    report = report_of(scene);
+    report = report_of(scene, marks);
   } catch (const Json::exception& error) {
     throw Error(out.path().string() +
                 ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
@@ -204,14 +205,18 @@ void write_report(const Scene& scene, OutputFile& out) {
   out.write(kReportPage.substr(data + kDataPlace.size()));
 }
 
-fs::path write_report(const fs::path& folder, Overwrite overwrite) {
+WrittenReport write_report(const fs::path& folder, Overwrite overwrite,
+                           const std::optional<fs::path>& marks) {
   const fs::path file = folder / "report.html";
   check_output(file, kReportMark, overwrite);
+  MatchedMarks matched;
+  if (marks) matched.marks = read_marks(*marks);
   const Scene scene = read_scene(folder);
+  matched.matches = match_marks(matched.marks, scene.loops);
   OutputSet set(overwrite);
-  write_report(scene, set.add(file, kReportMark));
+  write_report(scene, set.add(file, kReportMark), matched);
   set.commit();
-  return file;
+  return {file, std::move(matched)};
 }
 
 }  // namespace lacuna::io

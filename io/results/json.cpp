@@ -31,23 +31,24 @@ std::string print(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep) {
+Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep,
+               std::string_view needed) {
   constexpr int kDeepest = 32;
-  check_regular_file(file, "a result of lacuna detect");
+  check_regular_file(file, needed);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
   const auto keep_flat = [&](int depth, Json::parse_event_t event, Json& parsed) {
     if (depth > kDeepest) {
-      throw Error(file.string() + ": is nested deeper than " + std::to_string(kDeepest) +
-                  " levels; results of lacuna detect are not");
+      throw Error(file.string() + ": is nested deeper than " + std::to_string(kDeepest) + " levels; " +
+                  std::string(needed) + " is needed");
     }
     return !keep || keep(depth, event, parsed);
   };
   try {
     return Json::parse(in, keep_flat);
   } catch (const Json::parse_error& error) {
-    throw Error(file.string() + ": byte " + std::to_string(error.byte) +
-                ": is not JSON; a result of lacuna detect is needed");
+    throw Error(file.string() + ": byte " + std::to_string(error.byte) + ": is not JSON; " +
+                std::string(needed) + " is needed");
   }
 }
 

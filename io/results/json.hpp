@@ -28,8 +28,9 @@ std::string print(const Json& json, int indent);
 
 // The content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does it.
 // Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: printing and
-// copying such values is recursive.
-Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {});
+// copying such values is recursive. `needed` is for the error.
+Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {},
+               std::string_view needed = "a result of lacuna detect");
 
 Json list(const Eigen::Vector3d& vector);
 Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty

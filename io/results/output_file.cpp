@@ -39,10 +39,10 @@ void OutputFile::write(std::span<const std::byte> bytes) {
   }
 }
 
-void OutputFile::overwrite_start(std::string_view text) {
+void OutputFile::overwrite(std::uint64_t at, std::span<const std::byte> bytes) {
   flush();
-  assert(text.size() <= end_);
-  put(0, std::as_bytes(std::span(text)));
+  assert(at + bytes.size() <= end_);
+  put(at, bytes);
 }
 
 void OutputFile::flush() {

@@ -29,8 +29,9 @@ class OutputFile {
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  // Puts `text` over the first bytes of the file, which are written already: a count known at the end.
-  void overwrite_start(std::string_view text);
+  // Puts bytes over those from `at` on, which are written already: a count known at the end.
+  void overwrite(std::uint64_t at, std::span<const std::byte> bytes);
+  void overwrite_start(std::string_view text) { overwrite(0, std::as_bytes(std::span(text))); }
 
   // All bytes are on the disk afterwards, and nothing can be written any more. False: the library has made no
   // file.

@@ -10,7 +10,8 @@ namespace {
 
 PointsFormat format_like(const std::string& name) {
   const auto is = [&](std::string_view family) { return name.starts_with(family); };
-  if (is("LAS") || is("LAZ")) return PointsFormat::kLas;
+  if (is("LAS")) return PointsFormat::kLas;
+  if (is("LAZ")) return PointsFormat::kLaz;
   if (is("PCD")) return PointsFormat::kPcd;
   if (is("text")) return PointsFormat::kCsv;
   return PointsFormat::kPly;
@@ -22,16 +23,21 @@ PointsFormat points_format(const FileScan& scan, const OutputConfig& config) {
   if (config.points_format != PointsFormat::kInput) return config.points_format;
   const auto& formats = scan.formats();
   if (formats.empty()) return PointsFormat::kPly;
+  const auto are_all = [&](auto... allowed) {
+    return std::all_of(formats.begin(), formats.end(),
+                       [&](const auto& name) { return ((format_like(name) == allowed) || ...); });
+  };
   const PointsFormat first = format_like(formats.front());
-  const bool is_common = std::all_of(formats.begin(), formats.end(),
-                                     [&](const auto& name) { return format_like(name) == first; });
-  return is_common ? first : PointsFormat::kPly;
+  if (are_all(first)) return first;
+  return are_all(PointsFormat::kLas, PointsFormat::kLaz) ? PointsFormat::kLas : PointsFormat::kPly;
 }
 
 std::string points_file(const FileScan& scan, const OutputConfig& config) {
   switch (points_format(scan, config)) {
     case PointsFormat::kLas:
       return "points.las";
+    case PointsFormat::kLaz:
+      return "points.laz";
     case PointsFormat::kPcd:
       return "points.pcd";
     case PointsFormat::kCsv:
@@ -44,6 +50,7 @@ std::string points_file(const FileScan& scan, const OutputConfig& config) {
 void check_points(const FileScan& scan, const OutputConfig& config) {
   const PointsFormat format = points_format(scan, config);
   if (format == PointsFormat::kLas) check_points_las(scan, config);
+  if (format == PointsFormat::kLaz) check_points_laz(scan, config);
   if (format == PointsFormat::kPcd) check_points_pcd(scan, config);
 }
 
@@ -51,6 +58,8 @@ std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config) 
   switch (points_format(scan, config)) {
     case PointsFormat::kLas:
       return las_row_bytes(scan, config);
+    case PointsFormat::kLaz:
+      return laz_row_bytes(scan, config);
     case PointsFormat::kPcd:
       return pcd_row_bytes(scan, config);
     case PointsFormat::kCsv:

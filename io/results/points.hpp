@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annotated scan, points.ply, .las, .pcd or .csv: every row of the input in order, all of its columns,
-// then the results. Files are joined by the names of columns. A column of the input with the name of a result
-// is left out, as an earlier run wrote it. Each writer reads every file once more. All throw `Error`.
+// The annotated scan, points.ply, .las, .laz, .pcd or .csv: every row of the input in order, all of its
+// columns, then the results. Files are joined by the names of columns. A column of the input with the name of
+// a result is left out, as an earlier run wrote it. Each writer reads every file once more. All throw
+// `Error`.
 #pragma once
 
 #include "engine/config.hpp"
@@ -15,7 +16,8 @@
 namespace lacuna::io {
 
 // As config.points_format says. With `input`, it is the format of the files, if all have the same and it can
-// be written. That holds for PLY, LAS (LAZ too), PCD, and CSV for text. Else it is PLY. Never kInput.
+// be written. That holds for PLY, LAS, LAZ, PCD, and CSV for text. LAS and LAZ files together are LAS. Else
+// it is PLY. Never kInput.
 PointsFormat points_format(const FileScan& scan, const OutputConfig& config);
 std::string points_file(const FileScan& scan, const OutputConfig& config);  // "points.ply" and so on
 
@@ -23,7 +25,7 @@ std::string points_file(const FileScan& scan, const OutputConfig& config);  // "
 // work.
 void check_points(const FileScan& scan, const OutputConfig& config);
 
-// Bytes of a row. A guess for CSV, and for LAS from other formats.
+// Bytes of a row. A guess for CSV and LAZ, and for LAS from other formats.
 std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config);
 
 // PLY, binary little endian. Properties have the names of the input. Results are scalar_probability,
@@ -37,7 +39,10 @@ void write_points_ply(const Detection& detection, const FileScan& scan, const Ou
 // left out.
 void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out);
-FileMark points_las_mark();
+// The same file as LAZ, with the same records. Point formats 0 to 3 and 6 to 8.
+void write_points_laz(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                      OutputFile& out);
+FileMark points_las_mark();  // of both
 
 // PCD, binary. From PCD files with the same fields and without poses, all fields as they are; a single one
 // keeps WIDTH, HEIGHT and VIEWPOINT. Else red green blue as bytes become `rgb`, with alpha `rgba`, and nx ny
@@ -54,9 +59,11 @@ FileMark points_csv_mark();
 // What each of them says of its rows.
 std::uint64_t ply_row_bytes(const FileScan& scan, const OutputConfig& config);
 std::uint64_t las_row_bytes(const FileScan& scan, const OutputConfig& config);
+std::uint64_t laz_row_bytes(const FileScan& scan, const OutputConfig& config);
 std::uint64_t pcd_row_bytes(const FileScan& scan, const OutputConfig& config);
 std::uint64_t csv_row_bytes(const FileScan& scan, const OutputConfig& config);
 void check_points_las(const FileScan& scan, const OutputConfig& config);
+void check_points_laz(const FileScan& scan, const OutputConfig& config);
 void check_points_pcd(const FileScan& scan, const OutputConfig& config);
 
 }  // namespace lacuna::io

@@ -4,6 +4,7 @@
 #include "io/las/las_points.hpp"
 #include "io/las/las_transfer.hpp"
 #include "io/las/las_writer.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/points.hpp"
 #include "io/scalar.hpp"
@@ -180,6 +181,23 @@ std::vector<LasExtraBytes> result_extra(std::span<const ResultColumn> results, c
   return extra;
 }
 
+// How points.laz has these points. Throws `Error` where it cannot.
+LasCompression compression_of(const LasForm& form, std::span<const ResultColumn> results,
+                              const FileScan& scan, const std::string& name) {
+  constexpr const char* kWayOut = "; --points-format las holds them all";
+  const std::size_t extra = form.record_bytes + bytes_of(results) - las_point_bytes(form.point_format);
+  const auto layout = laz::layout_of(form.point_format, static_cast<std::uint16_t>(extra));
+  if (!layout)
+    throw Error(name + ": points of format " + std::to_string(form.point_format) +
+                " have waveforms, which Lacuna cannot compress" + kWayOut);
+  const std::uint64_t needed = laz::encoder_bytes(*layout) + laz::kMostChunkBytes;
+  if (needed > scan.memory())
+    throw Error(name + ": to compress points of " + std::to_string(layout->record_bytes()) + " bytes takes " +
+                std::to_string(needed >> 20) + " MiB, more than the " + std::to_string(scan.memory() >> 20) +
+                " MiB that the memory limit leaves for it" + kWayOut);
+  return {.layout = *layout, .memory = scan.memory() / 2};  // the other half is for what reads the points
+}
+
 LasForm form_of(const LasInput& input, std::span<const ResultColumn> results, const std::string& name) {
   constexpr std::size_t kMostRecordBytes = 65535, kMostDescriptors = 341;  // 192 bytes each in 65535
   LasForm form = join_las(input.parts);
@@ -202,24 +220,39 @@ void check_points_las(const FileScan& scan, const OutputConfig& config) {
   form_of(examine(scan, results), results, "points.las");
 }
 
+void check_points_laz(const FileScan& scan, const OutputConfig& config) {
+  const std::string name = "points.laz";
+  const std::vector<ResultColumn> results = result_columns(scan, config);
+  compression_of(form_of(examine(scan, results), results, name), results, scan, name);
+}
+
 std::uint64_t las_row_bytes(const FileScan& scan, const OutputConfig& config) {
   const std::vector<ResultColumn> results = result_columns(scan, config);
   return form_of(examine(scan, results), results, "points.las").record_bytes + bytes_of(results);
 }
 
-void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
-                      OutputFile& out) {
+std::uint64_t laz_row_bytes(const FileScan& scan, const OutputConfig& config) {
+  return las_row_bytes(scan, config) / 2;
+}
+
+namespace {
+
+void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                  bool is_compressed, OutputFile& out) {
+  const std::string name = out.path().string();
   const std::vector<ResultColumn> results = result_columns(scan, config);
   LasInput input = examine(scan, results);
   survey(scan, input);
-  const LasForm form = form_of(input, results, out.path().string());
+  const LasForm form = form_of(input, results, name);
   const std::vector<LasExtraBytes> extra = result_extra(results, form);
   if (input.origin) input.origin->has_counts = form.is_as_it_was;
+  std::optional<LasCompression> compression;
+  if (is_compressed) compression = compression_of(form, results, scan, name);
 
-  LasWriter writer(out, form, extra, input.origin, input.parts.crs);
+  LasWriter writer(out, form, extra, input.origin, input.parts.crs, std::move(compression));
   LasRows rows(scan, input, form);
   const std::size_t stride = writer.record_bytes();
-  for_each_annotated_block(detection, rows, form.record_bytes, results, out.path().string(),
+  for_each_annotated_block(detection, rows, form.record_bytes, results, name,
                            [&](std::vector<std::byte>& block, std::size_t count) {
                              std::size_t kept = count;
                              if (!rows.left_out().empty()) {
@@ -236,6 +269,18 @@ void write_points_las(const Detection& detection, const FileScan& scan, const Ou
                              writer.put(std::span(block).first(kept * stride));
                            });
   writer.finish();
+}
+
+}  // namespace
+
+void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                      OutputFile& out) {
+  write_points(detection, scan, config, false, out);
+}
+
+void write_points_laz(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                      OutputFile& out) {
+  write_points(detection, scan, config, true, out);
 }
 
 }  // namespace lacuna::io

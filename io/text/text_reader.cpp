@@ -81,6 +81,14 @@ std::vector<std::string> default_names(std::size_t count) {
   return names;
 }
 
+// PTS: the number of points on a line of its own, then rows of these. Empty: it has other rows.
+std::vector<std::string> pts_names(std::size_t count) {
+  if (count == 4) return {"x", "y", "z", "intensity"};
+  if (count == 6) return {"x", "y", "z", "red", "green", "blue"};
+  if (count == 7) return {"x", "y", "z", "intensity", "red", "green", "blue"};
+  return {};
+}
+
 std::string joined(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   std::string text;
@@ -221,6 +229,7 @@ class TextReader final : public ScanReader {
     if (!first.empty() && first.size() < 3) {
       in_.fail_at_line(in_.line(), std::to_string(first.size()) + " values; at least x y z are needed");
     }
+    if (preamble.count && !pts_names(first.size()).empty()) return pts_names(first.size());
     if (first.size() >= 4 && counts_rows(first, in_.peek(kSampleBytes), separator_)) {
       in_.fail_at_line(in_.line(), "no header line, and the first column counts the rows, in " +
                                        in_quotes(preamble.first) +

@@ -26,7 +26,7 @@ def plot_holes(holes: Any, ax: Any, axes: str, points: int) -> Any:
 
 
 def picture_of(holes: Any) -> str:
-    """An <img> element with the plot from above; nothing where matplotlib is not installed."""
+    """Returns an <img> element with the plot from above; nothing where matplotlib is not installed."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
@@ -41,7 +41,7 @@ def picture_of(holes: Any) -> str:
 def _draw(holes: Any, ax: Any, right: int, up: int, points: int) -> None:
     xyz, _ = holes._drawn_points()
     step = max(1, -(-len(xyz) // max(points, 1)))
-    ax.scatter(xyz[::step, right], xyz[::step, up], s=0.5, c="0.75", linewidths=0, rasterized=True)
+    ax.scatter(xyz[::step, right], xyz[::step, up], s=1, c="0.65", linewidths=0, rasterized=True)
     for loop in holes.loops:
         closed = np.vstack([loop.xyz, loop.xyz[:1]])
         ax.plot(closed[:, right], closed[:, up], color=OUTER if loop.kind == "outer" else HOLE, linewidth=1.2)

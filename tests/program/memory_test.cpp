@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory is bounded by the setting, as the operating system measures it.
 #include "engine/config.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/hostile.hpp"
-#include "tests/support/laz_encoder.hpp"
+#include "tests/support/laz_data.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <algorithm>
@@ -186,7 +187,7 @@ std::string laz_of_equal_points(std::uint32_t count, bool has_chunks) {
   };
   const test::LasFile las{
       .points = {point},
-      .records = {test::las_record("laszip encoded", 22204, text(test::laz_record(layout)))}};
+      .records = {test::las_record("laszip encoded", 22204, text(laz::layout_record(layout)))}};
   std::string bytes = las.bytes();
   bytes.resize(bytes.size() - point.size());
   test::put(bytes, 104, std::uint8_t{0x80});

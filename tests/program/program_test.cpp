@@ -31,6 +31,37 @@ using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
 
+TEST_CASE("a folder of Entwine's point tiles is the scan in its files", "[program]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "ept" / "ept-data");
+  folder.write("ept/ept.json", R"({"dataType": "laszip", "points": 3})");
+  folder.write("ept/ept-data/0-0-0-0.xyz", "1 2 3\n4 5 6\n");
+  folder.write("ept/ept-data/1-0-0-0.xyz", "7 8 9\n");
+  for (const auto& name : {folder / "ept", folder / "ept" / "ept.json"}) {
+    const auto json = nlohmann::json::parse(run_program({"info", "--json", name.string()}).out);
+    CHECK(json["files"].size() == 2);
+    CHECK(json["points"] == 3);
+  }
+  folder.write("ept/ept.json", R"({"dataType": "zstandard"})");
+  check_failure(run_program({"info", (folder / "ept").string()}), 1, "allowed: laszip");
+  folder.write("ept/ept.json", "[");
+  check_failure(run_program({"info", (folder / "ept").string()}), 1, "has no \"dataType\"");
+}
+
+TEST_CASE("info counts classes and returns", "[program]") {
+  const ScratchFolder folder;
+  const std::string scan = folder.write("a.txt",
+                                        "x y z classification return_number number_of_returns\n"
+                                        "0 0 0 2 1 1\n1 0 0 2 1 2\n2 0 0 5 2 2\n3 0 0 40 1 1\n");
+  const auto text = run_program({"info", scan});
+  CHECK_THAT(text.out, Contains("classes     2 ground 2 · 5 high vegetation 1 · 40 1\n"));
+  CHECK_THAT(text.out, Contains("returns     2 only, 1 first of several, 1 later\n"));
+  const auto json = nlohmann::json::parse(run_program({"info", "--json", scan}).out)["files"][0];
+  CHECK(json["classes"] == nlohmann::json{{"2", 2}, {"5", 1}, {"40", 1}});
+  CHECK(json["returns"] == nlohmann::json{{"only", 2}, {"first", 1}, {"later", 1}});
+  CHECK_THAT(run_program({"info", folder.write("b.xyz", "1 2 3\n")}).out, !Contains("classes"));
+}
+
 TEST_CASE("a run counts its loops in words") {
   const ScratchFolder scratch;
   const auto summary_of = [&](const char* kind) {

@@ -91,7 +91,7 @@ class FindHoles(Folder):
         np.savetxt(scan, SHEET, fmt="%.17g")
         subprocess.run([PROGRAM, "detect", scan, "--out", self.folder / "out", "--quiet", "--min-hole", "10"], check=True)
         program = json.loads((self.folder / "out/holes.json").read_text())["loops"]
-        self.assertEqual(len(program), 2)
+        self.assertEqual(len(program), 3)
         for holes in (lacuna.find_holes(SHEET, min_hole=10), lacuna.detect(scan, min_hole=10), lacuna.load(self.folder / "out")):
             self.assertEqual([loop.ids.tolist() for loop in holes.loops], [loop["ids"] for loop in program])
             for loop, expected in zip(holes.loops, program):
@@ -99,7 +99,7 @@ class FindHoles(Folder):
                 for name in ("kind", "confidence", "area", "diameter", "perimeter", "planarity", "mean_probability", "last_scale"):
                     self.assertEqual(getattr(loop, name), expected[name])
             self.assertEqual(holes.summary["points"], len(SHEET))
-            self.assertEqual(len(holes.sample["xyz"]), len(SHEET))
+            self.assertGreater(len(holes.sample["xyz"]), 1000)  # of the first level
         self.assertEqual(set(lacuna.load(self.folder / "out").summary["bounds"]), set(holes.summary["bounds"]))
 
     def test_each_point_has_its_result(self):
@@ -258,7 +258,7 @@ class Files(Folder):
         subprocess.run([PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(self.folder / "s.ply")
         score = lacuna.evaluate(holes, self.folder / "s.loops.txt")
-        self.assertEqual((score["loops"]["found"], score["loops"]["true"]), (4, 4))
+        self.assertEqual((score["found"], score["true"], score["false"]), (4, 4, 0))
         fewer = lacuna.detect(self.folder / "s.ply", holes_only=True)
         changes = [c["change"] for c in lacuna.compare(holes, fewer)["changes"]]
         self.assertEqual((changes.count("closed"), changes.count("same")), (1, len(fewer.loops)))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of the selected loop.
+// The selected loop: its measures, its mark and its note.
 
 class Details {
   // `actions`: {fly(index), close()}
-  constructor(data, units, decimals, actions) {
-    Object.assign(this, {data, units, decimals, actions});
+  constructor(data, units, decimals, marks, actions) {
+    Object.assign(this, {data, units, decimals, marks, actions});
     this.show(-1);
   }
 
@@ -26,6 +26,8 @@ class Details {
     const place = vector(loops.centroid, this.decimals);
     const copy = element("button", {type: "button", id: "copy"}, "Copy place");
     copy.addEventListener("click", () => copy_text(place.join(" ").replace(/−/g, "-"), copy));
+    const link = element("button", {type: "button", id: "copy-link", title: "The address of this page at this loop"}, "Copy link");
+    link.addEventListener("click", () => copy_text(location.href, link));
     const fly = element("button", {type: "button"}, "Fly to it");
     fly.addEventListener("click", () => this.actions.fly(index));
     const close = element("button", {type: "button"}, "Deselect");
@@ -34,6 +36,7 @@ class Details {
         ...values.map((value, axis) => element("span", {}, element("i", {}, "xyz"[axis]), value)));
     find("details-heading").replaceChildren(element("i", {class: `swatch ${name}`}), loop_name(loops, index));
     body.replaceChildren(
+        mark_fields(this.marks, index),
         description([
           ["Area", units.area(loops.area[index], 4)],
           ["Perimeter", units.length(loops.perimeter[index], 4)],
@@ -46,7 +49,8 @@ class Details {
           [`Centroid${units.name ? ", " + units.name : ""}`, axes(place), "wide"],
           ["Normal", axes(vector(loops.normal, 4)), "wide"],
         ]),
-        element("div", {class: "buttons"}, copy, fly, close));
+        element("div", {class: "buttons"}, copy, link, fly, close));
+    update_mark_fields(this.marks, index);
   }
 }
 
@@ -59,32 +63,4 @@ function scales(loops, index, units) {
 
 function loop_name(loops, index) {
   return `${loops.is_hole[index] ? "Hole" : "Outer curve"} ${loops.id[index]}`;
-}
-
-// The clipboard, or the old way where a page of a file may not use it.
-async function copy_text(text, button) {
-  let is_done = true;
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch (error) {
-    const field = element("textarea", {class: "unseen", "aria-hidden": "true"});
-    field.value = text;
-    document.body.append(field);
-    field.select();
-    is_done = document.execCommand("copy");
-    field.remove();
-    button.focus();
-  }
-  const name = button.textContent;
-  button.textContent = is_done ? "Copied" : "Not copied";
-  setTimeout(() => { button.textContent = name; }, 1400);
-}
-
-function save_text(text, name) {
-  const address = URL.createObjectURL(new Blob([text], {type: "text/csv"}));
-  const link = element("a", {href: address, download: name});
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 1000);
 }

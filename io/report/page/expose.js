@@ -12,6 +12,10 @@ function expose(page) {
     target: () => (view ? to_real(data.frame, view.navigation.controls.target.toArray()) : null),
     is_still: () => !view || (!view.navigation.flight && !view.frames.requested),
     visible_loops: () => page.table.shown.length,
+    mark: (id) => page.marks.mark[data.loops.id.indexOf(id)],
+    note: (id) => page.marks.note[data.loops.id.indexOf(id)],
+    marks_text: () => page.marks.text(),
+    load_marks: (text) => page.marks.load(text),
     selected: () => (page.selected < 0 ? null : data.loops.id[page.selected]),
     loop_heights: (id) => {
       const {low, high} = loop_box(data.loops, data.loops.id.indexOf(id));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loops are shown: kind, least diameter, least confidence. Sliders and number fields say the same.
+// Which loops are shown: kind, mark, least diameter, least confidence. Sliders and number fields say the same.
 
 class LoopFilter {
   // `on_change()` after each change, at most once a picture.
-  constructor(loops, units, on_change) {
+  constructor(loops, units, marks, on_change) {
     this.loops = loops;
+    this.marks = marks;
     this.on_change = on_change;
     this.kind = "all";
+    this.mark = "any";
     this.size = 0;        // least diameter, in the scan's unit
     this.confidence = 0;
     const sizes = Array.from(loops.diameter).filter((value) => value > 0);
@@ -21,6 +23,7 @@ class LoopFilter {
     for (const radio of document.getElementsByName("kind")) {
       radio.addEventListener("change", () => { this.kind = radio.value; this.changed(); });
     }
+    find("mark-filter").addEventListener("change", () => { this.mark = find("mark-filter").value; this.changed(); });
     const {least, most} = this;
     const slider = find("size-slider"), number = find("size-number");
     slider.disabled = !(most > 0);
@@ -58,16 +61,18 @@ class LoopFilter {
     find("filters").reset();
     for (const name of ["size-number", "confidence-number"]) typed_number(find(name));
     this.kind = "all";
+    this.mark = "any";
     this.size = this.confidence = 0;
     this.changed();
   }
 
-  is_active() { return this.kind !== "all" || this.size > 0 || this.confidence > 0; }
+  is_active() { return this.kind !== "all" || this.mark !== "any" || this.size > 0 || this.confidence > 0; }
 
   passes(i) {
     const {is_hole, diameter, confidence} = this.loops;
     if (this.kind === "hole" && !is_hole[i]) return false;
     if (this.kind === "outer" && is_hole[i]) return false;
+    if (this.mark !== "any" && this.marks.mark[i] !== this.mark) return false;
     if (this.size > 0 && !(diameter[i] >= this.size)) return false;
     return !(this.confidence > 0) || confidence[i] >= this.confidence;
   }

@@ -15,17 +15,20 @@ class Page {
     this.former = null;  // pose before the flight to a loop
     write_header(this.data);
     find("csv").disabled = loops.count === 0;
-    this.filter = new LoopFilter(loops, this.units, () => this.apply_filter());
-    this.table = new LoopTable(loops, this.units, this.decimals, (index) => this.toggle(index));
-    this.details = new Details(this.data, this.units, this.decimals,
+    this.marks = new Marks(this.data, () => this.apply_marks());
+    connect_marks(this.marks, () => `${this.file_title()}_marks.json`);
+    this.filter = new LoopFilter(loops, this.units, this.marks, () => this.apply_filter());
+    this.table = new LoopTable(loops, this.units, this.decimals, this.marks, (index) => this.toggle(index));
+    this.details = new Details(this.data, this.units, this.decimals, this.marks,
                                {fly: (index) => this.select(index, true), close: () => this.deselect()});
     draw_facts(this.data, this.units);
     this.make_view();
     this.times.view = performance.now() - begin;
     this.connect();
-    this.apply_filter();
+    this.apply_marks();
     this.set_theme(this.theme);
     this.times.parts = performance.now() - begin;
+    this.open_link(false);
     if (this.view) this.view.draw();
     this.times.ready = performance.now() - begin;
     this.times.since_navigation = performance.now();
@@ -65,6 +68,7 @@ class Page {
   connect() {
     connect_header({set_theme: (name) => this.set_theme(name), other_theme: () => (this.theme === "dark" ? "light" : "dark")});
     connect_tabs();
+    window.addEventListener("hashchange", () => this.open_link(true));
     this.connect_view();
     find("csv").addEventListener("click", () => this.save_csv());
     find("reset").addEventListener("click", () => this.reset());
@@ -77,6 +81,8 @@ class Page {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
       f: () => side("fit"), 1: () => side("top"), 2: () => side("front"), 3: () => side("side"),
       c: () => this.next_colouring(), t: () => find("through").click(),
+      0: () => this.set_mark(kNoMark), e: () => this.edit_note(),
+      ...Object.fromEntries(kMarks.map(({name, key}) => [key, () => this.set_mark(name)])),
     }});
   }
 
@@ -99,8 +105,12 @@ class Page {
   }
 
   save_csv() {
-    const title = (this.data.report.title || "scan").replace(/\.[a-z0-9]+$/i, "").replace(/[^\w.-]+/g, "_");
-    save_text(this.table.csv(), `${title}_holes.csv`);
+    save_text(this.table.csv(), `${this.file_title()}_holes.csv`, "text/csv");
+  }
+
+  // How names of saved files begin.
+  file_title() {
+    return (this.data.report.title || "scan").replace(/\.[a-z0-9]+$/i, "").replace(/[^\w.-]+/g, "_");
   }
 
   next_colouring() {
@@ -162,10 +172,34 @@ class Page {
     this.update_reset();
   }
 
+  // ---- Marks
+
+  // Of the row in focus, else of the selected loop.
+  set_mark(name) {
+    const focused = this.table.focused_loop();
+    const index = focused >= 0 ? focused : this.selected;
+    if (index >= 0) this.marks.set(index, name);
+  }
+
+  edit_note() {
+    const note = find("note");
+    if (!note) return;
+    choose_tab("details");
+    note.focus();
+  }
+
+  apply_marks() {
+    update_mark_tools(this.marks);
+    this.table.update_marks();
+    if (this.selected >= 0) update_mark_fields(this.marks, this.selected);
+    this.apply_filter();
+  }
+
   // ---- Selection
 
   select(index, is_flight) {
     this.selected = index;
+    set_link(this.data.loops.id[index]);
     this.table.select(index);
     this.details.show(index);
     if (this.view) {
@@ -182,10 +216,29 @@ class Page {
 
   deselect() {
     this.selected = -1;
+    set_link(null);
     this.table.select(-1);
     this.details.show(-1);
     if (this.view) this.view.scenes.set_selected(-1);
     this.update_chip();
+  }
+
+  // Selects the loop that the address names; filters that hide it are cleared. Without a flight, the page begins there.
+  open_link(is_flight) {
+    const id = linked_id(location.hash);
+    if (id === null) return;
+    const index = this.data.loops.id.indexOf(id);
+    if (index < 0) {
+      show_notice(`This page has no loop ${id}.`, true);
+      return;
+    }
+    if (index === this.selected) return;
+    if (!this.filter.passes(index)) {
+      this.filter.reset();
+      this.apply_filter();
+    }
+    this.select(index, true);
+    if (!is_flight && this.view) this.view.navigation.end_flight();
   }
 
   // Deselects, and goes back to the view and the section before the flight.

@@ -71,6 +71,12 @@ class Navigation {
     this.frames.request();
   }
 
+  // At once at the end of the flight.
+  end_flight() {
+    if (this.flight) this.set_pose(this.flight.to);
+    this.flight = null;
+  }
+
   zoom(factor, x, y) {
     this.flight = null;
     const pose = this.pose();

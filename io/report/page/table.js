@@ -7,6 +7,7 @@ const kRowPixels = 30;
 const kColumns = [
   {key: "id", name: "Id", kind: "count"},
   {key: "kind", name: "Kind", kind: "kind"},
+  {key: "mark", name: "Mark", kind: "mark"},
   {key: "area", name: "Area", kind: "area"},
   {key: "perimeter", name: "Perimeter", kind: "length"},
   {key: "diameter", name: "Diameter", kind: "length"},
@@ -18,8 +19,8 @@ const kColumns = [
 
 class LoopTable {
   // `on_choose(index)` when a row is clicked or Enter is pressed on it.
-  constructor(loops, units, decimals, on_choose) {
-    Object.assign(this, {loops, units, decimals, on_choose});
+  constructor(loops, units, decimals, marks, on_choose) {
+    Object.assign(this, {loops, units, decimals, marks, on_choose});
     this.sort = {key: "area", is_falling: true, holes_first: true};
     this.shown = [];      // indices of loops, in the order of the rows
     this.selected = -1;
@@ -60,7 +61,7 @@ class LoopTable {
 
   sort_by(key) {
     const is_same = this.sort.key === key && !this.sort.holes_first;
-    const starts_falling = !["id", "kind", "place"].includes(key);
+    const starts_falling = !["id", "kind", "mark", "place"].includes(key);
     this.sort = {key, is_falling: is_same ? !this.sort.is_falling : starts_falling, holes_first: false};
     this.order = null;
     this.show(this.passes);
@@ -72,6 +73,7 @@ class LoopTable {
     if (this.order) return this.order;
     const {loops, sort} = this;
     const values = sort.key === "kind" ? loops.is_hole.map((is_hole) => 1 - is_hole)
+        : sort.key === "mark" ? this.mark_ranks()
         : sort.key === "place" ? Float64Array.from(loops.id, (_, i) => loops.centroid[3 * i]) : loops[sort.key];
     const sign = sort.is_falling ? -1 : 1;
     this.order = Array.from({length: loops.count}, (_, i) => i).sort((a, b) => {
@@ -81,6 +83,16 @@ class LoopTable {
       return sign * (x - y) || a - b;
     });
     return this.order;
+  }
+
+  // Places in kMarks; NaN without a mark.
+  mark_ranks() {
+    return this.marks.mark.map((name) => (name === kNoMark ? NaN : kMarkNames.indexOf(name)));
+  }
+
+  // Marks have changed.
+  update_marks() {
+    if (this.sort.key === "mark") this.order = null;
   }
 
   show(passes) {
@@ -139,6 +151,11 @@ class LoopTable {
       const name = loops.is_hole[i] ? "hole" : "outer";
       return element("td", {class: "kind"}, element("i", {class: `swatch ${name}`}), name);
     }
+    if (kind === "mark") {
+      const name = this.marks.mark[i];
+      return name === kNoMark ? element("td", {class: "mark-cell"})
+                              : element("td", {class: "mark-cell"}, mark_sign(name), mark_title(name));
+    }
     if (kind === "place") return element("td", {class: "place"}, this.place(i).join("  "));
     const value = loops[key][i];
     if (kind === "count") return element("td", {class: "number"}, format_count(value));
@@ -193,6 +210,11 @@ class LoopTable {
     }
     event.preventDefault();
     event.stopPropagation();
+  }
+
+  // Index of the loop whose row has the focus, -1 if none has it.
+  focused_loop() {
+    return document.activeElement.matches("#body tr[data-row]") ? this.shown[this.focused] : -1;
   }
 
   // The row after (1) or before (-1) the selected one, as an index; -1 without rows.

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // On narrow screens: the tabs of the sheet below the view, and its height.
 
+// `name`: the data-tab of one of them.
+function choose_tab(name) {
+  document.body.dataset.tab = name;
+  for (const tab of document.querySelectorAll("[role=tab]")) {
+    tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
+    tab.tabIndex = tab.dataset.tab === name ? 0 : -1;
+  }
+}
+
 function connect_tabs() {
   const tabs = Array.from(document.querySelectorAll("[role=tab]"));
   const choose = (tab, is_focused) => {
-    document.body.dataset.tab = tab.dataset.tab;
-    for (const other of tabs) {
-      other.setAttribute("aria-selected", String(other === tab));
-      other.tabIndex = other === tab ? 0 : -1;
-    }
+    choose_tab(tab.dataset.tab);
     if (is_focused) tab.focus();
   };
   for (const [at, tab] of tabs.entries()) {

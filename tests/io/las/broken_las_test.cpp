@@ -2,9 +2,10 @@
 // Broken files of every point format, compressed and not.
 #include "engine/run/parallel.hpp"
 #include "io/las/las_header.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/io/las/las_file.hpp"
-#include "tests/support/laz_encoder.hpp"
+#include "tests/support/laz_data.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -56,7 +57,7 @@ WholeFile compressed(int minor, int format, std::uint16_t version, const std::ve
   const auto chunk_points = varies ? laz::kVariableChunks : static_cast<std::uint32_t>(chunks.front());
   laz::Layout layout = laz_layout(format, 2, chunk_points, version);
   if (!has_table) layout.compressor = laz::compressor::kPointwise;
-  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz_record(layout))));
+  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz::layout_record(layout))));
 
   std::string bytes = las.bytes();
   const std::string points = bytes.substr(bytes.size() - las.points.size() * las.points[0].size());
@@ -110,7 +111,7 @@ TEST_CASE("LAZ with two broken chunks: the error names the first, however many t
   constexpr std::size_t kPoints = 20'000;
   LasFile las = las_file(2, 0, 2 * kPoints);
   const laz::Layout layout = laz_layout(0, 2, kPoints, 2);
-  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz_record(layout))));
+  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz::layout_record(layout))));
   std::string bytes = las.bytes();
   const std::size_t half = kPoints * las.points[0].size(), points_at = bytes.size() - 2 * half;
   const std::string points = bytes.substr(points_at);
@@ -123,7 +124,7 @@ TEST_CASE("LAZ with two broken chunks: the error names the first, however many t
   put(second, las.points[0].size(), std::uint32_t{0xffffffff});
   const std::vector<laz::Chunk> chunks = {{0, first.size(), kPoints}, {0, second.size(), kPoints}};
   put(bytes, points_at, std::uint64_t{points_at + 8 + first.size() + second.size()});
-  bytes += first + second + as_text(laz_chunk_table(layout, chunks));
+  bytes += first + second + as_text(laz::encode_chunk_table(layout, chunks));
 
   const ScratchFolder folder;
   const auto file = folder.write("a.laz", bytes);

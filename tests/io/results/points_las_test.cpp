@@ -2,7 +2,7 @@
 #include "io/las/las_writer.hpp"
 #include "io/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
-#include "tests/support/laz_encoder.hpp"
+#include "tests/support/laz_data.hpp"
 
 namespace lacuna::test {
 using namespace io;
@@ -135,7 +135,7 @@ TEST_CASE("points.las of a LAZ file is LAS with the same points, without what LA
   const auto text = [](const LazBytes& data) {
     return std::string(reinterpret_cast<const char*>(data.data()), data.size());
   };
-  las.records.push_back(las_record("laszip encoded", 22204, text(laz_record(layout))));
+  las.records.push_back(las_record("laszip encoded", 22204, text(laz::layout_record(layout))));
   std::string bytes = las.bytes();
   bytes.resize(bytes.size() - 5 * las.points[0].size());
   put(bytes, 104, static_cast<std::uint8_t>(7 | 0x80));

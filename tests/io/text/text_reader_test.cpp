@@ -128,6 +128,12 @@ TEST_CASE("a bare count on the first line is what the rows must come to", "[io]"
   const ScratchFolder folder;
   CHECK(read_table(folder.write("a.pts", "2\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
   CHECK(read_table(folder.write("a.pts", "0\n")).rows.empty());
+  CHECK(read_table(folder.write("a.pts", "1\n1 2 3 40\n")).names == Names{"x", "y", "z", "intensity"});
+  CHECK(read_table(folder.write("a.pts", "1\n1 2 3 9 8 7\n")).names ==
+        Names{"x", "y", "z", "red", "green", "blue"});
+  CHECK(read_table(folder.write("a.pts", "1\n1 2 3 -40 9 8 7\n")).names ==
+        Names{"x", "y", "z", "intensity", "red", "green", "blue"});
+  CHECK(read_table(folder.write("a.xyz", "1 2 3 -40 9 8 7\n")).names.back() == "column_7");
   CHECK(read_error(folder.write("a.pts", "2\n")).find("line 1: ") != std::string::npos);
   CHECK(read_error(folder.write("a.pts", "3\n1 2 3\n4 5 6\n"))
             .find("line 3: the file ends here with fewer rows than the 3 that") != std::string::npos);

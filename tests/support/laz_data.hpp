@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compresses points as LASzip does, for tests of the decoder: a mirror of the specification that
-// io/laz/laz.hpp cites, simple and slow. It shares only the adaptive models and the streaming median with the
-// decoder; those two are checked with a file that LASzip wrote.
+// Compressed points of every version that the decoder reads, for its tests. The encoder of io/laz makes them,
+// and one for version 1, which Lacuna does not write.
 #pragma once
 
 #include "io/laz/laz.hpp"
@@ -20,14 +19,8 @@ using LazBytes = std::vector<std::byte>;
 io::laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
                            std::uint16_t version);
 
-// The data of the variable length record "laszip encoded".
-LazBytes laz_record(const io::laz::Layout& layout);
-
 // One chunk, of at least one record as in an uncompressed LAS file.
 LazBytes laz_chunk(const io::laz::Layout& layout, std::span<const std::byte> records);
-
-// The table of chunks, `offset` not used.
-LazBytes laz_chunk_table(const io::laz::Layout& layout, std::span<const io::laz::Chunk> chunks);
 
 // All bytes of a file from its point data at `offset` on: the offset of the chunk table, the chunks, the
 // table. `chunk_points` are the points of each chunk, together all of `records`.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compresses points as LAZ files have them: the counterpart of io/laz/laz.hpp, which cites the format. No
+// file access.
+#pragma once
+
+#include "io/laz/laz.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::io::laz {
+
+// How points of this format are compressed, with `extra_bytes` behind the format's fields. Formats 0 to 3:
+// compressor 2 with items of version 2. Formats 6 to 8: compressor 3 with items of version 3. A chunk has
+// 50,000 points, as LASzip's; fewer where these take more than kMostChunkBytes. None: other formats have
+// waveforms, which LAZ is not written with.
+std::optional<Layout> layout_of(int point_format, std::uint16_t extra_bytes);
+inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
+
+// The data of the variable length record "laszip encoded" (user id) 22204: what parse_layout() reads.
+std::vector<std::byte> layout_record(const Layout& layout);
+
+// A chunk of these records, at least one, record_bytes() each. Chunks may be encoded at the same time in
+// several threads. Memory: encoder_bytes(), and up to twice the bytes of the chunk. The layout is one of
+// layout_of(), or has other numbers of points or items of version 4.
+std::vector<std::byte> encode_chunk(const Layout& layout, std::span<const std::byte> records);
+
+// A bound on the memory of the models that encode a chunk.
+std::uint64_t encoder_bytes(const Layout& layout);
+
+// The table of these chunks, in the order of the file; their offsets are not part of it.
+std::vector<std::byte> encode_chunk_table(const Layout& layout, std::span<const Chunk> chunks);
+
+}  // namespace lacuna::io::laz

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the decoder and the encoder of POINT14 have in common: a point's fields, and the state of a channel.
+#pragma once
+
+#include "io/laz/contexts.hpp"
+#include "io/laz/gps_time.hpp"
+#include "io/laz/integer_coder.hpp"
+#include "io/laz/streaming_median.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace lacuna::io::laz::point14 {
+
+inline constexpr std::size_t kBytes = 30;
+inline constexpr std::size_t kLayers = 9;
+inline constexpr unsigned kChannels = 4;
+
+// Bits of the symbol that says what changed. The two lowest are of the return number: equal, one more, one
+// less, or coded.
+inline constexpr unsigned kReturnNumber = 3, kNumberOfReturns = 4, kScanAngle = 8, kGpsTime = 16,
+                          kPointSource = 32, kScannerChannel = 64;
+
+// All but the scanner channel.
+struct Fields {
+  std::int32_t x, y, z;
+  std::uint16_t intensity;
+  std::uint8_t return_number, number_of_returns;
+  std::uint8_t flags;  // classification flags, scan direction << 4, edge of flight line << 5
+  std::uint8_t classification;
+  std::uint8_t user_data;
+  std::uint16_t scan_angle;  // as the bits of a signed number
+  std::uint16_t point_source;
+  std::uint64_t gps_time;  // the bits of a double
+};
+
+Fields read_fields(const std::byte* item);
+unsigned channel_of(const std::byte* item);
+void write_fields(const Fields& fields, unsigned channel, std::byte* item);
+
+// The context of x and y differences.
+unsigned return_context(const Fields& fields, bool new_time);
+
+// 1 for the first return of a pulse, 2 for the last, 3 for the only one, 0 for one between.
+unsigned place_in_pulse(const Fields& fields);
+inline constexpr unsigned kOnlyReturn = 3;
+
+// Which of the last heights predicts that of the point.
+unsigned height_level(const Fields& fields);
+
+// The context of the classification.
+unsigned classification_context(const Fields& last, unsigned place);
+
+// All models and last values of a scanner channel. Those of a new one begin with the values of the point
+// before.
+struct Channel {
+  explicit Channel(const Fields& first) : last(first), gps_times(first.gps_time) {
+    last_z.fill(first.z);
+    last_intensities.fill(first.intensity);
+  }
+
+  // The context of what changed: by the last point's place in its pulse, and by last_has_new_time.
+  unsigned change_context() const { return place_in_pulse(last) | (last_has_new_time ? 4u : 0u); }
+
+  Fields last;
+  bool last_has_new_time = false;
+
+  // Layer of channel, returns, x and y.
+  std::array<SymbolModel<128>, 8> changed;
+  SymbolModel<3> channel_step;
+  ModelByValue<16, 16> number_of_returns, return_number;  // by the last one
+  SymbolModel<13> return_number_step;
+  IntegerCoder<32, 2> dx;
+  IntegerCoder<32, 22> dy;
+  std::array<StreamingMedian, 12> x_medians, y_medians;  // by return_context()
+
+  // A layer each.
+  IntegerCoder<32, 20> z;
+  std::array<std::int32_t, 8> last_z;  // by height_level()
+  ModelByValue<256, 64> classification;
+  ModelByValue<64, 64> flags;
+  IntegerCoder<16, 4> intensity;
+  std::array<std::uint16_t, 8> last_intensities;  // by place in the pulse, and by new time
+  IntegerCoder<16, 2> scan_angle;
+  ModelByValue<256, 64> user_data;
+  IntegerCoder<16> point_source;
+  GpsTimeCoder<GpsTimeCodes::kPoint14> gps_times;
+};
+
+}  // namespace lacuna::io::laz::point14

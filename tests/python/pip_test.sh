@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the package by pip into a new environment, as docs/python.md has it, and runs the tests against it. Builds
+# anew, so it takes minutes.
+set -euo pipefail
+"${LACUNA_PYTHON:?}" -c 'import ensurepip, pip, setuptools, wheel' 2>/dev/null || {
+  echo "pip_test.sh: python3-venv, python3-pip or python3-wheel is not installed: skipped"
+  exit 77
+}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+git clone --quiet ../.. "$work/lacuna"
+"$LACUNA_PYTHON" -m venv --system-site-packages "$work/venv"
+"$work/venv/bin/pip" install --quiet --no-build-isolation --no-index "$work/lacuna"
+cd "$work"
+"$work/venv/bin/python" -c '
+import lacuna, pathlib
+folder = pathlib.Path(lacuna.__file__).parent
+assert str(folder).startswith("'"$work"'"), folder
+names = {file.name for file in folder.iterdir()}
+assert {"py.typed", "_core.pyi", "lacuna_gis.so"} <= names, names
+print(lacuna.__version__)
+'
+cd "$OLDPWD"
+PYTHONPATH='' LACUNA_PROGRAM=$LACUNA_PROGRAM "$work/venv/bin/python" -m unittest test_lacuna
