@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_writer.hpp"
+#include "io/laz/laz_encoder.hpp"
 #include "io/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
 #include "tests/support/laz_data.hpp"
