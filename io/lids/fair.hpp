@@ -14,14 +14,15 @@ enum class Fairing : std::uint8_t { kThinPlate, kMembrane };
 //
 // The membrane solves L x = 0, with the cotangent Laplacian L of the given lid. The thin plate has the least
 // sum of (L x + f)^2 / a over all vertices, those of the loop included. Here L is that of the membrane, and a
-// the third of the areas around a vertex. The flux f of a vertex of the loop is half of its two edges, each
-// turned to point out of the lid: into the surface. So the lid leaves its loop in the direction of the
-// surface. In a plane both leave the lid as it is. Mixed elements of the bi-Laplacian: Jacobson, Tosun,
+// the third of the areas around a vertex. The flux f of a vertex of the loop is half of its two edges.
+// Each is turned to point out of the lid, into the surface. So the lid leaves its loop in the direction of
+// the surface. In a plane both leave the lid as it is. Mixed elements of the bi-Laplacian: Jacobson, Tosun,
 // Sorkine, Zorin, *Mixed finite elements for variational surface modeling*, SGP 2010.
 //
-// The direction of the surface comes from `surface`, for each point of the loop a vector from it to where
-// the surface is, of any length. It is a mean along nine points. Up to 60 degrees from the membrane it counts
-// in full, from 85 degrees on not at all: that is an edge of the object, at which the lid is the membrane's.
+// The direction of the surface comes from `surface`. It has a vector for each point of the loop, from there
+// to where the surface is, of any length. Nine points along the loop give a mean. Up to 60 degrees from the
+// membrane the direction counts in full, from 85 degrees on not at all. That is an edge of the object, at
+// which the lid is the membrane's.
 //
 // Returns the membrane, and kMembrane, where the thin plate cannot be solved or leaves the box of the loop by
 // more than its diagonal. Where the membrane cannot be solved, the vertices stay. Deterministic. Cost: two

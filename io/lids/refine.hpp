@@ -11,8 +11,8 @@ namespace lacuna::io {
 inline constexpr std::size_t kMostInnerVertices = 10'000;
 
 // Divides triangles at their centroids and relaxes edges, in turns, until the triangles are as small as the
-// spacing demands. The spacing of a vertex of the loop is the mean length of its two edges, that of a new
-// vertex the mean of its three corners. The surface stays, but for swapped edges: in a plane, the area is the
+// spacing demands. A vertex of the loop has the mean length of its two edges as its spacing, a new vertex
+// the mean of its three corners. The surface stays, but for swapped edges: in a plane, the area is the
 // same. Expects a triangulation of a loop without inner vertices, with relaxed edges. Cost: O(n log n) for
 // each of some ten rounds, n with new vertices.
 void refine(LidMesh& mesh);

@@ -55,12 +55,7 @@ class Swaps {
     const double sum = dot_c * right.norm() + dot_d * left.norm();
     const double size = (std::abs(dot_c) + left.norm()) * (std::abs(dot_d) + right.norm());
     constexpr double kTie = 1e-9;
-    if (sum >= -kTie * size) return false;
-    // Of the pair: the swap does not change it.
-    const Eigen::Vector3d whole = left + right;
-    const Eigen::Vector3d new_left = (d - c).cross(b - c), new_right = (a - c).cross(d - c);
-    const double least = kTie * whole.squaredNorm();
-    return new_left.dot(whole) > least && new_right.dot(whole) > least && !is_edge(p);
+    return sum < -kTie * size && !is_edge(p);
   }
 
   // Whether c d exists: the triangles around c are passed in both directions.

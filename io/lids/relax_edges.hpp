@@ -8,8 +8,8 @@
 namespace lacuna::io {
 
 // Swaps each inner edge whose opposite angles sum to more than half a turn, until none is left or after 30
-// rounds. Edges stay where the surface would fold, or where the new edge exists already. In a plane, the area
-// is the same afterwards, and the triangulation is the constrained Delaunay one. Cost: linear for each round.
+// rounds. Edges stay where the new edge exists already. In a plane, the area is the same afterwards, and the
+// triangulation is the constrained Delaunay one. Cost: linear for each round.
 void relax_edges(LidMesh& mesh);
 
 }  // namespace lacuna::io

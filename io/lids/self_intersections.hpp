@@ -12,9 +12,9 @@ namespace lacuna::io {
 // area vector. True where it has none. Cost: a sort, and the pairs whose boxes overlap along one axis.
 bool crosses_itself(std::span<const Eigen::Vector3d> loop);
 
-// Whether two triangles without a common vertex pass through each other or overlap in one plane, or two with
-// a common edge are folded onto each other. Triangles that touch within rounding do not count. Cost: as
-// above.
+// Whether two triangles without a common vertex pass through each other or overlap in one plane. Two with a
+// common edge intersect if they are folded onto each other. Triangles that touch within rounding do not
+// count. Cost: as above.
 bool has_intersections(const LidMesh& mesh);
 
 }  // namespace lacuna::io

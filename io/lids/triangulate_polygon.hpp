@@ -16,12 +16,12 @@ inline constexpr std::size_t kMostAtOnce = 200;
 // diagonals. The area of a plane polygon is exactly that sum. Among sums that rounding could exchange, any
 // one is chosen.
 //
-// Differs from the paper: of a loop of more than kMostAtOnce points, the vertex with the smallest triangle
-// between its neighbours is left out, again and again, until so many are left. Their triangulation is the
-// least one. In it, each triangle with edges that stand for parts of the loop is replaced by a triangulation
-// of the polygon of these parts. The sum is then near the least one.
+// Differs from the paper: a longer loop is simplified first. The vertex with the smallest triangle between
+// its neighbours is left out, again and again, until kMostAtOnce are left. Their triangulation is the least
+// one. In it, each triangle with edges that stand for parts of the loop is replaced by a triangulation of the
+// polygon of these parts. The sum is then near the least one.
 //
-// Precondition: three points or more. Cost: O(n min(n, kMostAtOnce)^2) time, 200 kB and O(n) memory.
+// Precondition: three points or more. Cost: O(n min(n, kMostAtOnce)^2) time, 400 kB and O(n) memory.
 LidMesh triangulate_polygon(std::span<const Eigen::Vector3d> loop);
 
 }  // namespace lacuna::io

@@ -49,8 +49,8 @@ void write_lid(std::size_t id, const Lid& lid, std::uint64_t first, OutputFile& 
   }
 }
 
-// Lids that are made before they are written. As many as threads or more are at work at once, fewer alone
-// where memory is short.
+// The number of lids that are made before they are written. At most one for each thread is at work, or as
+// many as fit in the memory.
 std::size_t batch_size(std::uint64_t memory_limit) {
   const std::size_t threads = threads_here();
   const std::size_t fitting = std::max<std::uint64_t>(1, memory_limit / 4 / kLidBytes);

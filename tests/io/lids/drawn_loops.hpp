@@ -68,8 +68,8 @@ inline Line line_of(const Loop& loop) {
   return line;
 }
 
-// A letter L, a comb with three teeth, a star: simple polygons that are not convex.
-inline Line letter_l() {
+// An L and a comb with three teeth: simple polygons that are not convex.
+inline Line shape_of_l() {
   return {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};  // 6
 }
 inline Line comb() {

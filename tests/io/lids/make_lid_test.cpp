@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/lids/make_lid.hpp"
+
+#include "io/lids/refine.hpp"
+#include "tests/io/lids/drawn_loops.hpp"
+#include "tests/io/lids/watertight.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+using namespace io;
+using test::hole_in_plane;
+using test::hole_in_sphere;
+using test::is_disc_on_loop;
+using test::Line;
+using test::with_points;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A hole without symmetry, in a surface that is not plane.
+Loop wavy_hole(int points) {
+  Random random(7);
+  Loop loop;
+  double turn = 0;
+  for (int i = 0; i < points; ++i) {
+    turn += 2 * kPi / points * random.uniform(0.7, 1.3);
+    const double r = 1 + 0.3 * std::sin(3 * turn + 1) + 0.02 * random.uniform();
+    loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
+                    .position = {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
+                    .surface = {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)),
+                                static_cast<float>(0.4 * std::sin(turn))}});
+  }
+  return loop;
+}
+
+// The hole x^2 + y^2 < 1 of z = (x^2 - y^2) / 2.
+Loop hole_in_saddle(int points) {
+  Loop loop;
+  for (int i = 0; i < points; ++i) {
+    const double turn = 2 * kPi * i / points;
+    loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
+                    .position = {std::cos(turn), std::sin(turn), std::cos(2 * turn) / 2},
+                    .surface = {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)),
+                                static_cast<float>(std::cos(2 * turn))}});
+  }
+  return loop;
+}
+
+Lid made(const Loop& loop) {
+  Lid lid = make_lid(loop);
+  CHECK(lid.left_out == "");
+  CHECK(is_disc_on_loop(lid.mesh));
+  REQUIRE(lid.mesh.loop_points == loop.size());
+  for (std::size_t i = 0; i < loop.size(); ++i) CHECK(lid.mesh.vertices[i] == loop[i].position);
+  return lid;
+}
+
+}  // namespace
+
+TEST_CASE("a square of four points has a lid of two triangles") {
+  const Lid lid = made(hole_in_plane({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  CHECK(lid.mesh.triangles.size() == 2);
+  CHECK(lid.area == 1);
+}
+
+TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area, convex or not") {
+  Line star;
+  for (int i = 0; i < 120; ++i) {
+    const double turn = 2 * kPi * i / 120, r = i % 12 < 6 ? 1 + 0.1 * (i % 12) : 1.6 - 0.1 * (i % 12);
+    star.emplace_back(r * std::cos(turn), r * std::sin(turn), 0);
+  }
+  for (const Line& polygon :
+       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::shape_of_l(), 9),
+        with_points(test::comb(), 7), with_points(test::comb(), 60), star}) {
+    const Lid lid = made(hole_in_plane(polygon));
+    CHECK(lid.mesh.vertices.size() > polygon.size());
+    CHECK(lid.area == Approx(test::plane_area(polygon)).epsilon(1e-11));
+    double off = 0, turned = 0;
+    for (const Eigen::Vector3d& vertex : lid.mesh.vertices) off = std::max(off, std::abs(vertex.z()));
+    for (const LidTriangle& triangle : lid.mesh.triangles)
+      turned = std::min(turned, area_vector(lid.mesh, triangle).z());
+    CHECK(off < 1e-12);
+    CHECK(turned >= 0);  // all have the side of the loop
+  }
+}
+
+TEST_CASE("the lid of a sphere's hole is near the cap: 1 % of its area to 30 degrees, 3 at 45, 9 at 60") {
+  const auto ratio = [](double degrees) {
+    const double angle = degrees * kPi / 180;
+    return made(hole_in_sphere(angle, 120)).area / (2 * kPi * (1 - std::cos(angle)));
+  };
+  CHECK(ratio(10) == Approx(1).margin(0.01));
+  CHECK(ratio(30) == Approx(1).margin(0.01));
+  CHECK(ratio(45) == Approx(1).margin(0.03));
+  CHECK(ratio(60) == Approx(1).margin(0.09));
+}
+
+TEST_CASE("the lid of half a sphere is the membrane of its circle, not a cap") {
+  // The regular polygon with 120 corners in the circle.
+  CHECK(made(hole_in_sphere(kPi / 2, 120)).area == Approx(60 * std::sin(2 * kPi / 120)).epsilon(1e-9));
+}
+
+TEST_CASE("the lid of a saddle's hole is the saddle, within 1 % of its area") {
+  const double saddle = 2 * kPi / 3 * (std::pow(2, 1.5) - 1);
+  CHECK(made(hole_in_saddle(100)).area == Approx(saddle).epsilon(0.01));
+}
+
+TEST_CASE("a lid has the side of its loop, in either direction") {
+  Loop loop = hole_in_sphere(0.6, 50);
+  for (const double side : {1.0, -1.0}) {
+    const Lid lid = made(loop);
+    Eigen::Vector3d sum(0, 0, 0);
+    for (const LidTriangle& triangle : lid.mesh.triangles) sum += area_vector(lid.mesh, triangle);
+    CHECK(side * sum.z() > 0);
+    std::reverse(loop.begin(), loop.end());
+  }
+}
+
+TEST_CASE("a turn, a place as of UTM and another first point do not change the area of a lid") {
+  const Loop loop = wavy_hole(158);
+  const double area = made(loop).area;
+  const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1, 2, 3).normalized());
+  CHECK(made(test::moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
+  // There, coordinates are rounded to 1e-9.
+  const Eigen::Isometry3d to_utm(Eigen::Translation3d(500'000.3, 5'400'000.7, 312.9));
+  CHECK(made(test::moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
+  Loop rotated = loop;
+  std::rotate(rotated.begin(), rotated.begin() + 41, rotated.end());
+  CHECK(made(rotated).area == Approx(area).epsilon(1e-11));
+}
+
+TEST_CASE("equal loops have equal lids, to the last bit") {
+  const Lid a = make_lid(wavy_hole(300)), b = make_lid(wavy_hole(300));
+  CHECK(a.mesh.vertices == b.mesh.vertices);
+  CHECK(a.mesh.triangles == b.mesh.triangles);
+  CHECK(a.area == b.area);
+}
+
+TEST_CASE("a loop that crosses itself in its plane has no lid, and the reason says so") {
+  const Line bow = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Line eight = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {-1, 3, 0}};
+  for (const Line& line : {bow, eight, with_points(bow, 10), with_points(eight, 10)}) {
+    const Lid lid = make_lid(hole_in_plane(line));
+    CHECK(lid.left_out == "the loop crosses itself, and its lid does");
+    CHECK(lid.mesh.triangles.empty());
+  }
+}
+
+TEST_CASE("loops that are too short, too long or in one line have no lid, and the reason says so") {
+  CHECK(make_lid({}).left_out == "fewer than 3 points");
+  CHECK(make_lid(hole_in_plane({{0, 0, 0}, {1, 0, 0}})).left_out == "fewer than 3 points");
+  CHECK(make_lid(hole_in_plane({{0, 0, 0}, {1, 1, 0}, {3, 3, 0}})).left_out == "all points in one line");
+  CHECK(make_lid(hole_in_plane(Line(4, {7, 8, 9}))).left_out == "all points in one line");
+  CHECK(make_lid(hole_in_sphere(1, kMostLoopPoints + 1)).left_out == "more than 5000 points");
+}
+
+TEST_CASE("the longest loop that may have a lid has one, with a bounded number of vertices") {
+  const Lid lid = made(hole_in_sphere(0.5, kMostLoopPoints));
+  CHECK(lid.mesh.vertices.size() <= kMostLoopPoints + kMostInnerVertices);
+  CHECK(lid.area == Approx(2 * kPi * (1 - std::cos(0.5))).epsilon(0.02));
+}
+
+TEST_CASE("the size of a hole does not matter, from 1e-150 to 1e150") {
+  const Loop loop = wavy_hole(60);
+  const double area = made(loop).area;
+  for (const double size : {1e-150, 1e150}) {
+    Loop scaled = loop;
+    for (LoopPoint& point : scaled) point.position *= size;
+    CHECK(made(scaled).area / size / size == Approx(area).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("any loop has a lid that is a disc, or a reason") {
+  int lids = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    const auto n = random.whole(3, 60);
+    const double flatness = random.uniform(), steps = random.chance(0.3) ? 4 : 1e6;
+    Loop loop;
+    for (std::int64_t i = 0; i < n; ++i) {
+      const double turn = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
+      Eigen::Vector3d at(std::cos(turn), std::sin(turn), 0);
+      at += flatness * Eigen::Vector3d(random.normal(), random.normal(), random.normal()) / 2;
+      loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
+                      .position = (at * steps).array().round() / steps,
+                      .surface = random.direction().cast<float>()});
+    }
+    const Lid lid = make_lid(loop);
+    INFO("seed " << seed << ", " << n << " points");
+    if (!lid.left_out.empty()) {
+      CHECK(lid.mesh.triangles.empty());
+      continue;
+    }
+    ++lids;
+    CHECK(is_disc_on_loop(lid.mesh));
+    CHECK(std::isfinite(lid.area));
+  }
+  CHECK(lids > 30);
+}
+
+}  // namespace lacuna

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files of lids say of holes that have none.
+#include "io/results/lids.hpp"
+
+#include "engine/run/parallel.hpp"
+#include "io/lids/make_lid.hpp"
+#include "io/results/lids_reader.hpp"
+#include "tests/io/io_support.hpp"
+#include "tests/io/results/fake_detection.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+using namespace io;
+
+namespace {
+
+void add(test::FakeDetection& run, LoopKind kind, const std::vector<Eigen::Vector3d>& points) {
+  Loop& loop = run.found.emplace_back();
+  for (const Eigen::Vector3d& point : points)
+    loop.push_back({.id = PointId{loop.size()}, .position = point, .surface = {0, 0, 0}});
+  run.measures.push_back({.kind = kind, .points = points.size()});
+}
+
+std::filesystem::path write(const test::ScratchFolder& scratch, const Detection& run) {
+  const std::filesystem::path obj = scratch / "lids.obj", csv = scratch / "lids.csv";
+  OutputFile out("lids.obj", obj), table("lids.csv", csv);
+  TaskArena(2).for_each(1, [&](std::size_t) { write_lids_obj(run, out); });
+  out.close();
+  write_lids_table(obj, table);
+  table.close();
+  return csv;
+}
+
+}  // namespace
+
+TEST_CASE("lids.csv has a line for each hole, with the reason where it has no lid") {
+  test::FakeDetection run;
+  add(run, LoopKind::kHole, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
+  add(run, LoopKind::kOuter, {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
+  add(run, LoopKind::kHole, {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}});
+  add(run, LoopKind::kHole, {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}});
+  add(run, LoopKind::kHole, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
+  const test::ScratchFolder scratch;
+  CHECK(test::read_file(write(scratch, run)) ==
+        "loop,triangles,lid_area,reason\n"
+        "0,2,2,\n"
+        "2,0,,the loop crosses itself, and its lid does\n"
+        "3,0,,all points in one line\n"
+        "4,1,0.5,\n");
+}
+
+TEST_CASE("a loop that is too long is not read") {
+  test::FakeDetection run;
+  add(run, LoopKind::kHole, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});
+  run.measures[0].points = kMostLoopPoints + 1;
+  Detection detection = run;
+  detection.for_each_loop_point = [](std::size_t, const auto&) { FAIL("it was read"); };
+  const test::ScratchFolder scratch;
+  CHECK_THAT(test::read_file(write(scratch, detection)), Catch::EndsWith("0,0,,more than 5000 points\n"));
+}
+
+TEST_CASE("triangles of lids count vertices over the file") {
+  test::FakeDetection run;
+  add(run, LoopKind::kHole, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});
+  add(run, LoopKind::kHole, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
+  const test::ScratchFolder scratch;
+  write(scratch, run);
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<std::uint64_t, 3>> triangles;
+  std::vector<std::uint64_t> loops;
+  read_lids(scratch / "lids.obj", {.vertex = [&](const auto& vertex) { vertices.push_back(vertex); },
+                                   .triangle =
+                                       [&](const LidRecord& hole, const auto& corners) {
+                                         triangles.push_back(corners);
+                                         loops.push_back(hole.loop);
+                                       }});
+  REQUIRE(vertices.size() == 6);
+  CHECK(vertices[3] == Eigen::Vector3d(0, 0, 5));
+  CHECK(loops == std::vector<std::uint64_t>{0, 1});
+  REQUIRE(triangles.size() == 2);
+  for (const std::uint64_t corner : triangles[1]) CHECK(corner >= 3);
+}
+
+}  // namespace lacuna

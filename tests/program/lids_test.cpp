@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of lids: read back here, and compared with each other and with holes.json of the same run.
+#include "io/ply/mesh_reader.hpp"
+#include "tests/io/io_support.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using test::read_file;
+using test::run_program;
+using Strings = std::vector<std::string>;
+
+const std::array<const char*, 3> kFiles{"lids.obj", "lids.ply", "lids.csv"};
+
+// A sheet with holes at coordinates as of UTM, with all digits of a double.
+std::string write_scan(const test::ScratchFolder& scratch, const std::string& points = "12000") {
+  const std::string surface = (scratch / "surface.ply").string();
+  REQUIRE(run_program({"synth", "surface", surface, "--points", points, "--holes", "4", "--hole-radius", "3",
+                       "6", "--order", "random"})
+              .exit_code == 0);
+  std::ostringstream text;
+  text.precision(17);
+  text << "x y z\n";
+  for (const auto& row : test::read_table(surface).rows)
+    text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
+  return scratch.write("earth.txt", text.str());
+}
+
+fs::path detect(const std::string& scan, const fs::path& out, const Strings& options) {
+  Strings words{"detect", scan, "--out", out.string(), "--quiet"};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto run = run_program(words);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  return out;
+}
+
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<std::uint64_t, 3>> triangles;  // count vertices from 0
+  std::vector<std::uint64_t> loops;                     // of each triangle
+};
+
+Mesh read_obj(const fs::path& file) {
+  Mesh mesh;
+  std::istringstream lines(read_file(file));
+  std::uint64_t loop = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string key, name;
+    words >> key;
+    if (key == "v") {
+      Eigen::Vector3d& vertex = mesh.vertices.emplace_back();
+      words >> vertex.x() >> vertex.y() >> vertex.z();
+    } else if (key == "o") {
+      words >> name;
+      REQUIRE(name.starts_with("hole_"));
+      loop = std::stoull(name.substr(5));
+    } else if (key == "f") {
+      auto& triangle = mesh.triangles.emplace_back();
+      for (std::uint64_t& corner : triangle) {
+        words >> corner;
+        --corner;
+      }
+      mesh.loops.push_back(loop);
+    }
+  }
+  return mesh;
+}
+
+std::map<std::uint64_t, double> areas(const Mesh& mesh) {
+  std::map<std::uint64_t, double> areas;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const Eigen::Vector3d& at = mesh.vertices.at(a);
+    areas[mesh.loops[t]] += (mesh.vertices.at(b) - at).cross(mesh.vertices.at(c) - at).norm() / 2;
+  }
+  return areas;
+}
+
+struct Row {
+  std::uint64_t loop, triangles;
+  std::string area, reason;
+};
+
+std::vector<Row> read_csv(const fs::path& file) {
+  std::istringstream lines(read_file(file));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "loop,triangles,lid_area,reason");
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    std::array<std::string, 4> fields;
+    std::istringstream text(line);
+    for (std::string& field : fields) std::getline(text, field, ',');
+    rows.push_back({std::stoull(fields[0]), std::stoull(fields[1]), fields[2], fields[3]});
+  }
+  return rows;
+}
+
+// The bytes of the faces: 1 for the number of corners, and four integers.
+std::vector<std::uint64_t> loops_of_faces(const std::string& ply, std::size_t faces) {
+  std::vector<std::uint64_t> loops;
+  constexpr std::size_t kFace = 1 + 4 * sizeof(std::int32_t);
+  for (std::size_t face = 0; face < faces; ++face) {
+    std::int32_t loop = 0;
+    std::memcpy(&loop, ply.data() + ply.size() - (faces - face) * kFace + kFace - sizeof loop, sizeof loop);
+    loops.push_back(static_cast<std::uint64_t>(loop));
+  }
+  return loops;
+}
+
+}  // namespace
+
+TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
+          "[results]") {
+  const test::ScratchFolder scratch;
+  const fs::path out = detect(write_scan(scratch), scratch / "out", {"--lids"});
+  const nlohmann::json loops = test::read_json(out / "holes.json").at("loops");
+  const Mesh obj = read_obj(out / "lids.obj");
+  const std::map<std::uint64_t, double> area = areas(obj);
+  const std::vector<Row> rows = read_csv(out / "lids.csv");
+
+  std::size_t at = 0, first = 0, lids = 0;
+  for (std::size_t id = 0; id < loops.size(); ++id) {
+    if (loops[id].at("kind") != "hole") {
+      CHECK(area.count(id) == 0);
+      continue;
+    }
+    REQUIRE(at < rows.size());
+    const Row& row = rows[at++];
+    CHECK(row.loop == id);
+    CHECK(row.reason.empty());
+    CHECK(row.triangles == static_cast<std::uint64_t>(std::count(obj.loops.begin(), obj.loops.end(), id)));
+    CHECK(std::stod(row.area) == Approx(area.at(id)).epsilon(1e-6));
+    CHECK(std::stod(row.area) == Approx(loops[id].at("area").get<double>()).epsilon(0.1));  // it is flat
+    const auto coordinates = loops[id].at("coordinates").get<std::vector<std::array<double, 3>>>();
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+      CHECK(obj.vertices.at(first + i) == Eigen::Map<const Eigen::Vector3d>(coordinates[i].data()));
+    const auto corners = std::count(obj.loops.begin(), obj.loops.end(), id) + 2;  // by Euler's formula
+    first += (static_cast<std::size_t>(corners) + coordinates.size()) / 2;
+    ++lids;
+  }
+  CHECK(lids == 4);
+  CHECK(at == rows.size());
+  CHECK(first == obj.vertices.size());
+
+  const test::Table ply = test::read_table(out / "lids.ply");
+  CHECK(ply.names == Strings{"x", "y", "z"});
+  REQUIRE(ply.rows.size() == obj.vertices.size());
+  for (std::size_t i = 0; i < ply.rows.size(); ++i)
+    CHECK(Eigen::Map<const Eigen::Vector3d>(ply.rows[i].data()) == obj.vertices[i]);
+  CHECK(io::read_triangles(out / "lids.ply") == obj.triangles);
+  CHECK(loops_of_faces(read_file(out / "lids.ply"), obj.triangles.size()) == obj.loops);
+}
+
+TEST_CASE("lids are the same bytes for every tiling, number of threads and memory limit", "[results]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = write_scan(scratch, "40000");
+  const fs::path plain = detect(scan, scratch / "plain", {"--lids"});
+  const fs::path tiled =
+      detect(scan, scratch / "tiled",
+             {"--lids", "--tile-points", "700", "--threads", "5", "--memory-limit", "64MiB"});
+  for (const char* file : kFiles) {
+    INFO(file);
+    const bool are_equal = read_file(plain / file) == read_file(tiled / file);
+    CHECK(are_equal);
+  }
+}
+
+TEST_CASE("lids of local coordinates are relative to the offset that the header states", "[results]") {
+  const test::ScratchFolder scratch;
+  const fs::path out = detect(write_scan(scratch), scratch / "out", {"--lids", "--local-coordinates"});
+  const std::string ply = read_file(out / "lids.ply");
+  CHECK(ply.find("\ncomment lacuna offset ") < ply.find("end_header"));
+  const Mesh obj = read_obj(out / "lids.obj");
+  const test::Table read = test::read_table(out / "lids.ply");  // adds the offset
+  REQUIRE(read.rows.size() == obj.vertices.size());
+  for (std::size_t i = 0; i < read.rows.size(); ++i)
+    CHECK((Eigen::Map<const Eigen::Vector3d>(read.rows[i].data()) - obj.vertices[i]).norm() < 1e-4);
+}
+
+TEST_CASE("a scan without holes has empty lids, and a later run without them removes them", "[results]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  const fs::path out = scratch / "out";
+  for (int i = 0; i < 2; ++i) {  // the second one replaces those of the first
+    detect(scan, out, {"--lids"});
+    CHECK(read_obj(out / "lids.obj").triangles.empty());
+    CHECK(io::read_triangles(out / "lids.ply").empty());
+    CHECK(read_csv(out / "lids.csv").empty());
+  }
+  detect(scan, out, {});
+  for (const char* file : kFiles) CHECK_FALSE(fs::exists(out / file));
+}
+
+TEST_CASE("a file of lids that Lacuna did not write is refused", "[results]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  for (const std::string file : kFiles) {
+    const fs::path mine = scratch.write(file, "# another program\nv 0 0 0\n");
+    const auto refused = run_program({"detect", scan, "--out", scratch.path().string(), "--lids", "--quiet"});
+    CHECK(refused.exit_code == 1);
+    CHECK_THAT(refused.err, Catch::Contains(file + ": exists, and this command did not write it"));
+    CHECK(read_file(mine) == "# another program\nv 0 0 0\n");
+    fs::remove(mine);
+  }
+}
+
+}  // namespace lacuna
