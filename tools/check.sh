@@ -50,7 +50,7 @@ case "$*" in
   --all) labels='^(fast|slow)$' ;;
   --sanitize)
     build=build-sanitize
-    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=address)  # warnings are no errors: GCC's can be wrong here
+    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF)  # warnings are no errors: GCC's can be wrong here
     # These measure memory and threads, of which the sanitizers take their own.
     excluded='within the memory limit|stay within|threads that cannot be started'
     export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
@@ -58,7 +58,7 @@ case "$*" in
     ;;
   --threads)
     build=build-threads
-    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=thread)
+    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=thread -DLACUNA_PYTHON=OFF)
     # What starts scripts or browsers takes too long, and tests no more threads.
     excluded='within the memory limit|stay within|threads that cannot be started|accuracy|schema|GDAL|browser'
     excluded+='|documentation|installed library'
@@ -73,7 +73,7 @@ case "$*" in
 esac
 
 tools/install.sh
-install_packages python3-pandas python3-matplotlib python3-geopandas  # whose tests would be skipped
+install_packages python3-pandas python3-matplotlib  # whose tests would be skipped
 [[ $* != --odr && $* != --all ]] || check_odr
 [[ $* != --odr ]] || exit 0
 [[ $* != --threads ]] || build_tbb
