@@ -3,11 +3,12 @@
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
     report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks]
-                   [--save-marks FILE] [--has-marks FILE]
+                   [--save-marks FILE] [--has-marks FILE] [--load-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
 --save-marks  writes the marks that the checks have made
 --has-marks   checks that the page begins with the marks and notes of this file
+--load-marks  loads a file of marks, as by hand
 --no-webgl    a browser without WebGL: the message, the table and the facts
 Prints what it checked; exits with 1 and one line on failure, with 77 if Selenium or Chromium is missing.
 Debian: python3-selenium chromium chromium-driver.
@@ -196,6 +197,8 @@ def run(driver, arguments):
     require(not messages, "no message in the console" + (f": {messages[0]}" if messages else ""))
     if arguments.has_marks:
         report_marks.check_has(driver, arguments.has_marks)
+    if arguments.load_marks:
+        print(report_marks.load(driver, arguments.load_marks.read_text(encoding="utf-8")))
     if not arguments.no_checks:
         check_policy(driver)
         check_facts(driver)
@@ -237,6 +240,7 @@ def main():
     parser.add_argument("--no-checks", action="store_true")
     parser.add_argument("--save-marks", type=Path)
     parser.add_argument("--has-marks", type=Path)
+    parser.add_argument("--load-marks", type=Path)
     parser.add_argument("--run", help="JavaScript before the picture")
     arguments = parser.parse_args()
     if not report_browser.is_installed():

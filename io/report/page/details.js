@@ -25,7 +25,7 @@ class Details {
     copy.addEventListener("click", () => copy_text(place.join(" ").replace(/−/g, "-"), copy));
     const link = element("button", {type: "button", id: "copy-link", title: "The address of this page at this loop"}, "Copy link");
     link.addEventListener("click", () => copy_text(location.href, link));
-    const fly = element("button", {type: "button"}, "Fly to it");
+    const fly = element("button", {type: "button", title: "Fly to the loop"}, "Fly");
     fly.addEventListener("click", () => this.actions.fly(index));
     const close = element("button", {type: "button"}, "Deselect");
     close.addEventListener("click", () => this.actions.close());
