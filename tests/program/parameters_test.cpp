@@ -186,7 +186,8 @@ TEST_CASE("each option without effect has its warning, each other none") {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
       const bool is_left_out = parameter.section == "run" || parameter.key == "method" ||
                                parameter.key == "points" || parameter.key == "columns" ||
-                               parameter.key == "eps" || parameter.key == "max_perimeter";
+                               parameter.key == "eps" || parameter.key == "max_perimeter" ||
+                               parameter.key == "polygons";  // the files that it changes are wanted, too
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
@@ -198,6 +199,9 @@ TEST_CASE("each option without effect has its warning, each other none") {
     CHECK(runs.warnings(options) == expected);
     CHECK_FALSE(expected.empty());
   }
+  CHECK(runs.warnings({"--polygons"}) ==
+        "lacuna: warning: --polygons changes nothing without --gpkg, --geojson or --shp\n");
+  CHECK(runs.warnings({"--polygons", "--shp"}).empty());
 }
 
 TEST_CASE("a config file's value without effect has its warning, unless it is the default") {

@@ -11,6 +11,6 @@ for module in nbconvert ipykernel pandas matplotlib; do
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$LACUNA_PYTHON" -m jupyter nbconvert --to html --execute ../../docs/example/holes.ipynb --output-dir "$work" --output holes
+"$LACUNA_PYTHON" -m nbconvert --to html --execute ../../docs/example/holes.ipynb --output-dir "$work" --output holes
 grep --quiet 'data:image/png' "$work/holes.html"
 grep --quiet 'Holes(3 holes and 1 outer' "$work/holes.html"
