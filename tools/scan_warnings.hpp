@@ -33,7 +33,7 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 std::string stray_warning(const Strays& strays, double resolution);
 
 // After a run: strays, too few points for their neighbourhoods, coordinates that are too coarse for their
-// spacing, and rows that points.las or points.laz cannot hold.
+// spacing, and rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
                                        const Config& config);
 
