@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Whether other programs open the annotated scan. CloudCompare opens the PLY and the text, PCL the PCD. CloudCompare, pdal or
-# lasinfo open the LAS, and pdal the LAZ. 77: none of them is there.
+# Whether other programs open the annotated scan: CloudCompare the PLY and the text, PCL the PCD. CloudCompare, pdal or
+# lasinfo open the LAS, and pdal opens the LAZ. 77: none of them is there.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 work=$(mktemp -d)
