@@ -32,7 +32,7 @@ struct LidVisits {
   std::function<void(const LidRecord&, const std::array<std::uint64_t, 3>&)> triangle = {};
 };
 
-// Streams a file that write_lids_obj has written. Throws `Error` where it is another one.
+// Streams a file that write_lids_obj has written. Throws `Error` where a line cannot be read.
 void read_lids(const std::filesystem::path& lids_obj, const LidVisits& visits);
 
 }  // namespace lacuna::io

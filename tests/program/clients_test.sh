@@ -35,7 +35,7 @@ with open("earth.txt", "w") as text:
         print(repr(x + 500_000.1), repr(y + 5_400_000.1), repr(z), file=text)
 END
 for scan in near.ply earth.txt; do
-  "$program" detect "$scan" --out "${scan%.*}" --obj --dxf --vtp --vdb --points --quiet
+  "$program" detect "$scan" --out "${scan%.*}" --obj --dxf --vtp --vdb --lids --points --quiet
 done
 
 for name in loops boundary; do
@@ -48,11 +48,13 @@ vdb_print -l near/probability.vdb >vdb.txt
 ogr2ogr -f GeoJSON dxf.json earth/loops.dxf -lco COORDINATE_PRECISION=15  # at 10, GDAL takes ...0000x for a rounding error
 
 "$python" - <<'END'
+import csv
 import json
 import math
 import re
 from pathlib import Path
 
+from vtkmodules.vtkFiltersCore import vtkMassProperties
 from vtkmodules.vtkIOGeometry import vtkOBJReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -113,6 +115,15 @@ print("VTK reads loops.obj")
 data = read(vtkPLYReader(), "near/loops.ply")
 equal([data.GetPoint(i) for i in range(data.GetNumberOfPoints())], [point[:3] for point in points], 1e-7)
 print("VTK reads loops.ply")
+with open("near/lids.csv", encoding="utf-8") as file:
+    lids = list(csv.DictReader(file))
+assert len(lids) == 4
+for name, reader in (("lids.obj", vtkOBJReader()), ("lids.ply", vtkPLYReader())):
+    mesh = vtkMassProperties()
+    mesh.SetInputData(read(reader, f"near/{name}"))
+    assert mesh.GetInput().GetNumberOfPolys() == sum(int(lid["triangles"]) for lid in lids)
+    assert math.isclose(mesh.GetSurfaceArea(), sum(float(lid["lid_area"]) for lid in lids), rel_tol=1e-6)
+    print(f"VTK reads {name}")
 
 # GDAL
 features = json.loads(Path("dxf.json").read_text(encoding="utf-8"))["features"]

@@ -78,6 +78,10 @@ TEST_CASE("a volume of random points stays within the memory limit") {
   check_limit(volume(200'000, 1));
 }
 
+TEST_CASE("the lid of a large hole stays within the memory limit") {
+  check_limit(plane(600).punched({300, 300}, 250).jittered(0.2, 1), {"--lids"});
+}
+
 TEST_CASE("a scan thinned in several shares stays within the memory limit") {
   check_limit(volume(300'000, 1), {"--resolution", "0.01"});
 }
