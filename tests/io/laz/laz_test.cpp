@@ -121,6 +121,17 @@ LazBytes random_records(const Layout& layout, std::size_t points, Random& random
   return records;
 }
 
+// Plausible points, and steps of every size between them.
+LazBytes leaping_records(const Layout& layout, std::size_t points, Random& random) {
+  LazBytes records = plausible_records(layout, points, random);
+  for (std::size_t at = 0; at < records.size(); at += layout.record_bytes()) {
+    const unsigned shift = below(random, 32);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      store(&records[at + 4 * axis], static_cast<std::int32_t>(random()) >> shift);
+  }
+  return records;
+}
+
 void decode_chunk(const Layout& layout, std::span<const std::byte> chunk, std::span<std::byte> records) {
   const laz::ChunkInMemory bytes(chunk);
   laz::ChunkDecoder(layout, bytes).decode(records);
@@ -216,27 +227,27 @@ TEST_CASE("chunks have the bytes that an encoder of its own, written after the s
   struct Expected {
     Case of;
     std::size_t bytes;
-    std::uint64_t plausible, random;  // digests of the chunks
+    std::uint64_t plausible, leaping, random;  // digests of the chunks
   };
   const Expected all[] = {
-      {{0, 0, 2}, 31145, 0x8bebad9860765ae8, 0xd8795f30dff6d69b},
-      {{1, 0, 2}, 36113, 0xabfbd19168428694, 0x7858ef286e2e5f36},
-      {{2, 0, 2}, 39427, 0xba6edb44215db2dc, 0x01b31a91791af812},
-      {{3, 0, 2}, 44288, 0x0179e4d34de76fb4, 0x9b40c40b44053957},
-      {{1, 2, 2}, 39046, 0xf98d9d8dadec761e, 0x13c8bf41521b0ccf},
-      {{3, 5, 2}, 51204, 0x167ff1bcd35e6f42, 0xdef9a3186be80562},
-      {{0, 0, 1}, 29011, 0xa02fe15e465111af, 0xcb055e98a49562b7},
-      {{1, 1, 1}, 35371, 0x1be95fd4ca178f92, 0x1369b888097a5aa9},
-      {{3, 2, 1}, 43239, 0xe68ada6391d71eae, 0x47b8cccb79516842},
-      {{6, 0, 3}, 45109, 0x44c1526c5c7c63a4, 0x8d9247859a19eb54},
-      {{7, 0, 3}, 55335, 0x95056205aec07f62, 0xfab7f5805e10d623},
-      {{8, 0, 3}, 59025, 0x3b4e38a467709799, 0xdb6b689156cd8dda},
-      {{6, 3, 3}, 51058, 0x3a9afe8b956fac40, 0xdcf894681a38091d},
-      {{7, 1, 3}, 57452, 0x4c2603cacac15ebc, 0xcbe17bdbcac9a1fe},
-      {{8, 2, 3}, 62405, 0x27a767f20d6acef3, 0x3b287cc4ca5aa7a2},
-      {{6, 2, 4}, 49918, 0xe6e06b7eebb4f75d, 0xcf322c0bc9e49a86},
-      {{7, 2, 4}, 61159, 0xc342a52e34059dab, 0x3ee2563f87bd782d},
-      {{8, 1, 4}, 63006, 0xe7bf41eb767d5903, 0xb899ce2cd82039d0},
+      {{0, 0, 2}, 31145, 0x8bebad9860765ae8, 0x15de636f99957a3c, 0x475ddcc8666b77d6},
+      {{1, 0, 2}, 36113, 0xabfbd19168428694, 0xe49209f9efdd65b9, 0xaec1e07e4e767f7d},
+      {{2, 0, 2}, 39427, 0xba6edb44215db2dc, 0x43b012b34605015b, 0x90da37b45028a085},
+      {{3, 0, 2}, 44288, 0x0179e4d34de76fb4, 0x664c093f8ef9cc09, 0x357862787d353d94},
+      {{1, 2, 2}, 39046, 0xf98d9d8dadec761e, 0xec4d7cd23555b31d, 0xa0cc6d94b516899e},
+      {{3, 5, 2}, 51204, 0x167ff1bcd35e6f42, 0x58e296dbb54c6d69, 0x836dbeb9afaea5ed},
+      {{0, 0, 1}, 29011, 0xa02fe15e465111af, 0x20881dd49d10a5b4, 0x456fc758b5c64e5d},
+      {{1, 1, 1}, 35371, 0x1be95fd4ca178f92, 0xb7a90d7d8a52bf9c, 0x495d0ab27858917c},
+      {{3, 2, 1}, 43239, 0xe68ada6391d71eae, 0x5e408319962c989a, 0xb04281026fc59689},
+      {{6, 0, 3}, 45109, 0x44c1526c5c7c63a4, 0x651fee12b489fe69, 0x1ec476e66b8c2dd1},
+      {{7, 0, 3}, 55335, 0x95056205aec07f62, 0x7bb668fe96753803, 0xf906c283874179fa},
+      {{8, 0, 3}, 59025, 0x3b4e38a467709799, 0xa594f6da61a408ff, 0x588f6642df8ced59},
+      {{6, 3, 3}, 51058, 0x3a9afe8b956fac40, 0x898c1344008e8bcc, 0x1579d5e2142058eb},
+      {{7, 1, 3}, 57452, 0x4c2603cacac15ebc, 0x8881ea4ceb713fb0, 0x54753c80e50e92b8},
+      {{8, 2, 3}, 62405, 0x27a767f20d6acef3, 0x873fbc8223ce12b3, 0x625765c07aadc8e0},
+      {{6, 2, 4}, 49918, 0xe6e06b7eebb4f75d, 0x9802dc25e26f0919, 0x235a6a62cb2e199a},
+      {{7, 2, 4}, 61159, 0xc342a52e34059dab, 0xe5dd76e6201d238f, 0x74be736e795211df},
+      {{8, 1, 4}, 63006, 0xe7bf41eb767d5903, 0x26c537cae2999ba6, 0x5307a75ce160f557},
   };
   REQUIRE(std::size(all) == std::size(kCases));
   for (const Expected& expected : all) {
@@ -246,6 +257,7 @@ TEST_CASE("chunks have the bytes that an encoder of its own, written after the s
     const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 5000, random));
     CHECK(chunk.size() == expected.bytes);
     CHECK(digest(chunk) == expected.plausible);
+    CHECK(digest(laz_chunk(layout, leaping_records(layout, 5000, random))) == expected.leaping);
     CHECK(digest(laz_chunk(layout, random_records(layout, 500, random))) == expected.random);
   }
 }
