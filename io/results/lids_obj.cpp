@@ -38,14 +38,19 @@ void write_lid(std::size_t id, const Lid& lid, std::uint64_t first, OutputFile& 
   out.write(head_of(id, lid));
   std::string line;
   for (const Eigen::Vector3d& vertex : lid.mesh.vertices) {
-    line = "v";
-    for (const double component : vertex) append_plain(line += " ", component);
-    out.write(line += "\n");
+    line.assign(1, 'v');
+    for (const double component : vertex) {
+      line.push_back(' ');
+      append_plain(line, component);
+    }
+    line.push_back('\n');
+    out.write(line);
   }
   for (const LidTriangle& triangle : lid.mesh.triangles) {
-    line = "f";
-    for (const std::uint32_t corner : triangle) line += " " + std::to_string(first + corner);
-    out.write(line += "\n");
+    line.assign(1, 'f');
+    for (const std::uint32_t corner : triangle) line.append(1, ' ').append(std::to_string(first + corner));
+    line.push_back('\n');
+    out.write(line);
   }
 }
 
