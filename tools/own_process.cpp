@@ -36,10 +36,12 @@ void release_symbol_tables() {
 
 // Large arrays come from the system and go back to it; small ones share few arenas. Without this, what
 // threads free stays with them and the process grows beyond its limit. Where the limit is far, memory is kept
-// and used again: fresh pages have to be cleared by the system.
+// and used again: fresh pages have to be cleared by the system. Within 64 MiB, the least limit, next to none
+// is.
 void set_up_allocator(std::uint64_t limit) {
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(limit / 64, kMiB, 32 * kMiB)));
-  ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(std::clamp(limit / 8, kMiB, 512 * kMiB)));
+  ::mallopt(M_TRIM_THRESHOLD,
+            static_cast<int>(std::clamp((std::max(limit, 64 * kMiB) - 56 * kMiB) / 8, kMiB, 512 * kMiB)));
   // An arena keeps up to several MiB that nobody uses.
   ::mallopt(M_ARENA_MAX, static_cast<int>(std::clamp<std::uint64_t>(limit / (32 * kMiB), 1, 4)));
 }
