@@ -20,11 +20,10 @@ struct ScanColumn {
   std::ptrdiff_t stride;  // bytes from row to row
 };
 
-// It does not own the columns; `owner` may.
+// It does not own the columns.
 struct ScanArrays {
   std::uint64_t rows = 0;
   std::vector<ScanColumn> columns;  // x, y and z among them
-  std::shared_ptr<const void> owner;
 };
 
 // `arrays` must outlive the reader. Columns are copied row by row.

@@ -28,7 +28,7 @@ io::Scalar scalar_of(const py::dtype& type, const std::string& name) {
                                                                          {"float32", io::Scalar::kFloat32},
                                                                          {"float64", io::Scalar::kFloat64}}};
   for (const auto& [numpy_name, scalar] : kTypes) {
-    if (type.is(py::dtype(numpy_name)) || type.equal(py::dtype(numpy_name))) return scalar;
+    if (type.equal(py::dtype(numpy_name))) return scalar;
   }
   throw Error(name + ": has values of type " + type.attr("name").cast<std::string>() +
               "; allowed: int8, uint8, int16, uint16, int32, uint32, float32, float64");

@@ -147,11 +147,6 @@ void run_watched(Work work, WatchedProgress& progress, const py::object& callbac
   }
 }
 
-std::string text_of(const py::handle& value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  return py::str(value).cast<std::string>();
-}
-
 }  // namespace
 
 void set_parameters(const py::dict& values, Config& config) {
@@ -160,7 +155,7 @@ void set_parameters(const py::dict& values, Config& config) {
     const auto name = key.cast<std::string>();
     const auto at = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == name; });
     if (at == all.end()) throw Error("no parameter has the name " + name);
-    at->set(text_of(value));
+    at->set(value.cast<std::string>());
   }
 }
 

@@ -15,8 +15,7 @@
 
 namespace lacuna::python {
 
-// Sets parameters from a dict of their keys and values. A value is text, a number, or true or false. Throws
-// `Error`.
+// Sets parameters from a dict of their keys and values, both texts as on the command line. Throws `Error`.
 void set_parameters(const pybind11::dict& values, Config& config);
 
 struct Found {

@@ -80,15 +80,15 @@ void add_interval(double from, double to, float share, float* row, std::size_t c
 
 void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid) {
   constexpr int kStrips = 8;
-  double north = -HUGE_VAL, south = HUGE_VAL;  // in cells below the corner
+  double north = HUGE_VAL, south = -HUGE_VAL;  // ends of the polygon, in cells below the corner
   std::vector<Eigen::Vector2d> corners;
   for (const Eigen::Vector2d& p : polygon) {
     corners.emplace_back((p.x() - grid.corner.x()) / grid.edge, (grid.corner.y() - p.y()) / grid.edge);
-    south = std::min(south, corners.back().y());
-    north = std::max(north, corners.back().y());
+    north = std::min(north, corners.back().y());
+    south = std::max(south, corners.back().y());
   }
-  const double first = std::max(std::floor(south), 0.0);
-  const double last = std::min(std::floor(north), static_cast<double>(grid.rows) - 1);
+  const double first = std::max(std::floor(north), 0.0);
+  const double last = std::min(std::floor(south), static_cast<double>(grid.rows) - 1);
   std::vector<double> crossings;
   for (double row = first; row <= last; ++row) {
     for (int strip = 0; strip < kStrips; ++strip) {

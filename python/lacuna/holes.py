@@ -30,6 +30,8 @@ MEASURES = (
     "first_scale",
     "last_scale",
 )
+# Those that are no counts.
+NUMBERS = tuple(name for name in MEASURES if name != "points")
 
 
 class LacunaWarning(UserWarning):
@@ -101,7 +103,7 @@ class Loops(Sequence):
         i = range(len(self))[i]
         a = self._arrays
         of_loop = slice(a["offsets"][i], a["offsets"][i + 1])
-        scalars = {name: a[name][i].item() for name in MEASURES if name != "points"}
+        scalars = {name: a[name][i].item() for name in NUMBERS}
         return Loop(
             id=i,
             kind="outer" if a["is_outer"][i] else "hole",

@@ -48,13 +48,14 @@ def find_holes(
     Non-finite points are dropped and counted. Cost: linear in n. Memory: the input, the results, and at most
     memory_limit, half of the machine's by default.
     """
-    columns = dict(zip("xyz", _columns(_positions_of(xyz), "xyz")))
+    positions = _positions_of(xyz)
+    columns = dict(zip("xyz", _columns(positions, "xyz")))
     if normals is not None:
         columns.update(zip(("nx", "ny", "nz"), _columns(np.asarray(normals), "normals")))
     for name, values in (attributes or {}).items():
         columns[name] = np.asarray(values)
     found = _core.find_in_arrays(columns, _checked({**params, "points": points}), progress)
-    return _holes_of(found, xyz=_positions_of(xyz))
+    return _holes_of(found, xyz=positions)
 
 
 def detect(

@@ -2,6 +2,7 @@
 // The files of lids: read back here, and compared with each other and with holes.json of the same run.
 #include "io/ply/mesh_reader.hpp"
 #include "tests/io/io_support.hpp"
+#include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <algorithm>
@@ -21,23 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using test::read_file;
 using test::run_program;
+using test::write_earth_sheet;
 using Strings = std::vector<std::string>;
 
 const std::array<const char*, 3> kFiles{"lids.obj", "lids.ply", "lids.csv"};
-
-// A sheet with holes at coordinates as of UTM, with all digits of a double.
-std::string write_scan(const test::ScratchFolder& scratch, const std::string& points = "12000") {
-  const std::string surface = (scratch / "surface.ply").string();
-  REQUIRE(run_program({"synth", "surface", surface, "--points", points, "--holes", "4", "--hole-radius", "3",
-                       "6", "--order", "random"})
-              .exit_code == 0);
-  std::ostringstream text;
-  text.precision(17);
-  text << "x y z\n";
-  for (const auto& row : test::read_table(surface).rows)
-    text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
-  return scratch.write("earth.txt", text.str());
-}
 
 fs::path detect(const std::string& scan, const fs::path& out, const Strings& options) {
   Strings words{"detect", scan, "--out", out.string(), "--quiet"};
@@ -128,7 +116,7 @@ std::vector<std::uint64_t> loops_of_faces(const std::string& ply, std::size_t fa
 TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
           "[results]") {
   const test::ScratchFolder scratch;
-  const fs::path out = detect(write_scan(scratch), scratch / "out", {"--lids"});
+  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--lids"});
   const nlohmann::json loops = test::read_json(out / "holes.json").at("loops");
   const Mesh obj = read_obj(out / "lids.obj");
   const std::map<std::uint64_t, double> area = areas(obj);
@@ -169,7 +157,7 @@ TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, 
 
 TEST_CASE("lids are the same bytes for every tiling, number of threads and memory limit", "[results]") {
   const test::ScratchFolder scratch;
-  const std::string scan = write_scan(scratch, "40000");
+  const std::string scan = write_earth_sheet(scratch, "40000");
   const fs::path plain = detect(scan, scratch / "plain", {"--lids"});
   const fs::path tiled =
       detect(scan, scratch / "tiled",
@@ -183,7 +171,7 @@ TEST_CASE("lids are the same bytes for every tiling, number of threads and memor
 
 TEST_CASE("lids of local coordinates are relative to the offset that the header states", "[results]") {
   const test::ScratchFolder scratch;
-  const fs::path out = detect(write_scan(scratch), scratch / "out", {"--lids", "--local-coordinates"});
+  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--lids", "--local-coordinates"});
   const std::string ply = read_file(out / "lids.ply");
   CHECK(ply.find("\ncomment lacuna offset ") < ply.find("end_header"));
   const Mesh obj = read_obj(out / "lids.obj");

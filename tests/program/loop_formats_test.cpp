@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops as OBJ, DXF and VTP: read back here, and compared with holes.json of the same run.
 #include "tests/io/io_support.hpp"
+#include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <cstring>
@@ -39,16 +40,7 @@ bool operator==(const ReadLoop& a, const ReadLoop& b) {
 
 // A sheet with holes at coordinates as of UTM, with all digits of a double; its results are in "out".
 nlohmann::json detect_on_earth(const test::ScratchFolder& scratch) {
-  const std::string surface = (scratch / "surface.ply").string();
-  REQUIRE(run_program({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius", "3",
-                       "6", "--order", "random"})
-              .exit_code == 0);
-  std::ostringstream text;
-  text.precision(17);
-  text << "x y z\n";
-  for (const auto& row : test::read_table(surface).rows)
-    text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
-  const std::string scan = scratch.write("earth.txt", text.str());
+  const std::string scan = test::write_earth_sheet(scratch);
   REQUIRE(
       run_program({"detect", scan, "--out", (scratch / "out").string(), "--obj", "--dxf", "--vtp", "--quiet"})
           .exit_code == 0);
