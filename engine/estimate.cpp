@@ -99,6 +99,9 @@ void add_sample(const TileStore& store, double extent, const Job& job, Estimate&
   estimate.seconds += seconds / share;
   size.candidates = static_cast<double>(detection->summary.counts.candidates) /
                     static_cast<double>(sample.positions.size());
+  if (detection->summary.surface_area > 0) {
+    estimate.density = static_cast<double>(sample.positions.size()) / detection->summary.surface_area;
+  }
   estimate.slowdown =
       std::max(1.0, kBusyThreads * all * static_cast<double>(job.arena.threads()) / processor);
 }

@@ -19,6 +19,7 @@ struct Estimate {
   std::uint64_t memory = 0;  // bytes at the peak
   double seconds = 0;        // until the results are there to be written
   double slowdown = 1;       // seconds for a second of processor time, by what else the machine does now
+  double density = 0;  // distinct points of the first level per square unit of the surface; 0: not known
   double cell_size = 0;
   std::uint64_t cells = 0;
 };

@@ -3,7 +3,23 @@
 
 #include "engine/bucket/strays.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 namespace lacuna {
+namespace {
+
+// Fine levels see lines of points rather than a surface, or noise; coarse ones cross its holes.
+double median_area(std::span<const LevelLoops> levels) {
+  std::vector<double> areas;
+  for (const LevelLoops& level : levels) areas.push_back(level.surface_area);
+  const auto middle = areas.begin() + static_cast<std::ptrdiff_t>((areas.size() - 1) / 2);
+  std::nth_element(areas.begin(), middle, areas.end());
+  return *middle;
+}
+
+}  // namespace
 
 Summary summarise(const Level& level, const Job& job) {
   const SurveyedScan& survey = level.survey;
@@ -39,6 +55,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, std::span<const
   summary.mean_edge_length = totals.mean_edge_length();
   summary.median_distance = totals.median_distance();
   summary.probabilities = totals.probabilities;
+  summary.surface_area = median_area(levels);
   summary.eps = eps;
   summary.e = found.minimum_loop;
 }

@@ -253,6 +253,7 @@ py::dict summary_of(const Summary& summary) {
   all["mean_neighbours"] = summary.mean_neighbours;
   all["mean_edge_length"] = summary.mean_edge_length;
   all["median_distance"] = summary.median_distance;
+  all["surface_area"] = summary.surface_area;
   py::list levels;
   for (const LevelSummary& level : summary.levels) {
     py::dict one;

@@ -12,6 +12,7 @@
 #include "tools/input_files.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,9 +76,9 @@ void for_each_block(const Found& found, const py::function& visit) {
       [&](PointId first, std::span<const PointResult> block) { visit(block_of(first, block)); });
 }
 
-fs::path write_report(const fs::path& folder, bool overwrite) {
+fs::path write_report(const fs::path& folder, const std::optional<fs::path>& marks) {
   const py::gil_scoped_release unlocked;
-  return io::write_report(folder, overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn).file;
+  return io::write_report(folder, io::Overwrite::kOwn, marks).file;
 }
 
 std::string evaluate(const fs::path& result_path, const fs::path& truth_path,

@@ -13,6 +13,7 @@
 #include "tools/attribute_counts.hpp"
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
+#include "tools/measures_text.hpp"
 #include "tools/own_process.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
@@ -158,6 +159,11 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   } else {
     std::cout << print_point(summary.bounds.min()) << " to " << print_point(summary.bounds.max());
   }
+  if (run.estimate.density > 0) {
+    const std::string unit = scan.length_unit();
+    std::cout << "\n  density       about " << print_area(run.estimate.density, "") << " points per "
+              << (unit.empty() ? "square unit" : unit + "²") << " of surface";
+  }
   std::cout << "\n  tiles         " << print_count(summary.tiles) << ", of at most "
             << print_count(summary.tile_points) << " points"
             << "\n  cells         " << print_count(run.estimate.cells) << ", of size "
@@ -209,6 +215,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["thinned_out"] = summary.counts.thinned_out;
   root["tiles"] = summary.tiles;
   root["tile_points"] = summary.tile_points;
+  root["density"] = run.estimate.density;
   root["cells"] = run.estimate.cells;
   root["cell_size"] = run.estimate.cell_size;
   root["memory_limit"] = summary.memory_limit;

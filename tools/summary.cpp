@@ -55,7 +55,7 @@ double extent_of(const Summary& summary) {
 struct Kind {
   std::vector<std::size_t> loops;  // by area, the largest first
   std::size_t long_ones = 0;       // with a larger perimeter than the bound
-  double perimeter = 0;            // of all together
+  double perimeter = 0, area = 0;  // of all together
 };
 
 Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind, double bound) {
@@ -65,6 +65,7 @@ Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind, double boun
     all.loops.push_back(i);
     all.long_ones += loops[i].perimeter > bound;
     all.perimeter += loops[i].perimeter;
+    if (std::isfinite(loops[i].area)) all.area += loops[i].area;
   }
   std::stable_sort(all.loops.begin(), all.loops.end(),
                    [&](std::size_t a, std::size_t b) { return loops[a].area > loops[b].area; });
@@ -98,6 +99,15 @@ std::string print_facts(const std::vector<std::pair<std::string, std::string>>& 
   std::string text;
   for (const auto& [label, value] : facts) {
     text += "  " + label + std::string(width - label.size() + 2, ' ') + value + "\n";
+  }
+  return text;
+}
+
+std::string print_surface(double area, double missing, std::string_view unit) {
+  std::string text = "about " + print_area(area, unit) + " sampled";
+  if (missing > 0) {
+    text += ", " + print_area(missing, unit) +
+            " within holes: " + print_number(100 * missing / (area + missing)) + " % of both";
   }
   return text;
 }
@@ -206,6 +216,8 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
             " in all\n\n";
   }
   auto facts = findings(summary, scan, unit);
+  if (summary.surface_area > 0)
+    facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
   facts.emplace_back("time", print_duration(times.total_seconds) + " with " +
                                  counted(summary.threads, "thread", "threads") + ", " +

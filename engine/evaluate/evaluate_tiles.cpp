@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -225,6 +226,13 @@ double LengthBins::median() const {
   return 0;
 }
 
+double LengthBins::sum_of_squares() const {
+  double sum = 0;
+  for (const auto& [bin, count] : counts)
+    sum += static_cast<double>(count) * start_of(bin) * start_of(bin + 1);
+  return sum;
+}
+
 Totals::Totals(double extent) : length_unit(lacuna::length_unit(extent)) {}
 
 void Totals::add(const TileOutput& output) {
@@ -247,6 +255,10 @@ double Totals::mean_neighbours() const {
 double Totals::mean_edge_length() const {
   if (neighbours == 0) return 0;
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
+}
+
+double Totals::surface_area() const {
+  return std::numbers::pi * 2.25 * distances.sum_of_squares() / (mean_neighbours() + 2.5);
 }
 
 void evaluate_tiles(

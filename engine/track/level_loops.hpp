@@ -17,6 +17,7 @@ struct LevelLoops {
   double edge = 0;           // of the level's lattice; 0: every point
   double cell_edge = 0;      // of the lattice on which its loops are compared with others
   std::uint64_t points = 0;  // distinct ones of the level
+  double surface_area = 0;   // as its points sample it
   PlacedLoops loops;
   std::vector<LoopEvidence> evidence;  // of each loop
 };

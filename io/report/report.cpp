@@ -156,6 +156,7 @@ Json report_of(const Scene& scene, const MatchedMarks& marks) {
           {"strays", scene.strays},
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},
+          {"surface_area", holes.value("surface_area", 0.0)},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},

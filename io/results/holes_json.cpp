@@ -85,6 +85,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;
   json["median_distance"] = summary.median_distance;
+  json["surface_area"] = summary.surface_area;
   json["eps"] = summary.eps;
   json["e"] = summary.e;
   return json;

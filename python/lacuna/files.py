@@ -154,7 +154,7 @@ def _arrays_of(loops: list[dict[str, Any]]) -> dict[str, np.ndarray]:
     }
 
 
-_SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance")
+_SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance", "surface_area")
 
 _PLY_TYPES = {"float": "<f4", "double": "<f8", "uint": "<u4", "int": "<i4", "uchar": "u1", "ushort": "<u2"}
 

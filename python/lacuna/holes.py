@@ -264,15 +264,12 @@ class Holes:
         target.mkdir(parents=True, exist_ok=True)
         return [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
 
-    def report(self, file: Union[str, os.PathLike]) -> Path:
-        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name."""
+    def report(self, file: Union[str, os.PathLike], *, marks: Union[str, os.PathLike, None] = None) -> Path:
+        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name. marks: a file
+        that "Save marks" of an earlier report wrote; its marks are shown at the loops that they fit."""
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
-            if self._found is not None:
-                self.save(folder, report=True)
-                made = Path(folder) / "report.html"
-            else:
-                self.save(folder)
-                made = Path(_core.write_report(folder, False))
+            self.save(folder)
+            made = _core.write_report(folder, None if marks is None else os.fspath(marks))
             return Path(shutil.copyfile(made, file))
 
     # ---- pictures

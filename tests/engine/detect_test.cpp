@@ -449,6 +449,19 @@ TEST_CASE("a turned scan has the same loops, where no ties are decided by roundi
   }
 }
 
+// Boundaries of small grids add several percent. A hole does not count.
+TEST_CASE("the sampled surface has the area of the shape, whatever its density") {
+  const auto area = [](const Cloud& cloud) { return run_engine(cloud, tiled({}, 500)).summary.surface_area; };
+  CHECK(area(sphere(8000)) == Approx(4 * std::numbers::pi).epsilon(0.02));
+  CHECK(area(sphere(8000).scaled(100)) == Approx(4e4 * std::numbers::pi).epsilon(0.02));
+  const Cloud whole = plane(100).jittered(0.25, 1);
+  CHECK(area(whole) == Approx(1e4).epsilon(0.08));
+  CHECK(area(whole) - area(whole.punched({50, 50}, 25)) == Approx(25 * 25 * std::numbers::pi).epsilon(0.15));
+  CHECK(area(density_step(100).jittered(0.25, 1)) == Approx(1e4).epsilon(0.12));
+  CHECK(area(whole.joined(whole.noisy(0.05, 2))) == Approx(1e4).epsilon(0.1));
+  CHECK(area({}) == 0);
+}
+
 // Without ties, ids decide nothing before the search for loops, whose origins are taken in ascending id.
 TEST_CASE("the order of the points changes no probability, no coherence and no edge of the graph") {
   for (const std::uint64_t seed : {1, 2, 3}) {

@@ -216,7 +216,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
                    "thinned_out": 0, "duplicates": 110, "candidates": len(points) // 40, "coherent": len(points) // 60,
                    "boundary_points": first[-1], "boundary_edges": first[-1], "holes": holes,
                    "outer": len(loops) - holes, "loops": len(loops)},
-        "bounds": bounds, "resolution": 0, "strays": 0, "median_distance": 1.7 * spacing if points else 0, "method": "tangential",
+        "bounds": bounds, "resolution": 0, "strays": 0, "median_distance": 1.7 * spacing if points else 0, "surface_area": points * spacing ** 2, "method": "tangential",
         "parameters": {"neighbours": {"k": 24, "radius": 0}, "criteria": {"angle": True, "halfdisc": True},
                        "loops": {"min_hole": 0.1, "min_confidence": 0, "holes_only": False},
                        "output": {"report": True, "sample_points": 300000}},

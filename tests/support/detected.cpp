@@ -73,6 +73,7 @@ std::string Detected::bytes() const {
   put(bytes, summary.mean_neighbours);
   put(bytes, summary.mean_edge_length);
   put(bytes, summary.median_distance);
+  put(bytes, summary.surface_area);
   put(bytes, summary.strays.points);
   put(bytes, summary.strays.example);
   put(bytes, summary.strays.rest.min());

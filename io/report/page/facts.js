@@ -80,7 +80,14 @@ function result_facts(data, units) {
   for (let i = 0; i < loops.count; ++i) {
     if (loops.is_hole[i] && Number.isFinite(loops.area[i])) { area += loops.area[i]; has_area = true; }
   }
-  if (has_area) rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
+  if (has_area) {
+    rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
+  }
+  if (report.surface_area > 0) {
+    const share = 100 * area / (area + report.surface_area);
+    rows.splice(has_area ? 2 : 1, 0, ["Sampled surface, about", units.area(report.surface_area, 3)],
+                ["Share within holes", `${share.toPrecision(2)} %`]);
+  }
   const made = facts_part("Result", description(rows));
   if (loops.count < loops.all) {
     made.append(element("p", {class: "quiet"},
