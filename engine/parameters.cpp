@@ -188,6 +188,10 @@ std::vector<Parameter> parameters(Config& config) {
        "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
        "others.",
        kGis},
+      {"output", "stations", &output.stations, 0, 0, "a file name, or nothing",
+       "File of where scanners stood, from which the cause of each hole is found; without it, as the scans "
+       "say.",
+       kNothing},
       {"output", "coverage", &output.coverage, 0, 1e100, "a length of 0 (off) or more",
        "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS.",
        kNothing},

@@ -48,6 +48,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
+    has_scanners_ = has_scanners_ || !reader->scanners().empty();
     rows_read_.push_back(0);
     expected_rows_.push_back(reader->expected_rows());
     if (expected_points_ && expected_rows_.back()) {
@@ -107,6 +108,7 @@ void FileScan::rewind() {
   reader_.reset();
   filtered_out_ = {};
   before_filters_ = {};
+  if (observer_) observer_->begin();
 }
 
 bool FileScan::next(PointBatch& batch) {
@@ -122,7 +124,9 @@ bool FileScan::next(PointBatch& batch) {
     if (!reader_->next(rows_, batch_rows(file_))) continue;
     const RowLayout& layout = reader_->layout();
     load_vectors(rows_, layout, kPositionNames, batch.positions);
+    if (observer_) read_ = batch.positions;
     filter_->apply(rows_, batch.positions, filtered_out_, before_filters_);
+    if (observer_) observer_->take(file_, *reader_, rows_, read_, batch.positions);
     if (has_vectors(layout, kNormalNames)) {
       load_vectors(rows_, layout, kNormalNames, batch.normals);
     } else if (has_normals_) {
@@ -135,6 +139,7 @@ bool FileScan::next(PointBatch& batch) {
   }
   if (filtered_out_.total() > 0 && before_filters_.kept == 0)
     throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
+  if (observer_) observer_->end();
   return false;
 }
 

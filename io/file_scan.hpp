@@ -37,6 +37,17 @@ std::filesystem::path full_name(const std::filesystem::path& file);  // absolute
 // The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
 std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 
+// Sees all rows that are read of a scan, in order.
+class RowObserver {
+ public:
+  virtual ~RowObserver() = default;
+  virtual void begin() = 0;  // at the first row, or at the first again
+  // `read`: where the rows lie; `kept`: likewise, NaN where a filter has left a row out.
+  virtual void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
+                    std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) = 0;
+  virtual void end() = 0;  // every row was there
+};
+
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
 // position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
@@ -94,7 +105,9 @@ class FileScan : public PointSource {
   // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
   // an earlier one.
   void check_unchanged() const;
-  bool single_precision() const;  // x, y and z are 32-bit floats in every file
+  void observe(RowObserver* observer) { observer_ = observer; }  // null: nobody
+  bool has_scanners() const { return has_scanners_; }            // a file says where one stood
+  bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
 
  private:
   void choose_crs();
@@ -111,7 +124,7 @@ class FileScan : public PointSource {
   std::vector<bool> is_geographic_;
   StatedCrs stated_;
   std::string common_crs_, common_unit_;
-  bool has_normals_ = false, reads_slowly_ = false;
+  bool has_normals_ = false, reads_slowly_ = false, has_scanners_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
   std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
@@ -123,6 +136,8 @@ class FileScan : public PointSource {
   RowBatch rows_;
   FilteredOut filtered_out_;
   BeforeFilters before_filters_;
+  RowObserver* observer_ = nullptr;
+  std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };
 
 }  // namespace lacuna::io

@@ -39,6 +39,17 @@ class PosedReader final : public ScanReader {
     return places;
   }
 
+  // A scan that is moved to its place, and names no scanner, begins at its own.
+  std::vector<ScannerPose> scanners() const override {
+    std::vector<ScannerPose> scanners = reader_->scanners();
+    if (scanners.empty()) scanners.push_back({.place = Eigen::Vector3d::Zero()});
+    for (ScannerPose& scanner : scanners) {
+      scanner.place = pose_ * scanner.place;
+      scanner.axis = (pose_.linear() * scanner.axis).normalized();
+    }
+    return scanners;
+  }
+
   bool next(RowBatch& batch, std::size_t max_rows) override {
     if (!reader_->next(rows_, max_rows)) return false;
     batch.count = rows_.count;

@@ -44,6 +44,13 @@ struct RowBatch {
   std::vector<std::byte> bytes;  // count * stride
 };
 
+// Where a scanner stood, as a file says.
+struct ScannerPose {
+  Eigen::Vector3d place;
+  Eigen::Vector3d axis{0, 0, 1};        // of unit length: the scanner turns around it
+  std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; none: all rows
+};
+
 // Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
 // (line or byte) and the reason.
 class ScanReader {
@@ -62,6 +69,8 @@ class ScanReader {
   virtual bool is_geographic() const;
   // The unit of length, as unit_of_metres (io/length_unit.hpp); empty: not known.
   virtual std::string length_unit() const;
+  // The scanners of the rows read so far, and maybe of others.
+  virtual std::vector<ScannerPose> scanners() const { return {}; }
   // Positions that stand for a ray without return: 0 0 0, and the scanner's own where the file has it.
   virtual std::vector<Eigen::Vector3d> no_return_places() const { return {Eigen::Vector3d::Zero()}; }
 };

@@ -10,13 +10,14 @@
 #include "engine/workspace/workspace_state.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/results.hpp"
+#include "io/stations/find_causes.hpp"
 #include "tools/disk_check.hpp"
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
 #include "tools/log_file.hpp"
 #include "tools/overall_progress.hpp"
-#include "tools/parameter_options.hpp"
 #include "tools/own_process.hpp"
+#include "tools/parameter_options.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/shown_progress.hpp"
 #include "tools/signals.hpp"
@@ -172,10 +173,13 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
     spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
+  const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
+  if (stations) find_causes(*stations, scan, config.run, *detection);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  const std::vector<fs::path> written = write_results(*detection, scan, with_min_hole(config), out, overwrite);
+  const std::vector<fs::path> written =
+      write_results(*detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
   const std::string more = steps.end ? steps.end() : "";
   if (workspace) {

@@ -2,6 +2,7 @@
 // Loops: what the method returns for each hole.
 #pragma once
 
+#include "engine/model/cause.hpp"
 #include "engine/model/ids.hpp"
 
 #include <cstdint>
@@ -51,6 +52,7 @@ struct LoopMeasures {
   double planarity = 0;  // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
   LoopTrack track;
+  LoopCause cause;
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 

@@ -31,6 +31,7 @@ struct E57Scan {
   std::uint64_t records = 0;
   std::vector<E57Field> fields;  // in the order of their bytestreams; none where there are no records
   Pose pose = Pose::Identity();
+  bool has_pose = false;  // the file states it
 };
 
 struct E57Header {

@@ -40,6 +40,18 @@ class E57Reader final : public ScanReader {
   std::string crs() const override { return header_.coordinate_metadata; }
   std::string length_unit() const override { return "m"; }  // ASTM E2807, 6.4.1
 
+  std::vector<ScannerPose> scanners() const override {
+    std::vector<ScannerPose> scanners;
+    for (std::size_t i = 0; i < header_.scans.size(); ++i) {
+      const E57Scan& scan = header_.scans[i];
+      if (!scan.has_pose) continue;
+      scanners.push_back({.place = scan.pose.translation(),
+                          .axis = scan.pose.linear().col(2),
+                          .source = static_cast<std::uint32_t>(i)});
+    }
+    return scanners;
+  }
+
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
     const std::size_t stride = columns_.layout.stride;

@@ -177,6 +177,7 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
                          " bits; the file holds at most " + std::to_string(most));
   }
   count_values(xml, points, scan, values);
+  scan.has_pose = !node.child("pose").empty();
   scan.pose = read_pose(xml, node.child("pose"));
   return scan;
 }

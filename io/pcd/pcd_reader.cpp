@@ -24,6 +24,10 @@ class PcdReader final : public ScanReader {
     if (const auto scanner = rows_.header().scanner()) places.push_back(*scanner);
     return places;
   }
+  std::vector<ScannerPose> scanners() const override {
+    const auto place = rows_.header().scanner();
+    return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
+  }
   const LocalOffset& offset() const { return rows_.header().offset; }
   std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 

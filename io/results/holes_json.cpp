@@ -68,6 +68,34 @@ Json levels_json(const std::vector<LevelSummary>& levels) {
   return list;
 }
 
+Json stations_json(const std::vector<StationSummary>& stations) {
+  Json list_of_all = Json::array();
+  for (const StationSummary& station : stations) {
+    list_of_all.push_back({{"name", station.name},
+                           {"place", list(station.place)},
+                           {"points", station.points},
+                           {"certainty", station.certainty},
+                           {"lowest_sine", station.lowest},
+                           {"highest_sine", station.highest},
+                           {"turn", station.turn},
+                           {"step", station.step},
+                           {"farthest", station.farthest}});
+  }
+  return list_of_all;
+}
+
+// null where it is not known.
+Json cause_json(const LoopCause& cause) {
+  if (cause.name().empty()) return {};
+  Json json = {{"main", cause.name()}, {"shares", Json::object()}, {"hidden_by", Json()}};
+  for (std::size_t i = 0; i < kCauses; ++i) json["shares"][std::string(kCauseNames[i])] = cause.shares[i];
+  if (cause.hidden_from >= 0) {
+    json["hidden_by"] = {
+        {"place", list(cause.hidden_by)}, {"extent", cause.hidden_by_extent}, {"station", cause.hidden_from}};
+  }
+  return json;
+}
+
 Json head(const Detection& detection, const FileScan& scan, const Config& config) {
   const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
@@ -85,6 +113,7 @@ Json head(const Detection& detection, const FileScan& scan, const Config& config
   json["mean_neighbours"] = summary.mean_neighbours;
   json["mean_edge_length"] = summary.mean_edge_length;
   json["median_distance"] = summary.median_distance;
+  json["stations"] = stations_json(detection.stations);
   json["surface_area"] = summary.surface_area;
   json["eps"] = summary.eps;
   json["e"] = summary.e;
@@ -119,6 +148,7 @@ void write_loop(std::size_t id, const Detection& detection, bool with_coordinate
                      {"mean_probability", measures.mean_probability},
                      {"centroid", list(measures.centroid)},
                      {"normal", list(measures.normal)},
+                     {"cause", cause_json(measures.cause)},
                      {"tiles", measures.tiles},
                      {"points", measures.points}};
   std::string text = print(head, -1);

@@ -63,6 +63,8 @@ class PtxReader final : public ScanReader {
     return std::nullopt;
   }  // more blocks may follow
 
+  std::vector<ScannerPose> scanners() const override { return scanners_; }
+
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
     constexpr std::size_t kMostRows = 1 << 16;
@@ -101,6 +103,8 @@ class PtxReader final : public ScanReader {
           Eigen::Vector4d::Map(line_.data());  // of row vectors
     }
     left_ = columns * rows;
+    scanners_.push_back(
+        {.place = pose_.translation(), .axis = pose_.linear().col(2).normalized(), .source = scan_});
     ++scan_;
     return true;
   }
@@ -162,11 +166,12 @@ class PtxReader final : public ScanReader {
   InputFile in_;
   RowLayout layout_;
   Pose pose_;
-  std::uint64_t left_ = 0;   // rays of the block not yet read
-  std::uint32_t scan_ = 0;   // blocks begun
-  std::size_t values_ = 4;   // of each ray
-  Values line_{};            // the last one read
-  bool is_pending_ = false;  // it is a ray that is not yet in a batch
+  std::uint64_t left_ = 0;             // rays of the block not yet read
+  std::uint32_t scan_ = 0;             // blocks begun
+  std::vector<ScannerPose> scanners_;  // of these
+  std::size_t values_ = 4;             // of each ray
+  Values line_{};                      // the last one read
+  bool is_pending_ = false;            // it is a ray that is not yet in a batch
 };
 
 }  // namespace

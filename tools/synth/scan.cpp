@@ -2,6 +2,7 @@
 #include "tools/synth/scan.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/results/digits.hpp"
 #include "tools/synth/scan_truth.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/truth_file.hpp"
@@ -40,6 +41,23 @@ void check(const ScanOptions& o) {
   }
 }
 
+constexpr std::string_view kStationsMark = "# stations of a synthetic scan: name x y z source\n";
+
+// As `--stations` of lacuna detect reads it. A flight has no stations.
+void write_stations(const Scanner& scanner, const ScanOptions& options, OutputFile& file) {
+  file.write(kStationsMark);
+  for (std::size_t i = 0; i < scanner.stations().size(); ++i) {
+    std::string line = "station_" + std::to_string(i);
+    const Vec3& place = scanner.stations()[i];
+    for (const double coordinate :
+         {place.x + options.translate[0], place.y + options.translate[1], place.z + options.translate[2]}) {
+      line += ' ';
+      append_shortest(line, coordinate);
+    }
+    file.write(line + " " + std::to_string(i) + "\n");
+  }
+}
+
 void check_flight(const ScanOptions& o) {
   require(o.sweeps == 1, "--sweeps: a flight has one sweep on each strip");
   require(o.field_of_view == kFieldOfView, "--field-of-view: a flight has its own, 20 degrees to both sides");
@@ -57,6 +75,9 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
   OutputSet set(options.overwrite);
   OutputFile& truth_file = set.add(truth_path, kTruthMark);
+  const std::filesystem::path stations_path =
+      std::filesystem::path(options.out).replace_extension(".stations.txt");
+  OutputFile* const stations = scene.flown ? nullptr : &set.add(stations_path, kStationsMark);
   PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kScanAndIntensity);
   const Scanner scanner(options, scene);
   const std::uint64_t count = scanner.rays();
@@ -77,6 +98,7 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   write_truth_head(truth_file, options.out);
   for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
   for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
+  if (stations) write_stations(scanner, options, *stations);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};

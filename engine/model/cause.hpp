@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why no scanner sampled the inside of a hole.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace lacuna {
+
+enum class Cause : std::uint8_t {
+  kHidden,     // nearer points stand before it
+  kOpening,    // the rays pass, as through a window or a door
+  kOutOfView,  // of each scanner: its field of view, its range, or grazing rays
+  kNoReturn,   // nothing came back, and nothing lies behind: dark, wet, water
+  kFiltered,   // points were there, and a filter of this run left them out
+};
+inline constexpr std::array<std::string_view, 5> kCauseNames = {"hidden", "opening", "out_of_view",
+                                                                "no_return", "filtered"};
+inline constexpr std::size_t kCauses = kCauseNames.size();
+
+struct LoopCause {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  // Shares of the hole's area, which sum to 1; NaN where no station is known.
+  std::array<double, kCauses> shares = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  // One of the points that hide it, in their middle, and the largest extent of all of them; NaN where
+  // nothing does.
+  Eigen::Vector3d hidden_by = Eigen::Vector3d::Constant(kUnknown);
+  double hidden_by_extent = kUnknown;
+  std::int32_t hidden_from = -1;  // number of the station that most of it is hidden from; -1: none
+
+  double share(Cause cause) const { return shares[static_cast<std::size_t>(cause)]; }
+  // The cause with the largest share, the first of equal ones; none where no station is known.
+  std::optional<Cause> main() const {
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < kCauses; ++i)
+      if (shares[i] > shares[largest]) largest = i;
+    return shares[largest] > 0 ? std::optional(static_cast<Cause>(largest)) : std::nullopt;
+  }
+  // Its name; empty where it is not known.
+  std::string_view name() const {
+    const std::optional<Cause> cause = main();
+    return cause ? kCauseNames[static_cast<std::size_t>(*cause)] : std::string_view();
+  }
+};
+
+// Where a scanner stood, and what it saw.
+struct StationSummary {
+  std::string name;
+  Eigen::Vector3d place{0, 0, 0};
+  std::uint64_t points = 0;
+  double certainty = 0;            // share of its points that can have been seen from there, [0, 1]
+  double lowest = 0, highest = 0;  // sines of the elevations of its points
+  double turn = 0;                 // share of a whole turn with points
+  double step = 0;                 // mean angle between rays, radians
+  double farthest = 0;             // range
+};
+
+}  // namespace lacuna

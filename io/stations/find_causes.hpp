@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// find_causes: why no station sampled the inside of a hole.
+//
+// Idea: each ray of a station says what is there up to its range, and beyond it nothing. So the directions
+// from a station to the inside of a hole have shorter ranges where something hides it, and longer ones, or
+// none, where rays pass.
+#pragma once
+
+#include "engine/config.hpp"
+#include "engine/model/detection.hpp"
+#include "io/file_scan.hpp"
+#include "io/stations/inside_places.hpp"
+#include "io/stations/station_views.hpp"
+
+#include <span>
+
+namespace lacuna::io {
+
+// Below this cosine of the angle of incidence a surface counts as out of view: rays at less than 3 degrees.
+inline constexpr double kLeastIncidence = 0.0523;
+
+// Places inside of a hole stand for its area. A station finds at each place:
+//   1. a point at the same range: the place does not count
+//   2. a point that a filter has left out: filtered
+//   3. a longer range than that of the place: opening
+//   4. no return: opening, or no return, see below
+//   5. a shorter range: hidden; or nothing, as the place is outside of its field of view, beyond its farthest
+//      point, or seen at less than kLeastIncidence: out of view
+// Of several stations, the first finding of this list counts, and in 5 that of the nearest station.
+//
+// A place without return is an opening where a twentieth of the hole has longer ranges. Else it is an opening
+// in a wall or a ceiling, and no return in a floor: rays that go down end on something. But where a part of
+// the floor is hidden, that counts as hidden, too: dark things hide as others do. So a dark panel in a wall
+// counts as an opening; the scan says nothing else of it.
+//
+// Holes keep unknown causes where there are no stations, or all places have points. Stations of little
+// certainty do not count. Cost: some 0.3 ms for each hole and station.
+// `tolerance`: a range that differs by less is the same; that of rays is added.
+LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views, double tolerance);
+double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
+
+// Sets the cause of each hole, and the stations. Throws `Error` where the scan is read, as
+// `StationViews::complete` does.
+void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, Detection& detection);
+
+}  // namespace lacuna::io

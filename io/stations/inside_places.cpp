@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/inside_places.hpp"
+
+#include "io/lids/triangulate_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::uint64_t kMostCorners = 64;  // of a loop that is triangulated
+constexpr double kPlaces = 256;             // of a hole, at least
+
+// Corners at even numbers of points.
+std::vector<Eigen::Vector3d> corners_of(const Detection& detection, std::size_t loop) {
+  const std::uint64_t points = detection.loops[loop].points;
+  const std::uint64_t count = std::min(points, kMostCorners);
+  std::vector<Eigen::Vector3d> corners;
+  std::uint64_t at = 0;
+  detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
+    if (corners.size() < count && at++ >= corners.size() * points / count) corners.push_back(point.position);
+  });
+  return corners;
+}
+
+// Spread evenly over the triangles, by the sequence R2 (Roberts, 2018).
+std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
+  const double spacing = area(mesh) / kPlaces;
+  std::vector<InsidePlace> places;
+  if (!(spacing > 0)) return places;
+  for (const LidTriangle& triangle : mesh.triangles) {
+    const Eigen::Vector3d vector = area_vector(mesh, triangle);
+    const double size = vector.norm();
+    if (!(size > 0)) continue;
+    const auto count = static_cast<std::size_t>(std::ceil(size / spacing));
+    const Eigen::Vector3d& a = mesh.vertices[triangle[0]];
+    const Eigen::Vector3d to_b = mesh.vertices[triangle[1]] - a, to_c = mesh.vertices[triangle[2]] - a;
+    for (std::size_t i = 1; i <= count; ++i) {
+      const double n = static_cast<double>(i);
+      double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
+      u -= std::floor(u);
+      v -= std::floor(v);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      places.push_back({a + u * to_b + v * to_c, vector / size, size / static_cast<double>(count)});
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop) {
+  const std::vector<Eigen::Vector3d> corners = corners_of(detection, loop);
+  return corners.size() < 3 ? std::vector<InsidePlace>() : places_inside(triangulate_polygon(corners));
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places that stand for the inside of a hole.
+#pragma once
+
+#include "engine/model/detection.hpp"
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+struct InsidePlace {
+  Eigen::Vector3d position, normal;  // the normal of length 1, on either side
+  double area;                       // that it stands for
+};
+
+// At least 256 places, spread evenly over the triangles of least area (io/lids/triangulate_polygon.hpp)
+// between some 64 points of the loop. The sum of their areas is that of the triangles. None where the loop
+// has no area. Cost: 0.3 ms, and reading the loop.
+std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop);
+
+}  // namespace lacuna::io

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/range_image.hpp"
+
+#include "engine/store/store_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <sys/mman.h>
+
+namespace lacuna::io {
+namespace {
+
+constexpr std::size_t kBytes = RangeImage::kCells * sizeof(float);
+
+}  // namespace
+
+void RangeImage::Unmap::operator()(float* cells) const {
+  ::munmap(cells, kBytes);
+}
+
+RangeImage::RangeImage(const std::filesystem::path& folder)
+    : cells_(reinterpret_cast<float*>(StoreFile(folder / "range-image").map(kBytes))) {}
+
+std::size_t RangeImage::cell_of(const Eigen::Vector3d& direction) {
+  const double x = std::fabs(direction.x()), y = std::fabs(direction.y()), z = std::fabs(direction.z());
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  const double half = static_cast<double>(kEdge) / 2;
+  const double along = std::fabs(direction[axis]);
+  const auto place = [&](int other) {
+    return std::min(kEdge - 1, static_cast<std::size_t>((direction[other] / along + 1) * half));
+  };
+  const std::size_t face = static_cast<std::size_t>(2 * axis) + (direction[axis] < 0 ? 1 : 0);
+  return (face * kEdge + place((axis + 1) % 3)) * kEdge + place((axis + 2) % 3);
+}
+
+Eigen::Vector3d RangeImage::direction_of(std::size_t cell) {
+  const std::size_t face = cell / (kEdge * kEdge);
+  const auto place = [&](std::size_t index) {
+    return (2 * static_cast<double>(index) + 1) / static_cast<double>(kEdge) - 1;
+  };
+  const int axis = static_cast<int>(face / 2);
+  Eigen::Vector3d direction;
+  direction[axis] = face % 2 == 0 ? 1 : -1;
+  direction[(axis + 1) % 3] = place(cell / kEdge % kEdge);
+  direction[(axis + 2) % 3] = place(cell % kEdge);
+  return direction.normalized();
+}
+
+double RangeImage::put(const Eigen::Vector3d& direction, double range) {
+  float& cell = cells_[cell_of(direction)];
+  const float before = cell, rounded = static_cast<float>(range);
+  if (before == 0 || rounded < before) cell = rounded;
+  return before;
+}
+
+// Two passes over the offsets to the nearest cell (Danielsson, *Euclidean distance mapping*, 1980).
+void RangeImage::fill(std::size_t distance) {
+  struct Offset {
+    std::int16_t row, column;
+    int square() const { return row * row + column * column; }
+  };
+  constexpr Offset kNone{10'000, 10'000};
+  constexpr auto kRow = static_cast<std::ptrdiff_t>(kEdge);
+  std::vector<Offset> offsets(kEdge * kEdge);
+  for (std::size_t face = 0; face < 6; ++face) {
+    float* const cells = cells_.get() + face * kEdge * kEdge;
+    for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] = cells[i] > 0 ? Offset{0, 0} : kNone;
+    const auto take = [&](std::ptrdiff_t at, std::ptrdiff_t row, std::ptrdiff_t column) {
+      const Offset& other = offsets[static_cast<std::size_t>(at + row * kRow + column)];
+      const Offset through{static_cast<std::int16_t>(other.row + row),
+                           static_cast<std::int16_t>(other.column + column)};
+      Offset& own = offsets[static_cast<std::size_t>(at)];
+      if (through.square() < own.square()) own = through;
+    };
+    for (const int step : {1, -1}) {
+      for (std::ptrdiff_t r = 0; r < kRow; ++r) {
+        const std::ptrdiff_t row = step > 0 ? r : kRow - 1 - r;
+        if (r > 0)
+          for (std::ptrdiff_t column = 0; column < kRow; ++column) take(row * kRow + column, -step, 0);
+        for (std::ptrdiff_t column = 1; column < kRow; ++column) take(row * kRow + column, 0, -1);
+        for (std::ptrdiff_t column = kRow - 1; column-- > 0;) take(row * kRow + column, 0, 1);
+      }
+    }
+    const int most = static_cast<int>(distance * distance);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const Offset& offset = offsets[i];
+      if (cells[i] == 0 && offset.square() <= most)
+        cells[i] = cells[static_cast<std::ptrdiff_t>(i) + offset.row * kRow + offset.column];
+    }
+  }
+}
+
+std::array<std::size_t, kCoarserImages> count_filled(const RangeImage& image) {
+  std::vector<bool> has_range(RangeImage::kCells);
+  for (std::size_t i = 0; i < has_range.size(); ++i) has_range[i] = image.cells()[i] > 0;
+  std::array<std::size_t, kCoarserImages> counts{};
+  for (std::size_t level = 0, edge = RangeImage::kEdge; level < counts.size(); ++level, edge /= 2) {
+    counts[level] = static_cast<std::size_t>(std::count(has_range.begin(), has_range.end(), true));
+    std::vector<bool> coarser(has_range.size() / 4);
+    for (std::size_t i = 0; i < has_range.size(); ++i)
+      if (has_range[i]) coarser[i / edge / 2 * (edge / 2) + i % edge / 2] = true;
+    has_range.swap(coarser);
+  }
+  return counts;
+}
+
+void RangeImage::leave_memory() const {
+  ::madvise(cells_.get(), kBytes, MADV_DONTNEED);
+}
+
+}  // namespace lacuna::io

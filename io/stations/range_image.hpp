@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nearest range that a station measured in each direction: a cube of square cells around it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+// Faces are at right angles to the axes of the scan, so that directions need no arithmetic but divisions, and
+// have the same cell on every machine. A cell is 0.11 degrees wide in the middle of a face and 0.08 at its
+// sides. Its cells lie in a file that has no name any more: 25 MiB, of which only touched pages take memory.
+class RangeImage {
+ public:
+  static constexpr std::size_t kEdge = 1024;  // cells along an edge of a face
+  static constexpr std::size_t kCells = 6 * kEdge * kEdge;
+  static constexpr double kCellAngle = 2.0 / kEdge;  // radians, at most
+
+  // `folder`: for the file; empty: it is in memory. Throws `Error`.
+  explicit RangeImage(const std::filesystem::path& folder);
+
+  // Keeps the smaller range, and returns the one before; 0: there was none. The direction need not have
+  // length 1, but must not be 0.
+  double put(const Eigen::Vector3d& direction, double range);
+  // Empty cells at most so many cells from one with a range get that of the nearest, within their face. Of
+  // equally near ones, the first in the order of cells counts.
+  void fill(std::size_t distance);
+
+  // The range in this direction; 0: nothing came back.
+  float at(const Eigen::Vector3d& direction) const { return cells()[cell_of(direction)]; }
+  std::span<const float> cells() const { return {cells_.get(), kCells}; }
+  static Eigen::Vector3d direction_of(std::size_t cell);  // its middle, of length 1
+  // Its pages leave memory, and come back when they are used.
+  void leave_memory() const;
+
+ private:
+  static std::size_t cell_of(const Eigen::Vector3d& direction);
+
+  struct Unmap {
+    void operator()(float* cells) const;
+  };
+  std::unique_ptr<float[], Unmap> cells_;
+};
+
+// How many cells have a range: of the image, and of ever coarser ones, each with half the edge.
+inline constexpr std::size_t kCoarserImages = 7;
+std::array<std::size_t, kCoarserImages> count_filled(const RangeImage& image);
+
+}  // namespace lacuna::io

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stations: where scanners stood, and which points each of them measured.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+struct Station {
+  std::string name;
+  Eigen::Vector3d place{0, 0, 0};
+  Eigen::Vector3d axis{0, 0, 1};    // unit: the scanner turns around it
+  std::optional<std::size_t> file;  // index of the file with its points; none: any file
+  std::optional<std::uint32_t>
+      source;  // its number in the column `scan` or `point_source_id`; none: all rows
+};
+
+// Reads the stations that the user states, one on each line: a name without blanks, x y z, and what it has
+// measured. That is a file name, a number in the column `scan` or `point_source_id`, or both in this order. A
+// single station needs none. Blanks, commas or semicolons divide the fields; lines that begin with # are
+// comments. A first line without numbers is a header. File names are those of `files`, or the ends of these.
+// Throws `Error`.
+std::vector<Station> read_stations(const std::filesystem::path& list,
+                                   std::span<const std::filesystem::path> files);
+
+}  // namespace lacuna::io

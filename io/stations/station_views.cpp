@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/station_views.hpp"
+
+#include "engine/model/points.hpp"
+#include "io/vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+constexpr double kConflict = 0.1;      // of the range
+constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
+
+// The number of the scanner of each row; empty: the layout has none.
+std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
+  std::vector<double> sources;
+  for (const char* const name : {"scan", "point_source_id"}) {
+    if (const Property* property = layout.find(name)) {
+      load_column(rows, layout.stride, *property, sources);
+      break;
+    }
+  }
+  return sources;
+}
+
+// Fills the directions between rays, as far as rays lie from each other: in images so coarse, almost all
+// quarters of a cell have a range where the cell has one.
+void fill_between_rays(StationView& view) {
+  const auto filled = count_filled(view.ranges);
+  std::size_t coarser = 0;
+  const auto share = [&](std::size_t i) {
+    return static_cast<double>(filled[i]) / static_cast<double>(4 * filled[i + 1]);
+  };
+  while (coarser + 2 < filled.size() && share(coarser) < kLeastFilled) ++coarser;
+  const auto cells = static_cast<double>(RangeImage::kCells >> (2 * coarser));
+  const double solid_angle = 4 * std::numbers::pi * static_cast<double>(filled[coarser]) / cells;
+  view.step = std::sqrt(solid_angle / static_cast<double>(view.points));
+  if (coarser == 0) return;
+  view.ranges.fill(std::size_t{1} << coarser);
+  if (view.left_out) view.left_out->fill(std::size_t{1} << coarser);
+}
+
+void find_field(StationView& view) {
+  const std::span<const float> ranges = view.ranges.cells();
+  for (std::size_t cell = 0; cell < ranges.size(); ++cell) {
+    if (ranges[cell] > 0 || (view.left_out && view.left_out->cells()[cell] > 0))
+      view.field.add(RangeImage::direction_of(cell));
+  }
+}
+
+}  // namespace
+
+FieldOfView::FieldOfView(const Eigen::Vector3d& axis)
+    : axis_(axis), right_(axis.unitOrthogonal()), forward_(axis.cross(right_)) {}
+
+// From the sums of components: no arc tangent, which differs between machines.
+std::size_t FieldOfView::bin_of(const Eigen::Vector3d& direction) const {
+  const double x = direction.dot(right_), y = direction.dot(forward_);
+  const double sum = std::fabs(x) + std::fabs(y);
+  if (sum == 0) return 0;
+  const double quarter = y >= 0 ? 1 - x / sum : 3 + x / sum;  // from 0 to 4
+  const double quarters = static_cast<double>(bins_.size()) / 4;
+  return std::min(static_cast<std::size_t>(quarter * quarters), bins_.size() - 1);
+}
+
+void FieldOfView::add(const Eigen::Vector3d& direction) {
+  const double sine = direction.dot(axis_);
+  lowest_ = std::min(lowest_, sine);
+  highest_ = std::max(highest_, sine);
+  bins_[bin_of(direction)] = true;
+}
+
+bool FieldOfView::contains(const Eigen::Vector3d& direction) const {
+  const double sine = direction.dot(axis_);
+  return sine >= lowest_ && sine <= highest_ && bins_[bin_of(direction)];
+}
+
+double FieldOfView::turn() const {
+  const auto filled = std::count(bins_.begin(), bins_.end(), true);
+  return static_cast<double>(filled) / static_cast<double>(bins_.size());
+}
+
+double StationView::certainty() const {
+  return points == 0 ? 0 : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
+}
+
+StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
+                           std::filesystem::path folder)
+    : folder_(std::move(folder)), files_(scan.files()), are_stated_(!stated.empty()) {
+  if (!are_stated_) return;
+  for (Station& station : read_stations(stated, scan.files())) add(std::move(station));
+}
+
+void StationViews::add(Station station) {
+  const auto key = std::pair(station.file ? *station.file : kAny, station.source ? *station.source : kAny);
+  if (!index_.emplace(key, views_.size()).second) return;
+  views_.push_back({.station = std::move(station), .ranges = RangeImage(folder_)});
+}
+
+void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {
+  if (file != file_) scanners_known_ = 0;
+  file_ = file;
+  const std::vector<ScannerPose> scanners = reader.scanners();
+  for (; scanners_known_ < scanners.size(); ++scanners_known_) {
+    const ScannerPose& scanner = scanners[scanners_known_];
+    const std::string number = scanner.source ? " " + std::to_string(*scanner.source) : "";
+    add({.name = files_[file].stem().string() + number,
+         .place = scanner.place,
+         .axis = scanner.axis,
+         .file = file,
+         .source = scanner.source});
+  }
+}
+
+StationView* StationViews::find(std::size_t file, std::uint64_t source) {
+  for (const auto& key : {std::pair(std::uint64_t{file}, source), std::pair(std::uint64_t{file}, kAny),
+                          std::pair(kAny, source), std::pair(kAny, kAny)}) {
+    if (const auto found = index_.find(key); found != index_.end()) return &views_[found->second];
+  }
+  return nullptr;
+}
+
+void StationViews::begin() {
+  if (is_complete_) return;
+  file_ = SIZE_MAX;
+  for (StationView& view : views_) view.points = view.conflicts = 0;
+}
+
+void StationViews::put(StationView& view, const Eigen::Vector3d& position, bool is_kept) {
+  const Eigen::Vector3d arm = position - view.station.place;
+  const double range = arm.norm();
+  if (!(range > 0) || !std::isfinite(range)) return;
+  if (!is_kept && !view.left_out) view.left_out.emplace(folder_);
+  RangeImage& image = is_kept ? view.ranges : *view.left_out;
+  ++view.points;
+  view.farthest = std::max(view.farthest, range);
+  const double before = image.put(arm, range);
+  if (before > 0 && std::fabs(range - before) > kConflict * std::min(range, before)) ++view.conflicts;
+}
+
+void StationViews::take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
+                        std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) {
+  if (is_complete_) return;
+  if (!are_stated_) add_scanners(file, reader);
+  if (views_.empty()) return;
+  const std::vector<double> sources = sources_of(rows, reader.layout());
+  StationView* view = sources.empty() ? find(file, kAny) : nullptr;
+  double last = -1;
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    if (!sources.empty() && sources[i] != last) {
+      last = sources[i];
+      view = find(file, static_cast<std::uint64_t>(last));
+    }
+    if (view) put(*view, read[i], !std::isnan(kept[i].x()));
+  }
+}
+
+void StationViews::end() {
+  is_complete_ = true;
+}
+
+std::span<const StationView> StationViews::complete(FileScan& scan, const TaskArena& arena) {
+  if (!is_complete_) {
+    scan.observe(this);
+    scan.rewind();
+    PointBatch batch;
+    while (scan.next(batch)) {
+    }
+  }
+  scan.observe(nullptr);
+  std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
+  arena.for_each(views_.size(), [&](std::size_t i) {
+    fill_between_rays(views_[i]);
+    find_field(views_[i]);
+    views_[i].ranges.leave_memory();
+  });
+  return views_;
+}
+
+std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
+                                             const std::filesystem::path& folder) {
+  if (config.stations.empty() && !scan.has_scanners()) return nullptr;
+  auto views = std::make_unique<StationViews>(scan, config.stations, folder);
+  scan.observe(views.get());
+  return views;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each station measured in each direction, collected while the scan is read for the run.
+#pragma once
+
+#include "engine/run/parallel.hpp"
+#include "io/file_scan.hpp"
+#include "io/stations/range_image.hpp"
+#include "io/stations/station.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace lacuna::io {
+
+// The directions in which a station had returns: how far up and down, and how far around.
+class FieldOfView {
+ public:
+  explicit FieldOfView(const Eigen::Vector3d& axis);
+  void add(const Eigen::Vector3d& direction);
+  bool contains(const Eigen::Vector3d& direction) const;  // both of length 1
+
+  double lowest() const { return lowest_; }  // sines of the elevation; lowest > highest: nothing was added
+  double highest() const { return highest_; }
+  double turn() const;  // share of a whole turn around the axis
+
+ private:
+  std::size_t bin_of(const Eigen::Vector3d& direction) const;
+
+  Eigen::Vector3d axis_, right_, forward_;
+  double lowest_ = 1, highest_ = -1;
+  std::array<bool, 512> bins_{};  // around the axis, with returns
+};
+
+struct StationView {
+  Station station;
+  std::uint64_t points = 0;     // finite ones, with those that a filter leaves out
+  std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from those in their directions
+  double farthest = 0;          // range of a point
+  double step = 0;              // mean angle between rays, radians
+  FieldOfView field{station.axis};
+  RangeImage ranges;                   // of points that take part
+  std::optional<RangeImage> left_out;  // of points that a filter leaves out; none: there are none
+
+  // A single sweep has one range in most directions. The share of points for which this holds; below
+  // `kLeastCertain` the station did not measure them.
+  double certainty() const;
+  static constexpr double kLeastCertain = 0.75;
+};
+
+// Stations are those that a file states, else the ones that the scans have: E57 and PTX, PCD with a
+// viewpoint, and files with a pose. Each image is a file of 25 MiB in the folder.
+class StationViews final : public RowObserver {
+ public:
+  // `stated`: that file; empty: none. `folder` is empty where files are in memory. Throws `Error`.
+  StationViews(const FileScan& scan, const std::filesystem::path& stated, std::filesystem::path folder);
+
+  void begin() override;
+  void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
+            std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) override;
+  void end() override;
+
+  // In the order of the file, or of the scans. Stations without points are left out. Reads the scan where no
+  // pass over it has ended yet.
+  std::span<const StationView> views() const { return views_; }  // once complete
+  std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
+
+ private:
+  StationView* find(std::size_t file, std::uint64_t source);
+  void add(Station station);
+  void add_scanners(std::size_t file, const ScanReader& reader);
+  void put(StationView& view, const Eigen::Vector3d& position, bool is_kept);
+
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;
+  bool are_stated_ = false, is_complete_ = false;
+  std::vector<StationView> views_;
+  // By file and source, kAny for any of them.
+  static constexpr std::uint64_t kAny = UINT64_MAX;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> index_;
+  std::size_t file_ = SIZE_MAX;     // of the last batch
+  std::size_t scanners_known_ = 0;  // of that file
+};
+
+// Watches the scan, if a station can be known: the config states a file, or a scan names a scanner. Valid as
+// long as the scan. Throws `Error`.
+std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
+                                             const std::filesystem::path& folder);
+
+}  // namespace lacuna::io

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why the stations of a synthetic scan did not sample the inside of a hole, by the shapes of its scene.
+#pragma once
+
+#include "io/stations/inside_places.hpp"
+#include "tools/synth/scanner.hpp"
+
+#include <array>
+#include <span>
+
+namespace lacuna::test {
+
+// Shares of the area, as in LoopCause; all 0 where a station samples all places. A place takes part where a
+// shape has a surface within 5 cm.
+std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places,
+                                        const synth::Scanner& scanner);
+
+bool is_on_surface(const io::InsidePlace& place, const synth::Scanner& scanner);
+
+}  // namespace lacuna::test
