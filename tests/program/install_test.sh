@@ -142,11 +142,13 @@ END
   prints_the_same "$work/user/build/find_holes"
   said=$("$work/user/build/user" "$work/plane.ply")
   [[ $said == "usage, error, 7, m" ]] || fail "across the shared library's border: $said"
-  g++ -std=c++20 docs/example/find_holes.cpp $(pkg-config --cflags --libs lacuna) -o "$work/by_flags" ||
+  read -ra flags < <(pkg-config --cflags --libs lacuna)
+  g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
     fail "pkg-config's flags build no example"
   prints_the_same env LD_LIBRARY_PATH="$libraries" "$work/by_flags"
   rm "$libraries"/liblacuna.so*
 fi
-g++ -std=c++20 docs/example/find_holes.cpp $(pkg-config --static --cflags --libs lacuna) -o "$work/by_flags" ||
+read -ra flags < <(pkg-config --static --cflags --libs lacuna)
+g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
   fail "pkg-config's flags for the static library build no example"
 prints_the_same "$work/by_flags"
