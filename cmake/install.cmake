@@ -58,7 +58,7 @@ foreach(page engine/README.md engine/store/README.md bench/README.md bench/NOTES
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
-install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library)
+install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library PATTERN __pycache__ EXCLUDE)
 
 # The program writes the manual page and the completions of commands each time that it is linked. So whoever builds the
 # target lacuna has all that is installed.
