@@ -7,7 +7,7 @@ include(cmake/public_headers.cmake)
 install(TARGETS lacuna COMPONENT program)
 install(TARGETS lacuna_gis LIBRARY DESTINATION lib/lacuna COMPONENT gis)  # where the program looks for it
 
-# The libraries: lacuna::lacuna, and lacuna::io with the files.
+# The libraries: lacuna::lacuna, lacuna::io with the files, and lacuna::shared with both.
 set(public_headers ${PROJECT_BINARY_DIR}/include)
 file(REMOVE_RECURSE ${public_headers})  # headers that are public no more
 lacuna_copy_public_headers(engine/lacuna.hpp ${public_headers})
@@ -36,6 +36,12 @@ file(CONFIGURE OUTPUT ${public_headers}/lacuna/version.hpp @ONLY CONTENT
 file(RELATIVE_PATH LACUNA_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/lacuna.pc.in ${PROJECT_BINARY_DIR}/lacuna.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lacuna.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+if(LACUNA_SHARED)
+  # Apart from the static ones, so that its users need none of the libraries that those are linked with.
+  install(TARGETS lacuna_shared EXPORT lacuna-shared-targets LIBRARY COMPONENT shared NAMELINK_COMPONENT library)
+  install(EXPORT lacuna-shared-targets NAMESPACE lacuna:: DESTINATION ${package_folder} COMPONENT library)
+  target_include_directories(lacuna_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/lacuna-config.cmake ${PROJECT_BINARY_DIR}/lacuna-config-version.cmake
         DESTINATION ${package_folder} COMPONENT library)
 
@@ -52,7 +58,7 @@ foreach(page engine/README.md engine/store/README.md bench/README.md bench/NOTES
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
-install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library)
+install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library PATTERN __pycache__ EXCLUDE)
 
 # The program writes the manual page and the completions of commands each time that it is linked. So whoever builds the
 # target lacuna has all that is installed.

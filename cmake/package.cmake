@@ -33,11 +33,24 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-gis)
 lacuna_debian_package(gis lacuna-gis "files for GIS from lacuna, by GDAL"
 "With this package, lacuna writes GeoPackage, GeoJSON and Shapefile, and knows
 coordinate reference systems by their codes.")
-lacuna_debian_package(library liblacuna-dev "find holes in scanned surfaces: library for C++20"
-"A static library with its headers, its CMake package and its pkg-config file.")
+lacuna_debian_package(library liblacuna-dev "find holes in scanned surfaces: development files"
+"The library for C++20, shared and static, with its headers, its CMake package
+and its pkg-config file. The static one needs the recommended packages.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libeigen3-dev, libtbb-dev, libopenvdb-dev, libspdlog-dev, libtomlplusplus-dev, libhwy-dev, nlohmann-json3-dev, libpugixml-dev, libpng-dev")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libeigen3-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS
+    "libtbb-dev, libopenvdb-dev, libspdlog-dev, libtomlplusplus-dev, libhwy-dev, nlohmann-json3-dev, libpugixml-dev, libpng-dev")
+if(LACUNA_SHARED)
+  lacuna_debian_package(shared liblacuna${LACUNA_SOVERSION} "find holes in scanned surfaces: shared library"
+"Programs that use Lacuna as a library need it.")
+  set(CPACK_DEBIAN_SHARED_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_SHARED_PACKAGE_RECOMMENDS lacuna-gis)
+  # CPack writes no trigger, and its own shlibs for all packages, with warnings for modules.
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/shlibs CONTENT "liblacuna ${LACUNA_SOVERSION} liblacuna${LACUNA_SOVERSION} (>= ${PROJECT_VERSION})\n")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/triggers CONTENT "activate-noawait ldconfig\n")
+  set(CPACK_DEBIAN_SHARED_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/debian/shlibs;${PROJECT_BINARY_DIR}/debian/triggers")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "liblacuna${LACUNA_SOVERSION} (= ${PROJECT_VERSION}), libeigen3-dev")
+endif()
 if(LACUNA_PYTHON)
   lacuna_debian_package(python python3-lacuna "find holes in scanned surfaces: Python package"
 "Arrays of numpy or scan files in, loops around holes out.")

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/criteria/criteria.hpp"
+#include "engine/export.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -55,7 +56,7 @@ enum class LoopMethod : std::uint8_t {
   kTangential,  // boundary of the consistent triangles of the tangential Delaunay complex
   kPaper,       // spanning graph and breadth first search (5.1, 5.2)
 };
-std::string_view name_of(LoopMethod method);  // as in the config file
+LACUNA_API std::string_view name_of(LoopMethod method);  // as in the config file
 
 struct LoopsConfig {
   LoopMethod method = LoopMethod::kTangential;
@@ -113,7 +114,7 @@ enum class LengthUnit : std::uint8_t {
   kIn,
   kYd
 };
-std::string_view name_of(LengthUnit unit);  // as in the config file
+LACUNA_API std::string_view name_of(LengthUnit unit);  // as in the config file
 
 struct InputConfig {
   std::string columns;         // names of a text file's columns, space separated; empty: from its header line
@@ -196,41 +197,41 @@ struct Parameter {
   std::string_view help;
   Need needs;
 
-  std::string option() const;  // "--tile-points"
-  std::string print() const;   // as in the config file
+  LACUNA_API std::string option() const;  // "--tile-points"
+  LACUNA_API std::string print() const;   // as in the config file
   // Sets the value from text as on the command line. Throws `Error` naming the key and what is allowed.
-  void set(std::string_view text) const;
+  LACUNA_API void set(std::string_view text) const;
 };
 
 // Every parameter, in the order of the config file.
-std::vector<Parameter> parameters(Config& config);
+LACUNA_API std::vector<Parameter> parameters(Config& config);
 
 // Values of the file over those in `config`. Returns the file's keys. Throws `Error` (file, line, key, what
 // is allowed) for unknown keys, wrong types and impossible values.
-std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
+LACUNA_API std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 
 // Does the same with the text of a file.
-std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
-                                          Config& config);
+LACUNA_API std::vector<std::string> read_config_text(const std::string& text,
+                                                     const std::filesystem::path& file, Config& config);
 
 // The whole config as TOML, a help comment above each key.
-std::string print_config(const Config& config);
+LACUNA_API std::string print_config(const Config& config);
 
 // Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
 // found (docs/method.md, D).
 inline constexpr double kCellsAcross = 5;
 // Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every
 // point.
-double first_edge(const ScaleConfig& scale);
+LACUNA_API double first_edge(const ScaleConfig& scale);
 // The config in effect: min_hole sets min_diameter where that is 0.
-Config with_min_hole(Config config);
+LACUNA_API Config with_min_hole(Config config);
 
 // Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit
 // too small to work in).
-void check_config(const Config& config);
+LACUNA_API void check_config(const Config& config);
 
 // "512MiB", "2GiB", "1500000" and back.
-std::optional<std::uint64_t> parse_bytes(std::string_view text);
-std::string print_bytes(std::uint64_t bytes);
+LACUNA_API std::optional<std::uint64_t> parse_bytes(std::string_view text);
+LACUNA_API std::string print_bytes(std::uint64_t bytes);
 
 }  // namespace lacuna

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "engine/pipeline.hpp"
@@ -49,15 +50,16 @@ struct Holes {
 // Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
 // `run.memory_limit` allows. A folder takes some 100 bytes per point (docs/usage.md says how many). Calls
 // from several threads are independent of each other.
-Holes find_holes(const PointArray& points, const Config& config = {}, Progress* progress = nullptr);
+LACUNA_API Holes find_holes(const PointArray& points, const Config& config = {},
+                            Progress* progress = nullptr);
 
 // Finds the loops with known normals, one per point, of any length; NaN or zero where one is not known.
 // Throws `Error` too where their number is not that of the points.
-Holes find_holes(const PointArray& points, const PointArray& normals, const Config& config = {},
-                 Progress* progress = nullptr);
+LACUNA_API Holes find_holes(const PointArray& points, const PointArray& normals, const Config& config = {},
+                            Progress* progress = nullptr);
 
 // Finds the loops of any source. It may be larger than memory where its loops are not, and where
 // `output.points` is off.
-Holes find_holes(PointSource& scan, const Config& config = {}, Progress* progress = nullptr);
+LACUNA_API Holes find_holes(PointSource& scan, const Config& config = {}, Progress* progress = nullptr);
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 // Points in memory as a source.
 #pragma once
 
+#include "engine/export.hpp"
 #include "engine/model/points.hpp"
 
 #include <concepts>
@@ -56,7 +57,7 @@ class PointArray {
 };
 
 // Batches are copies. The arrays must outlive it.
-class PointsInMemory final : public PointSource {
+class LACUNA_API PointsInMemory final : public PointSource {
  public:
   // `normals`: one for each point, or none at all.
   PointsInMemory(const PointArray& points, const PointArray& normals) : points_(points), normals_(normals) {}

@@ -2,6 +2,7 @@
 // Several scan files, or arrays, as one registered scan: the engine's view of the input.
 #pragma once
 
+#include "engine/export.hpp"
 #include "engine/model/points.hpp"
 #include "io/crs/stated_crs.hpp"
 #include "io/file_state.hpp"
@@ -33,9 +34,9 @@ struct ScanInput {
   std::shared_ptr<const ScanArrays> arrays;  // read in place of a file, of which it has the name
 };
 
-std::filesystem::path full_name(const std::filesystem::path& file);  // absolute, without dots
+LACUNA_API std::filesystem::path full_name(const std::filesystem::path& file);  // absolute, without dots
 // The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
-std::vector<ScanInput> inputs_of(std::span<const std::string> names);
+LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 
 // Sees all rows that are read of a scan, in order.
 class RowObserver {
@@ -52,7 +53,7 @@ class RowObserver {
 // points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
 // position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
 // first opening is an `Error` when it is opened again.
-class FileScan : public PointSource {
+class LACUNA_API FileScan : public PointSource {
  public:
   // Opens every file once. So a missing or broken file, or one that lacks what a filter needs, is an `Error`
   // before any work is done. Reading takes `memory` bytes at most, but for a row. Batches have fewer rows

@@ -2,7 +2,7 @@
 // Whether a file is still the one that was read before, with the same content.
 #pragma once
 
-#include "engine/store/sealed_part.hpp"
+#include "engine/store/digest.hpp"
 
 #include <cstdint>
 #include <filesystem>

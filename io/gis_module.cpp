@@ -20,8 +20,8 @@ fs::path own_folder() {
   const bool is_known = ::dladdr(reinterpret_cast<const void*>(&own_folder), &self) != 0;
   const fs::path file = is_known ? self.dli_fname : "";
   std::error_code error;
-  const bool is_library =
-      file.is_absolute() && file.extension() == ".so";  // a program's name may be anything
+  // A program's name may be anything; that of a library may end with its version.
+  const bool is_library = file.is_absolute() && file.filename().string().find(".so") != std::string::npos;
   return (is_library ? file : fs::read_symlink("/proc/self/exe", error)).parent_path();
 }
 
@@ -30,7 +30,8 @@ fs::path find_module(const char* user) {
   const fs::path folder = own_folder();
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   const fs::path installed = program.parent_path() / "lib" / "lacuna";
-  for (const fs::path& place : {folder, installed}) {
+  // The shared library lies in lib, or in lib/x86_64-linux-gnu.
+  for (const fs::path& place : {folder, installed, folder / "lacuna", folder.parent_path() / "lacuna"}) {
     if (fs::exists(place / "lacuna_gis.so", error)) return place / "lacuna_gis.so";
   }
   throw Error("lacuna_gis.so: is neither in " + folder.string() + " nor in " + installed.string() + "; " +

@@ -4,8 +4,9 @@
 
 namespace lacuna::io {
 
-// Throws `Error` if the module is neither next to the program nor in ../lib/lacuna of its folder. `user`
-// names what needs it, such as "--gpkg". Cheap: loads nothing.
+// Throws `Error` if the module is neither next to the program nor in ../lib/lacuna of its folder. A library
+// that holds this code may have it next to it, too, or in lib/lacuna. `user` names what needs it, such as
+// "--gpkg". Cheap: loads nothing.
 void check_gis_module(const char* user);
 
 // A function of the module, which stays loaded until the program ends. Throws `Error` as above, and where

@@ -2,6 +2,8 @@
 // Where a scan stands in the registered scan: a rotation, a scale and a translation.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <filesystem>
 #include <string_view>
 
@@ -14,9 +16,9 @@ using Pose = Eigen::Affine3d;  // of the scan's own coordinates: p -> A p + t
 // Numbers divided by blanks or commas. 16 are a 4 x 4 matrix, row by row, and 12 its first three rows. 7 are
 // the translation x y z and the unit quaternion x y z w. Throws `Error` unless the matrix turns, scales
 // evenly and moves, nothing else (to 1 part in 1000).
-Pose parse_pose(std::string_view numbers);
+LACUNA_API Pose parse_pose(std::string_view numbers);
 
 // Reads the numbers from a text file, over any number of lines. Throws `Error`.
-Pose read_pose(const std::filesystem::path& file);
+LACUNA_API Pose read_pose(const std::filesystem::path& file);
 
 }  // namespace lacuna::io

@@ -2,6 +2,7 @@
 // A scan in the memory of another program, as a file of rows.
 #pragma once
 
+#include "engine/export.hpp"
 #include "io/scan_reader.hpp"
 
 #include <cstddef>
@@ -27,6 +28,6 @@ struct ScanArrays {
 };
 
 // `arrays` must outlive the reader. Columns are copied row by row.
-std::unique_ptr<ScanReader> read_arrays(const ScanArrays& arrays);
+LACUNA_API std::unique_ptr<ScanReader> read_arrays(const ScanArrays& arrays);
 
 }  // namespace lacuna::io

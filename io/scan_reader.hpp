@@ -2,6 +2,8 @@
 // Reading a scan file: every format delivers rows of scalars in bounded batches.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,8 +19,8 @@ namespace lacuna::io {
 
 enum class Scalar : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
-std::size_t size_of(Scalar type);
-const char* ply_name(Scalar type);  // "char", "uchar", ..., "float", "double"
+LACUNA_API std::size_t size_of(Scalar type);
+LACUNA_API const char* ply_name(Scalar type);  // "char", "uchar", ..., "float", "double"
 
 // A scalar of every row, at a fixed byte offset, in the machine's byte order.
 struct Property {
@@ -36,7 +38,7 @@ struct RowLayout {
   std::vector<Property> properties;  // in file order; lists are skipped
   std::size_t stride = 0;            // bytes per row, no padding
 
-  const Property* find(std::string_view name) const;  // one after the other
+  LACUNA_API const Property* find(std::string_view name) const;  // one after the other
 };
 
 struct RowBatch {
@@ -53,7 +55,7 @@ struct ScannerPose {
 
 // Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
 // (line or byte) and the reason.
-class ScanReader {
+class LACUNA_API ScanReader {
  public:
   virtual ~ScanReader() = default;
   virtual std::string format() const = 0;       // "text", or "PLY, ascii" and so on
@@ -95,9 +97,10 @@ enum class Recognised : std::uint8_t {
   kAsText,  // text, of rows of numbers or of anything else
   kYes,
 };
-Recognised recognise(const std::filesystem::path& file);
+LACUNA_API Recognised recognise(const std::filesystem::path& file);
 
 // Opens a file by what it holds, not by its name. Throws `Error`.
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options);
+LACUNA_API std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file,
+                                                 const ReadOptions& options);
 
 }  // namespace lacuna::io

@@ -19,7 +19,7 @@ TEXT
 
 # The compiler sees one source at a time. Only the linker sees two classes of one name.
 check_odr() {
-  cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF \
+  cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF -DLACUNA_SHARED=OFF \
     -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON "-DCMAKE_CXX_FLAGS=-Werror=odr -Werror=lto-type-mismatch"
   cmake --build build-odr --parallel "$(nproc)" --target lacuna
 }

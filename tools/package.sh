@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Makes packages in build-package/ for the Debian that it runs on, and prints their names: lacuna, lacuna-gis,
-# liblacuna-dev and python3-lacuna. Takes further arguments for CMake.
+# liblacuna0.1, liblacuna-dev and python3-lacuna. Takes further arguments for CMake.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

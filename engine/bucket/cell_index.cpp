@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/cell_index.hpp"
 
+#include "engine/store/openvdb.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
-
-#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {

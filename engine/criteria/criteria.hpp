@@ -3,6 +3,8 @@
 // To add one: write its formula over a `Surface` in a header of its own, and its line in `table-inl.hpp`.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <string>
 #include <vector>
 
@@ -18,9 +20,9 @@ struct Criterion {
 };
 
 // Every criterion, in the order of the table.
-const std::vector<Criterion>& criteria();
+LACUNA_API const std::vector<Criterion>& criteria();
 
 // In the order of the table.
-std::vector<double> default_weights();
+LACUNA_API std::vector<double> default_weights();
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 // Points on their way from the input to the tile store.
 #pragma once
 
+#include "engine/export.hpp"
 #include "engine/model/ids.hpp"
 
 #include <cstddef>
@@ -36,7 +37,7 @@ struct PointBatch {
 // One registered scan, in any unit of length. It is read in bounded batches, from the first point to the last
 // and as often as wanted. Ids ascend. It is called from one thread at a time, not always the same. Several
 // batches are in memory at once. Throws `Error` naming file and place.
-class PointSource {
+class LACUNA_API PointSource {
  public:
   virtual ~PointSource() = default;
 

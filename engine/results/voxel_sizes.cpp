@@ -2,12 +2,11 @@
 #include "engine/results/voxel_sizes.hpp"
 
 #include "engine/bucket/z_curve.hpp"
+#include "engine/store/openvdb.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
-
-#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {

@@ -2,19 +2,21 @@
 // The one exception that ends a job: bad input, a full disk, an impossible setting. Caught once, in main.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <stdexcept>
 #include <string>
 
 namespace lacuna {
 
 // what() is one line for the user: file, place, reason, what is allowed.
-class Error : public std::runtime_error {
+class LACUNA_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 // The user has chosen an option, or a value of a config, that is not possible.
-class UsageError : public Error {
+class LACUNA_API UsageError : public Error {
  public:
   using Error::Error;
 };

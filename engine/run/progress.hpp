@@ -2,13 +2,15 @@
 // Reports of how far a run is. The engine reports; the terminal decides what to show.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <cstdint>
 #include <string_view>
 
 namespace lacuna {
 
 // An exception that `begin` or `advance` throws ends the run, which throws it again.
-class Progress {
+class LACUNA_API Progress {
  public:
   virtual ~Progress() = default;
   // A new phase begins: `total` points (or edges) will pass through it; 0: not known.

@@ -7,9 +7,9 @@
 // nothing. Its name is complete only once all of it is on the disk.
 #pragma once
 
+#include "engine/store/digest.hpp"
 #include "engine/store/store_file.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,21 +27,6 @@
 
 namespace lacuna {
 
-// XXH3 of 128 bits (Collet): of what a part was made from, and of its bytes.
-using Digest = std::array<std::uint64_t, 2>;
-class Hash {
- public:
-  Hash();
-  ~Hash();
-  void add(std::span<const std::byte> bytes);
-  Digest digest() const;  // of all that was added
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-Digest digest_of(std::span<const std::byte> bytes);
-Digest digest_of(std::string_view text);
 Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
 
 // Writes entries in any order, from one thread at a time. Without `seal` nothing remains.

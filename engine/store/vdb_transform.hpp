@@ -3,8 +3,7 @@
 #pragma once
 
 #include "engine/model/cell_grid.hpp"
-
-#include <openvdb/math/Transform.h>
+#include "engine/store/openvdb.hpp"
 
 namespace lacuna {
 

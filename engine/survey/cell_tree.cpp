@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/survey/cell_tree.hpp"
 
+#include "engine/store/openvdb.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <set>
 #include <utility>
-
-#include <openvdb/openvdb.h>
 
 namespace lacuna {
 namespace {

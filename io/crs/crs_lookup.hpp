@@ -2,6 +2,8 @@
 // Coordinate reference systems in the database of PROJ, through GDAL: functions of lacuna_gis.so.
 #pragma once
 
+#include "engine/export.hpp"
+
 #include <string>
 
 namespace lacuna::io {
@@ -17,7 +19,7 @@ using IsSameCrs = bool(const std::string& a, const std::string& b);  // false wh
 
 inline constexpr const char* kLookUpCrs = "lacuna_look_up_crs";
 inline constexpr const char* kIsSameCrs = "lacuna_is_same_crs";
-extern "C" LookUpCrs lacuna_look_up_crs;
-extern "C" IsSameCrs lacuna_is_same_crs;
+extern "C" LACUNA_API LookUpCrs lacuna_look_up_crs;
+extern "C" LACUNA_API IsSameCrs lacuna_is_same_crs;
 
 }  // namespace lacuna::io

@@ -2,6 +2,7 @@
 // coverage.tif: a raster for GIS, through GDAL, in lacuna_gis.so (io/results/loops_gis.hpp says why).
 #pragma once
 
+#include "engine/export.hpp"
 #include "io/results/coverage_grid.hpp"
 
 #include <filesystem>
@@ -24,7 +25,7 @@ struct CoverageTask {
 using WriteCoverage = bool(const CoverageTask& task);
 
 inline constexpr const char* kWriteCoverage = "lacuna_write_coverage";
-extern "C" WriteCoverage lacuna_write_coverage;
+extern "C" LACUNA_API WriteCoverage lacuna_write_coverage;
 
 inline constexpr std::string_view kCoverageSoftware = "Lacuna coverage";
 

@@ -4,6 +4,7 @@
 // a result is wanted.
 #pragma once
 
+#include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 
 #include <cstdint>
@@ -40,8 +41,8 @@ enum class GisCrs : std::uint8_t {
   kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
 };
 
-// Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty where
-// one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
+// Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty
+// where one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
 // polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are
 // longitude and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is,
 // but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal
@@ -50,6 +51,6 @@ using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:
 inline constexpr const char* kWriteLoopsGis = "lacuna_write_loops_gis";
-extern "C" WriteLoopsGis lacuna_write_loops_gis;
+extern "C" LACUNA_API WriteLoopsGis lacuna_write_loops_gis;
 
 }  // namespace lacuna::io

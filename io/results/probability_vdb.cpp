@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "engine/store/openvdb.hpp"
 #include "engine/store/vdb_transform.hpp"
 #include "io/results/results.hpp"
 
@@ -11,9 +12,6 @@
 #include <ostream>
 #include <streambuf>
 #include <string>
-
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 namespace lacuna::io {
 namespace {

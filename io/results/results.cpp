@@ -6,6 +6,8 @@
 #include "io/pcd/pcd_header.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
+#include "io/report/report_page.hpp"
+#include "io/report/scene.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"

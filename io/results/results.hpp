@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/config.hpp"
+#include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/ply/ply_header.hpp"
@@ -17,16 +18,17 @@ namespace lacuna::io {
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
 // `detect`, with Overwrite::kAny any regular file, but never an input. Throws also if the annotated scan
 // cannot be written in its format. write_results checks it, too; a program checks before the work.
-void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
-                         Overwrite overwrite);
+LACUNA_API void check_output_folder(const FileScan& scan, const Config& config,
+                                    const std::filesystem::path& folder, Overwrite overwrite);
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
 // requests, as one set (io/results/output_set.hpp). The report is made of the others before any has its name.
 // A file of an earlier run that this one does not write, such as points.ply, does not belong to the new
 // results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
-std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
-                                                 const Config& config, const std::filesystem::path& folder,
-                                                 Overwrite overwrite = Overwrite::kOwn);
+LACUNA_API std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
+                                                            const Config& config,
+                                                            const std::filesystem::path& folder,
+                                                            Overwrite overwrite = Overwrite::kOwn);
 
 // How a file of JSON begins: an earlier one is recognised by it.
 inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";

@@ -22,7 +22,8 @@ if [[ -f $build_folder/build.ninja ]]; then
   for file in $installed; do
     rule=$(ninja -C "$build_folder" -t query "$file" 2>/dev/null | sed --quiet 's/^  input: //p') || true
     [[ $file != python/* ]] || continue  # installed where it is built
-    [[ -z $rule || $rule == CXX_EXECUTABLE_LINKER__lacuna_* ]] || grep --quiet --line-regexp --fixed-strings "$file" <<<"$in_build" ||
+    # A link to a library is made with it.
+    [[ -z $rule || $rule == CXX_EXECUTABLE_LINKER__lacuna_* || $rule == CMAKE_SYMLINK_LIBRARY ]] || grep --quiet --line-regexp --fixed-strings "$file" <<<"$in_build" ||
       fail "$file is installed, and the target lacuna does not build it"
   done
 fi
@@ -69,13 +70,85 @@ mkdir "$work/example/engine"
 echo '#error "this is not the header of the library"' >"$work/example/engine/config.hpp"
 cmake -S "$work/example" -B "$work/example/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS=-I"$work/example" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be configured"; }
-cmake --build "$work/example/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be built"; }
+cmake --build "$work/example/build" --target find_holes detect_files >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be built"; }
 found=$("$work/example/build/find_holes")
 expected='^hole at (49|50)\.[0-9] (49|50)\.[0-9] -?0\.0: [0-9]+ points, perimeter [78][0-9]\.[0-9], diameter 2[4-6]\.'
 [[ $("$work/example/build/detect_files" "$work/files" "$work/plane.ply") == "2 loops in $work/files" ]] || fail "the second example finds other loops"
 [[ -s $work/files/report.html && ! -e $work/files/scratch ]] || fail "the second example writes no report"
 cmp "$work/files/loops.ply" "$work/out/loops.ply" || fail "the second example has other loops than the program"
-PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name lacuna.pc)") pkg-config --cflags --libs lacuna >"$work/flags"
-g++ -std=c++20 docs/example/find_holes.cpp $(<"$work/flags") -o "$work/by_flags" || fail "pkg-config's flags build no example"
-[[ $("$work/by_flags") == "$found" ]] || fail "the example built by pkg-config prints something else"
 [[ $found =~ $expected && $(wc -l <<<"$found") == 1 ]] || fail "the example prints: $found"
+
+libraries=$(dirname "$(find "$prefix" -name liblacuna.a)")
+export PKG_CONFIG_PATH=$libraries/pkgconfig
+prints_the_same() {
+  [[ $("$@") == "$found" ]] || fail "the example prints something else: $*"
+}
+
+# The shared library needs none of the packages that it is made of. It exports the public interface alone.
+if grep --quiet 'LACUNA_SHARED:BOOL=ON' "$build_folder/CMakeCache.txt"; then
+  nm --dynamic --defined-only --demangle "$libraries/liblacuna.so" | cut --delimiter=' ' --fields=3- >"$work/symbols"
+  ! grep --invert-match --extended-regexp '^((typeinfo|typeinfo name|vtable) for )?lacuna::' "$work/symbols" ||
+    fail "the shared library exports names of others"
+  (($(wc -l <"$work/symbols") <= 100)) || fail "the shared library exports $(wc -l <"$work/symbols") names"
+
+  mkdir "$work/user"
+  cp docs/example/{find_holes.cpp,plane_with_hole.hpp} "$work/user"
+  cat >"$work/user/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(user LANGUAGES CXX)
+find_package(lacuna 0.1 REQUIRED COMPONENTS shared)
+link_libraries(lacuna::shared)
+add_executable(find_holes find_holes.cpp)
+add_executable(user user.cpp)
+END
+  cat >"$work/user/user.cpp" <<'END'
+#include <lacuna/lacuna.hpp>
+#include <lacuna/lacuna_io.hpp>
+
+#include <cstdio>
+
+struct BrokenSource : lacuna::PointSource {
+  void rewind() override {}
+  bool next(lacuna::PointBatch&) override { throw 7; }
+  std::optional<std::uint64_t> expected_points() const override { return {}; }
+  bool has_normals() const override { return false; }
+};
+
+int main(int, char** arguments) {
+  lacuna::Config config;
+  try {
+    lacuna::parameters(config).front().set("nonsense");
+  } catch (const lacuna::UsageError&) {
+    std::printf("usage, ");
+  }
+  try {
+    lacuna::io::FileScan missing({arguments[0] + std::string(".ply")}, config.input);
+  } catch (const lacuna::Error&) {
+    std::printf("error, ");
+  }
+  try {
+    BrokenSource broken;
+    lacuna::find_holes(broken);
+  } catch (int own) {
+    std::printf("%d, ", own);
+  }
+  config.input.crs = "EPSG:25832";  // lacuna_gis.so looks it up
+  std::printf("%s\n", lacuna::io::FileScan({arguments[1]}, config.input).length_unit().c_str());
+}
+END
+  cmake -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON \
+    -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON >"$work/log" 2>&1 || { cat "$work/log"; fail "the shared library is not found"; }
+  cmake --build "$work/user/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "nothing can be linked with the shared library"; }
+  prints_the_same "$work/user/build/find_holes"
+  said=$("$work/user/build/user" "$work/plane.ply")
+  [[ $said == "usage, error, 7, m" ]] || fail "across the shared library's border: $said"
+  read -ra flags < <(pkg-config --cflags --libs lacuna)
+  g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
+    fail "pkg-config's flags build no example"
+  prints_the_same env LD_LIBRARY_PATH="$libraries" "$work/by_flags"
+  rm "$libraries"/liblacuna.so*
+fi
+read -ra flags < <(pkg-config --static --cflags --libs lacuna)
+g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
+  fail "pkg-config's flags for the static library build no example"
+prints_the_same "$work/by_flags"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/memory_scan.hpp"
 
-#include "engine/store/sealed_part.hpp"
+#include "engine/store/digest.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/vdb_grids.hpp"
 
-#include <stdexcept>
+#include "engine/store/openvdb.hpp"
 
-#include <openvdb/openvdb.h>
+#include <stdexcept>
 
 namespace lacuna::test {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marks of loops: their file, and how they are found again. tests/program/report_marks.py has them in the
 // page.
-#include "io/report/marks.hpp"
-
 #include "engine/run/error.hpp"
+#include "io/report/match_marks.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 

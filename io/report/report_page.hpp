@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a report, with a scene as its data.
+#pragma once
+
+#include "io/report/match_marks.hpp"
+#include "io/report/scene.hpp"
+#include "io/results/output_file.hpp"
+
+namespace lacuna::io {
+
+// Writes the page of io/report/page with the scene as data. Positions are 21 bits along each axis, of the
+// cube of the scene. About 15 bytes for each point, 11 for each vertex of a loop. The page starts with the
+// marks; `matches` are those with the scene's loops.
+void write_report(const Scene& scene, OutputFile& out, const MatchedMarks& marks = {});
+
+}  // namespace lacuna::io
