@@ -141,6 +141,7 @@ struct OutputConfig {
   bool lids = false;                     // triangulated lids of the holes
   bool polygons = false;                 // files for GIS have the loops as polygons, too
   double coverage = 0;                   // write coverage.tif with cells of this edge; 0: off
+  double cut_outs = 0;                   // write the points within this distance of each hole; 0: off
   bool no_coordinates = false;           // loops of holes.json have ids alone
   bool local_coordinates = false;        // PLY and PCD: floats relative to an offset
   std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none

@@ -125,4 +125,7 @@ class FileScan : public PointSource {
   BeforeFilters before_filters_;
 };
 
+// Throws `Error` where `file`, which is to be replaced or removed, is an input of the scan.
+void check_not_input(const std::filesystem::path& file, const FileScan& scan);
+
 }  // namespace lacuna::io
