@@ -69,8 +69,8 @@ void sync_folder(const fs::path& folder) {
   if (status != 0 && !is_unsupported) fail(folder, "cannot be written", reason);
 }
 
-// Brings all that was written to the disk, also by others. Of 3,000 files, it took a twentieth of the time of
-// a sync for each. Errors of writing are reported from Linux 5.8 on.
+// Brings all that was written to the disk, also by others. Measured with 3,000 files of 15 kB: 0.1 s,
+// and 10.6 s with a sync for each. Errors of writing are reported from Linux 5.8 on.
 void sync_file_system(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) fail(folder, "cannot be opened", errno);
