@@ -241,6 +241,45 @@ TEST_CASE("cut-outs of files that differ in scale, pose and format have the poin
   }
 }
 
+TEST_CASE("cut-outs of local coordinates are those of the scan", "[io][results]") {
+  const ScratchFolder folder;
+  FakeDetection detection = with_squares(1);
+  detection.numbers.strays.rest = {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(10, 11, 1)};
+  const std::string text = folder.write("scan.xyz", text_of(random_points(2000)));
+  const std::vector<std::vector<double>> expected = expected_rows({text}, detection.found[0]).rows;
+  for (const PointsFormat format : {PointsFormat::kPly, PointsFormat::kPcd}) {
+    Config config = with_cut_outs(format);
+    config.output.local_coordinates = true;
+    const std::string name = format == PointsFormat::kPly ? "hole-0.ply" : "hole-0.pcd";
+    const fs::path local = cut_out(detection, {text}, config, folder / ("local " + name)) / name;
+    const std::string bytes = read_file(local);
+    CHECK(bytes.find("lacuna offset 5 6 0\n") < bytes.size());
+    CHECK(read_table(local).rows.size() == expected.size());
+    CHECK(expected.size() > 20);
+    // Positions of the file count with the offset.
+    const fs::path again = cut_out(detection, {local}, with_cut_outs(), folder / ("again " + name)) / name;
+    CHECK(is_same(read_table(again).rows, read_table(local).rows));
+  }
+}
+
+TEST_CASE("points that LAS cannot hold are an error before the work that names the files", "[io][results]") {
+  const ScratchFolder folder;
+  std::string names = "x y z", values = "1 2 3";
+  for (int i = 0; i < 9000; ++i) {
+    names += " c" + std::to_string(i);
+    values += " 1.5";
+  }
+  FileScan scan({folder.write("scan.xyz", names + "\n" + values + "\n")}, {});
+  const auto error = [&](Config config) {
+    return error_of([&] { check_output_folder(scan, config, folder / "out", Overwrite::kOwn); });
+  };
+  CHECK_THAT(error(with_cut_outs(PointsFormat::kLaz)), Contains("cut-outs/*.laz: points of "));
+  Config config;
+  config.output.points = true;
+  config.output.points_format = PointsFormat::kLaz;
+  CHECK_THAT(error(config), Contains("points.laz: points of "));
+}
+
 TEST_CASE("more holes than a pass takes have the same files", "[io][results]") {
   const ScratchFolder folder;
   const FakeDetection detection = with_squares(23);
