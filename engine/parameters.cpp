@@ -29,6 +29,8 @@ constexpr Need kTangential{"--method tangential",
                            [](const Config& c) { return c.loops.method == LoopMethod::kTangential; }};
 constexpr Need kPaper{"--method paper", [](const Config& c) { return c.loops.method == LoopMethod::kPaper; }};
 constexpr Need kPoints{"--points", [](const Config& c) { return c.output.points; }};
+constexpr Need kPointsFiles{"--points or --cut-outs",
+                            [](const Config& c) { return c.output.points || c.output.cut_outs > 0; }};
 constexpr Need kGis{"--gpkg, --geojson or --shp",
                     [](const Config& c) { return c.output.gpkg || c.output.geojson || c.output.shp; }};
 constexpr Need kPointsNormals{"--points --normals",
@@ -163,7 +165,9 @@ std::vector<Parameter> parameters(Config& config) {
        "Write the annotated scan too: every point of the input with its probabilities.", kNothing},
       {"output", "points_format", named(output.points_format, kPointsFormats), 0, 5,
        "input, ply, las, pcd, csv or laz",
-       "Format of the annotated scan; input: that of the scan, PLY where it cannot be written.", kPoints},
+       "Format of the annotated scan and of cut-outs; input: that of the scan, PLY where it cannot be "
+       "written.",
+       kPointsFiles},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to the annotated scan, unless a scan brings its own.", kPoints},
       {"output", "vdb", &output.vdb, 0, 1, "true or false",
@@ -194,6 +198,9 @@ std::vector<Parameter> parameters(Config& config) {
        kNothing},
       {"output", "coverage", &output.coverage, 0, 1e100, "a length of 0 (off) or more",
        "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS.",
+       kNothing},
+      {"output", "cut_outs", &output.cut_outs, 0, 1e100, "a length of 0 (off) or more",
+       "Write a file for each hole too: the points in the loop's box of x, y and z, widened by this length.",
        kNothing},
       {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone.",

@@ -213,4 +213,13 @@ bool FileScan::single_precision() const {
   });
 }
 
+void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
+  for (const auto& input : scan.files()) {
+    std::error_code error;  // where nothing is, nothing can be lost
+    if (std::filesystem::equivalent(file, input, error)) {
+      throw Error(input.string() + ": is an input in the place of a result; another output folder is needed");
+    }
+  }
+}
+
 }  // namespace lacuna::io

@@ -141,4 +141,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };
 
+// Throws `Error` where `file`, which is to be replaced or removed, is an input of the scan.
+void check_not_input(const std::filesystem::path& file, const FileScan& scan);
+
 }  // namespace lacuna::io

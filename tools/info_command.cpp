@@ -111,7 +111,7 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   run.points_file = points_file(scan, config.output);
   run.points_bytes = points_bytes(scan, config.output);
   if (run.points_bytes) *run.points_bytes *= counts.points;
-  run.results = result_bytes(scan, config, counts.points, points);
+  run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
 
   const std::uint64_t sampled = std::min(points, static_cast<std::uint64_t>(config.output.sample_points));
   const std::uint64_t rows =

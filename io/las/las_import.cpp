@@ -103,7 +103,7 @@ void import_las_rows(const RowLayout& layout, const LasForm& form, std::span<con
       const double steps =
           std::round((point[static_cast<Eigen::Index>(axis)] - form.offset[axis]) / form.scale[axis]);
       if (!(std::abs(steps) <= 2147483647.0))
-        throw Error("points.las: the input has changed during the run; it must stay as it is");
+        throw Error(form.name + ": the input has changed during the run; it must stay as it is");
       store(to + 4 * axis, static_cast<std::int32_t>(steps));
     }
   }

@@ -123,7 +123,7 @@ void join_extra(std::vector<LasExtraField>& joined, const std::vector<LasExtraBy
 }
 
 std::string file_of_others(const LasParts& parts) {
-  return parts.las.empty() ? "points.las" : parts.las.front().name;
+  return parts.las.empty() ? parts.name : parts.las.front().name;
 }
 
 }  // namespace
@@ -133,6 +133,8 @@ LasForm join_las(const LasParts& parts) {
   const LasPart* timed = check_fields(parts.las);
   if (timed == nullptr && !parts.las.empty()) timed = &parts.las.front();
   LasForm form;
+  form.keeps_results = parts.keeps_results;
+  form.name = parts.name;
   form.has_standard_time = timed != nullptr && has_standard_time(timed->header);
   const bool has_code = parts.crs.starts_with("EPSG:");  // which records for the formats up to 5 name
   bool is_extended = parts.las.empty() && !has_code;
@@ -161,7 +163,7 @@ LasForm join_las(const LasParts& parts) {
 
   for (const LasPart& part : parts.las) {
     std::vector<LasExtraBytes> extra = las_extra_of_points(part.header);
-    std::erase_if(extra, is_lacuna_extra);
+    if (!parts.keeps_results) std::erase_if(extra, is_lacuna_extra);
     join_extra(form.extra, extra, part.name);
   }
   std::vector<LasExtraBytes> extra;
@@ -177,7 +179,8 @@ LasForm join_las(const LasParts& parts) {
     LasExtraBytes made = las_extra_of(imported.from.name, imported.from.type, "");
     const auto is_name = [&](const LasExtraBytes& other) { return other.name == made.name; };
     for (int i = 2; std::any_of(extra.begin(), extra.end(), is_name); ++i) {
-      const std::string number = "_" + std::to_string(i);
+      std::string number = "_";
+      number += std::to_string(i);
       rename(made, imported.from.name.substr(0, 32 - number.size()) + number);
     }
     extra.push_back(made);

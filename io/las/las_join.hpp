@@ -73,6 +73,8 @@ struct LasForm {
   std::size_t record_bytes = 0;
   std::vector<ImportedField> imported;  // of the columns, without x y z
   bool is_as_it_was = false;            // one LAS file without a pose, whose points stay byte for byte
+  bool keeps_results = false;           // of earlier runs, as LasParts has it
+  std::string name;                     // likewise
 };
 
 // What is to be joined.
@@ -81,6 +83,8 @@ struct LasParts {
   std::vector<ImportedColumn> imported;  // x y z too, if there are files of other formats
   Eigen::AlignedBox3d bounds;            // of all points where coordinates change, once known
   std::string crs;                       // of files of other formats
+  bool keeps_results = false;            // extra bytes that an earlier run has written stay
+  std::string name;                      // of the file that is written, for errors
 };
 
 // Throws `Error` where it is not possible. Coordinates may not fit one scale, and times may be of different

@@ -100,7 +100,7 @@ void LasTransfer::find_extra(const LasHeader& from, const LasForm& to) {
   std::size_t at = las_point_bytes(from.point_format);
   for (const LasExtraBytes& extra : las_extra_of_points(from)) {
     const std::size_t bytes = las_extra_size(extra), place = std::exchange(at, at + bytes);
-    if (is_lacuna_extra(extra)) continue;
+    if (is_lacuna_extra(extra) && !to.keeps_results) continue;
     std::size_t i = 0;
     while (i < to.extra.size() && (to.extra[i].what.name != extra.name || found.contains(i))) ++i;
     if (i == to.extra.size()) continue;

@@ -4,6 +4,7 @@
 #include "engine/criteria/criteria.hpp"
 #include "engine/run/error.hpp"
 #include "io/scalar.hpp"
+#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -50,6 +51,11 @@ class JoinedRows final : public InputRows {
       return rows_.count;
     }
     return 0;
+  }
+
+  void positions(std::vector<Eigen::Vector3d>& positions) const override {
+    positions.clear();
+    load_vectors(rows_, reader_->layout(), kPositionNames, positions);
   }
 
  private:
@@ -113,10 +119,19 @@ std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfi
   return columns;
 }
 
+bool is_earlier_quality(const RowLayout& layout, std::size_t index) {
+  return layout.properties[index].name == kQuality && index > 0 &&
+         layout.properties[index - 1].name == kBeforeQuality;
+}
+
 bool is_earlier_result(const RowLayout& layout, std::size_t index, std::span<const ResultColumn> results) {
+  const auto is_result = [&](std::string_view name) {
+    return std::any_of(results.begin(), results.end(),
+                       [&](const auto& result) { return result.name == name; });
+  };
   const std::string& name = layout.properties[index].name;
-  if (name == kQuality) return index > 0 && layout.properties[index - 1].name == kBeforeQuality;
-  return std::any_of(results.begin(), results.end(), [&](const auto& result) { return result.name == name; });
+  if (name == kQuality) return is_earlier_quality(layout, index) && is_result(kBeforeQuality);
+  return is_result(name);
 }
 
 std::size_t bytes_of(std::span<const ResultColumn> results) {

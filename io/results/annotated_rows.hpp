@@ -30,7 +30,9 @@ struct ResultColumn {
 std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config);
 // PLY files have `quality` directly behind scalar_loop, too: the probability for MeshLab.
 inline constexpr std::string_view kQuality = "quality", kBeforeQuality = "scalar_loop";
-// Whether a run has written this property: it has the name of a result, or is the `quality` of one.
+bool is_earlier_quality(const RowLayout& layout, std::size_t index);
+// Whether the results replace this property: it has the name of one. Where scalar_loop is one, the `quality`
+// of an earlier run is replaced, too.
 bool is_earlier_result(const RowLayout& layout, std::size_t index, std::span<const ResultColumn> results);
 std::size_t bytes_of(std::span<const ResultColumn> results);  // packed
 
@@ -41,6 +43,10 @@ class InputRows {
   // The next rows, at most `max_rows`, each at the beginning of `stride` bytes of `block`, which gets the
   // size of them all. Returns their number; 0 at the end. Throws `Error`.
   virtual std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) = 0;
+  // Sets the positions of the rows last returned, in the scan: those of FileScan::open.
+  virtual void positions(std::vector<Eigen::Vector3d>& positions) const = 0;
+  // The indices of rows last returned that the format cannot hold, ascending: they have no finite position.
+  virtual std::span<const std::size_t> left_out() const { return {}; }
 };
 
 // The union of the files' properties by name, in order of first appearance, packed. A property is double

@@ -36,6 +36,8 @@ class OutputFile {
   // All bytes are on the disk afterwards, and nothing can be written any more. False: the library has made no
   // file.
   bool close();
+  // Likewise, but the bytes are only with the system. For many small files, which are synced together.
+  void close_unsynced();
 
  private:
   void flush();

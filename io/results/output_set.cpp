@@ -38,11 +38,6 @@ std::optional<struct stat> find(const fs::path& name) {
   return std::nullopt;
 }
 
-bool is_same_file(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
-         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
-}
-
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISLNK(mode)) return "a symbolic link";
@@ -72,6 +67,17 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
   const bool is_unsupported = reason == EINVAL;  // some network file systems
   if (status != 0 && !is_unsupported) fail(folder, "cannot be written", reason);
+}
+
+// Brings all that was written to the disk, also by others. Measured with 3,000 files of 15 kB: 0.1 s,
+// and 10.6 s with a sync for each. Errors of writing are reported from Linux 5.8 on.
+void sync_file_system(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(folder, "cannot be opened", errno);
+  const int status = ::syncfs(descriptor);
+  const int reason = errno;
+  ::close(descriptor);
+  if (status != 0) fail(folder, "cannot be written", reason);
 }
 
 }  // namespace
@@ -109,69 +115,155 @@ void check_output(const fs::path& file, const FileMark& mark, Overwrite overwrit
   }
 }
 
+OutputSet::Place::Place(const fs::path& folder, const std::string& subfolder, TemporaryFolder& staging)
+    : names(subfolder.empty() ? folder : folder / subfolder),
+      staged(staging.path() / "new"),
+      older(staging.path() / "old"),
+      subfolder(subfolder),
+      staging(&staging) {
+  if (subfolder.empty()) return;
+  check_subfolder(names);
+  for (fs::path* part : {&staged, &older}) {
+    *part /= subfolder;
+    make_folder(*part);
+  }
+}
+
+bool OutputSet::is_same_file(const FoundFile& a, const FoundFile& b) {
+  return a.device == b.device && a.number == b.number && a.size == b.size &&
+         a.written.tv_sec == b.written.tv_sec && a.written.tv_nsec == b.written.tv_nsec;
+}
+
+std::optional<OutputSet::FoundFile> OutputSet::find_file(const fs::path& name) {
+  const auto found = find(name);
+  if (!found) return std::nullopt;
+  return FoundFile{found->st_dev, found->st_ino, found->st_size, found->st_mtim};
+}
+
+void check_subfolder(const fs::path& folder) {
+  const auto found = find(folder);
+  if (!found || S_ISDIR(found->st_mode)) return;
+  throw Error(folder.string() + ": is " + (S_ISREG(found->st_mode) ? "a file" : kind_of(found->st_mode)) +
+              ", and a folder of this name is needed: remove it, or choose another place");
+}
+
 OutputFile& OutputSet::add(const fs::path& file, const FileMark& mark, Writer writer) {
-  const auto found = find(file);
+  const auto found = find_file(file);
   check_output(file, mark, overwrite_);
-  Member& member = join(file, found);
-  return member.content.emplace(member.name, member.staged, writer);
+  Member& member = join(place_of(file.parent_path(), ""), file.filename(), found);
+  member.is_new = true;
+  member.content = std::make_unique<OutputFile>(file, member.staged(), writer);
+  return *member.content;
 }
 
 void OutputSet::drop(const fs::path& file, const FileMark& mark) {
-  const auto found = find(file);
-  if (is_own_file(file, mark)) join(file, found);
+  const auto found = find_file(file);
+  if (is_own_file(file, mark)) join(place_of(file.parent_path(), ""), file.filename(), found);
 }
 
-OutputSet::Member& OutputSet::join(const fs::path& file, const std::optional<struct stat>& found) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const auto [at, is_made] = private_folders_.try_emplace(folder, folder, kTemporaryPrefix);
-  const fs::path staging = at->second.path() / "new", aside = at->second.path() / "old";
+void OutputSet::write_in(const fs::path& folder, const std::string& subfolder, const std::string& name,
+                         const FileMark& mark, const std::function<void(OutputFile&)>& write) {
+  const fs::path file = folder / subfolder / name;
+  const auto found = find_file(file);
+  check_output(file, mark, overwrite_);
+  Place& place = place_of(folder, subfolder);
+  Member& member = join(place, name, found);
+  place.has_new = member.is_new = true;
+  OutputFile out(file, member.staged());
+  write(out);
+  out.close_unsynced();
+}
+
+void OutputSet::drop_in(const fs::path& folder, const std::string& subfolder, const std::string& name,
+                        const FileMark& mark) {
+  const fs::path file = folder / subfolder / name;
+  const auto found = find_file(file);
+  if (is_own_file(file, mark)) join(place_of(folder, subfolder), name, found);
+}
+
+OutputSet::Place& OutputSet::place_of(const fs::path& folder, const std::string& subfolder) {
+  const auto key = std::pair(folder, subfolder);
+  if (const auto known = places_.find(key); known != places_.end()) return known->second;
+  const fs::path parent = folder.empty() ? "." : folder;
+  const auto [at, is_made] = private_folders_.try_emplace(parent, parent, kTemporaryPrefix);
   if (is_made) {
-    for (const fs::path& part : {staging, aside}) make_folder(part);
+    for (const char* part : {"new", "old"}) make_folder(at->second.path() / part);
   }
+  return places_.try_emplace(key, folder, subfolder, at->second).first->second;
+}
+
+OutputSet::Member& OutputSet::join(Place& place, const std::string& name,
+                                   const std::optional<FoundFile>& found) {
   Member& member = members_.emplace_back();
-  member.name = file;
+  member.name = name;
+  member.place = &place;
   member.found = found;
-  member.folder = &at->second;
-  member.staged = staging / file.filename();
-  member.older = aside / file.filename();
   return member;
 }
 
 std::vector<fs::path> OutputSet::commit() {
   for (Member& member : members_) {
-    if (member.content && !member.content->close()) member.content.reset();
+    if (member.content && !member.content->close()) member.is_new = false;
+    member.content.reset();
+  }
+  for (const auto& [key, place] : places_) {
+    if (!place.subfolder.empty() && place.has_new) sync_file_system(place.staged);
   }
   const RemovalPause pause;
   try {
     for (Member& member : members_ | std::views::reverse) set_aside(member);
+    make_subfolders();
     for (Member& member : members_) put_in_place(member);
-    for (const auto& [folder, staging] : private_folders_) sync_folder(folder);
+    sync_folders();
   } catch (const Error& error) {
     throw Error(std::string(error.what()) + put_back());
   }
+  for (const auto& [key, place] : places_) {
+    if (!place.subfolder.empty() && !place.has_new) ::rmdir(place.names.c_str());  // where it is empty
+  }
   std::vector<fs::path> written;
+  const Place* last = nullptr;
   for (const Member& member : members_) {
-    if (member.is_in_place) written.push_back(member.name);
+    const bool is_in_subfolder = !member.place->subfolder.empty();
+    if (!member.is_in_place || (is_in_subfolder && member.place == last)) continue;
+    written.push_back(is_in_subfolder ? member.place->names : member.path());
+    last = member.place;
   }
   return written;
 }
 
+void OutputSet::make_subfolders() {
+  for (auto& [key, place] : places_) {
+    if (place.subfolder.empty() || !place.has_new) continue;
+    place.is_made = ::mkdir(place.names.c_str(), 0777) == 0;
+    if (!place.is_made && errno != EEXIST) fail(place.names, "cannot be made", errno);
+  }
+}
+
+void OutputSet::sync_folders() const {
+  for (const auto& [key, place] : places_) {
+    if (!place.subfolder.empty()) sync_folder(place.names);
+  }
+  for (const auto& [folder, staging] : private_folders_) sync_folder(folder);
+}
+
 void OutputSet::set_aside(Member& member) {
-  if (::rename(member.name.c_str(), member.older.c_str()) != 0) {
+  const fs::path name = member.path();
+  if (::rename(name.c_str(), member.older().c_str()) != 0) {
     if (errno == ENOENT) return;  // nothing was there, or it has gone meanwhile
-    fail(member.name, "cannot be replaced", errno);
+    fail(name, "cannot be replaced", errno);
   }
   member.is_aside = true;
-  const auto moved = find(member.older);
+  const auto moved = find_file(member.older());
   if (!member.found || !moved || !is_same_file(*moved, *member.found))
-    throw Error(member.name.string() +
+    throw Error(name.string() +
                 ": another program has written it during the run; it stays, without new results");
 }
 
 void OutputSet::put_in_place(Member& member) {
-  if (!member.content) return;
-  if (rename_to_free_name(member.staged, member.name) != 0)
-    fail(member.name, "cannot be put in place", errno);
+  if (!member.is_new) return;
+  if (rename_to_free_name(member.staged(), member.path()) != 0)
+    fail(member.path(), "cannot be put in place", errno);
   member.is_in_place = true;
 }
 
@@ -179,10 +271,13 @@ void OutputSet::put_in_place(Member& member) {
 std::string OutputSet::put_back() {
   std::string lost;
   for (Member& member : members_ | std::views::reverse) {
-    if (member.is_in_place) ::rename(member.name.c_str(), member.staged.c_str());
-    if (!member.is_aside || rename_to_free_name(member.older, member.name) == 0) continue;
-    lost += "; the earlier " + member.name.filename().string() + " is kept as " + member.older.string();
-    member.folder->keep();
+    if (member.is_in_place) ::rename(member.path().c_str(), member.staged().c_str());
+    if (!member.is_aside || rename_to_free_name(member.older(), member.path()) == 0) continue;
+    lost += "; the earlier " + member.name + " is kept as " + member.older().string();
+    member.place->staging->keep();
+  }
+  for (const auto& [key, place] : places_) {
+    if (place.is_made) ::rmdir(place.names.c_str());
   }
   return lost;
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/points.hpp"
 
+#include "io/results/points_form.hpp"
+
 #include <algorithm>
+#include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -32,19 +36,45 @@ PointsFormat points_format(const FileScan& scan, const OutputConfig& config) {
   return are_all(PointsFormat::kLas, PointsFormat::kLaz) ? PointsFormat::kLas : PointsFormat::kPly;
 }
 
-std::string points_file(const FileScan& scan, const OutputConfig& config) {
-  switch (points_format(scan, config)) {
+std::string extension_of(PointsFormat format) {
+  switch (format) {
     case PointsFormat::kLas:
-      return "points.las";
+      return ".las";
     case PointsFormat::kLaz:
-      return "points.laz";
+      return ".laz";
     case PointsFormat::kPcd:
-      return "points.pcd";
+      return ".pcd";
     case PointsFormat::kCsv:
-      return "points.csv";
+      return ".csv";
     default:
-      return "points.ply";
+      return ".ply";
   }
+}
+
+std::string points_file(const FileScan& scan, const OutputConfig& config) {
+  return "points" + extension_of(points_format(scan, config));
+}
+
+void write_annotated(const Detection& detection, const PointsForm& form,
+                     std::span<const ResultColumn> results, OutputFile& out) {
+  const std::unique_ptr<InputRows> rows = form.open();
+  const std::size_t stride = form.row_bytes() + bytes_of(results);
+  const auto writer = form.writer(out, detection.summary.counts.points, PointsPart::kAll);
+  const auto put = [&](std::vector<std::byte>& block, std::size_t count) {
+    std::size_t kept = 0;
+    auto left_out = rows->left_out();
+    if (left_out.empty()) return writer->put(block);
+    for (std::size_t row = 0; row < count; ++row) {
+      if (!left_out.empty() && left_out.front() == row) {
+        left_out = left_out.subspan(1);
+      } else {
+        std::memmove(&block[kept++ * stride], &block[row * stride], stride);
+      }
+    }
+    writer->put(std::span(block).first(kept * stride));
+  };
+  for_each_annotated_block(detection, *rows, form.row_bytes(), results, out.path().string(), put);
+  writer->finish();
 }
 
 void check_points(const FileScan& scan, const OutputConfig& config) {

@@ -19,6 +19,7 @@ namespace lacuna::io {
 // be written. That holds for PLY, LAS, LAZ, PCD, and CSV for text. LAS and LAZ files together are LAS. Else
 // it is PLY. Never kInput.
 PointsFormat points_format(const FileScan& scan, const OutputConfig& config);
+std::string extension_of(PointsFormat format);                              // ".ply" and so on
 std::string points_file(const FileScan& scan, const OutputConfig& config);  // "points.ply" and so on
 
 // Throws `Error` where that format cannot hold the scan, as far as headers show it. Cheap: for before the

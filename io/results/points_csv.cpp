@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/annotated_rows.hpp"
 #include "io/results/points.hpp"
+#include "io/results/points_form.hpp"
 #include "io/scalar.hpp"
 #include "io/text/csv_writer.hpp"
 
@@ -14,6 +15,36 @@ RowLayout input_layout(const FileScan& scan, std::span<const ResultColumn> resul
     return is_earlier_result(layout, i, results);
   });
 }
+
+class CsvRows final : public PointsWriter {
+ public:
+  CsvRows(OutputFile& out, RowLayout layout) : writer_(out, std::move(layout)) {}
+  void put(std::span<const std::byte> rows) override { writer_.put_rows(rows); }
+
+ private:
+  CsvWriter writer_;
+};
+
+class CsvForm final : public PointsForm {
+ public:
+  explicit CsvForm(const PointsPlan& plan)
+      : scan_(plan.scan), input_(input_layout(plan.scan, plan.results)), all_(input_) {
+    for (const ResultColumn& result : plan.results) {
+      all_.properties.push_back({.name = result.name, .type = result.type, .offset = all_.stride});
+      all_.stride += size_of(result.type);
+    }
+  }
+
+  std::size_t row_bytes() const override { return input_.stride; }
+  std::unique_ptr<InputRows> open() const override { return joined_rows(scan_, input_); }
+  std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t, PointsPart) const override {
+    return std::make_unique<CsvRows>(out, all_);
+  }
+
+ private:
+  const FileScan& scan_;
+  RowLayout input_, all_;
+};
 
 }  // namespace
 
@@ -30,19 +61,14 @@ std::uint64_t csv_row_bytes(const FileScan& scan, const OutputConfig& config) {
   return bytes;
 }
 
+std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan) {
+  return std::make_unique<CsvForm>(plan);
+}
+
 void write_points_csv(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  const RowLayout input = input_layout(scan, results);
-  RowLayout all = input;
-  for (const ResultColumn& result : results) {
-    all.properties.push_back({.name = result.name, .type = result.type, .offset = all.stride});
-    all.stride += size_of(result.type);
-  }
-  CsvWriter writer(out, all);
-  const std::unique_ptr<InputRows> rows = joined_rows(scan, input);
-  for_each_annotated_block(detection, *rows, input.stride, results, out.path().string(),
-                           [&](const auto& block, std::size_t) { writer.put_rows(block); });
+  const PointsPlan plan{.scan = scan, .config = config, .results = result_columns(scan, config)};
+  write_annotated(detection, CsvForm(plan), plan.results, out);
 }
 
 }  // namespace lacuna::io

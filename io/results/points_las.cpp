@@ -5,12 +5,13 @@
 #include "io/las/las_transfer.hpp"
 #include "io/las/las_writer.hpp"
 #include "io/laz/laz_encoder.hpp"
+#include "io/little_endian.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/points.hpp"
+#include "io/results/points_form.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -31,8 +32,11 @@ struct LasInput {
   RowLayout others;                 // of the files of other formats, joined
 };
 
-LasInput examine(const FileScan& scan, std::span<const ResultColumn> results) {
+LasInput examine(const PointsPlan& plan) {
+  const FileScan& scan = plan.scan;
   LasInput input;
+  input.parts.keeps_results = plan.keeps_earlier;
+  input.parts.name = plan.name;
   std::vector<RowLayout> others;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const auto& file = scan.files()[i];
@@ -49,8 +53,9 @@ LasInput examine(const FileScan& scan, std::span<const ResultColumn> results) {
     }
     input.parts.las.push_back(std::move(part));
   }
-  input.others = join_layouts(
-      others, [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results); });
+  input.others = join_layouts(others, [&](const RowLayout& layout, std::size_t i) {
+    return is_earlier_result(layout, i, plan.results);
+  });
   for (const Property& property : input.others.properties)
     input.parts.imported.push_back({.property = property});
   input.parts.crs = scan.common_crs();
@@ -105,8 +110,22 @@ class LasRows final : public InputRows {
     return 0;
   }
 
-  // The rows of the block last returned that LAS cannot hold.
-  const std::vector<std::size_t>& left_out() const { return left_out_; }
+  std::span<const std::size_t> left_out() const override { return left_out_; }
+
+  void positions(std::vector<Eigen::Vector3d>& positions) const override {
+    if (rows_) return rows_->positions(positions);
+    const std::size_t stride = header_.record_bytes;
+    const std::optional<Pose>& pose = scan_.poses()[file_];
+    positions.resize(records_.size() / stride);
+    for (std::size_t row = 0; row < positions.size(); ++row) {
+      Eigen::Vector3d& position = positions[row];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        position[static_cast<Eigen::Index>(axis)] =
+            load<std::int32_t>(&records_[row * stride + 4 * axis]) * header_.scale[axis] +
+            header_.offset[axis];
+      if (pose) position = *pose * position;
+    }
+  }
 
  private:
   void open() {
@@ -181,11 +200,12 @@ std::vector<LasExtraBytes> result_extra(std::span<const ResultColumn> results, c
   return extra;
 }
 
-// How points.laz has these points. Throws `Error` where it cannot.
-LasCompression compression_of(const LasForm& form, std::span<const ResultColumn> results,
-                              const FileScan& scan, const std::string& name) {
+// How a LAZ file has these points. Throws `Error` where it cannot.
+LasCompression compression_of(const LasForm& form, const PointsPlan& plan) {
+  const FileScan& scan = plan.scan;
+  const std::string& name = plan.name;
   constexpr const char* kWayOut = "; --points-format las holds them all";
-  const std::size_t extra = form.record_bytes + bytes_of(results) - las_point_bytes(form.point_format);
+  const std::size_t extra = form.record_bytes + bytes_of(plan.results) - las_point_bytes(form.point_format);
   const auto layout = laz::layout_of(form.point_format, static_cast<std::uint16_t>(extra));
   if (!layout)
     throw Error(name + ": points of format " + std::to_string(form.point_format) +
@@ -198,15 +218,66 @@ LasCompression compression_of(const LasForm& form, std::span<const ResultColumn>
   return {.layout = *layout, .memory = scan.memory() / 2};  // the other half is for what reads the points
 }
 
-LasForm form_of(const LasInput& input, std::span<const ResultColumn> results, const std::string& name) {
+LasForm form_of(const LasInput& input, const PointsPlan& plan) {
   constexpr std::size_t kMostRecordBytes = 65535, kMostDescriptors = 341;  // 192 bytes each in 65535
   LasForm form = join_las(input.parts);
-  if (form.record_bytes + bytes_of(results) > kMostRecordBytes ||
-      form.extra.size() + results.size() > kMostDescriptors)
-    throw Error(name + ": " + std::to_string(form.extra.size()) + " extra values and " +
+  if (form.record_bytes + bytes_of(plan.results) > kMostRecordBytes ||
+      form.extra.size() + plan.results.size() > kMostDescriptors)
+    throw Error(plan.name + ": " + std::to_string(form.extra.size()) + " extra values and " +
                 std::to_string(form.record_bytes) +
                 " bytes a point leave no room for the results in LAS; --points-format ply holds them all");
   return form;
+}
+
+class LasRecords final : public PointsWriter {
+ public:
+  template <class... Arguments>
+  explicit LasRecords(Arguments&&... arguments) : writer_(std::forward<Arguments>(arguments)...) {}
+  void put(std::span<const std::byte> rows) override { writer_.put(rows); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  LasWriter writer_;
+};
+
+class LasPointsForm final : public PointsForm {
+ public:
+  LasPointsForm(const PointsPlan& plan, bool is_compressed) : scan_(plan.scan), input_(examine(plan)) {
+    survey(scan_, input_);
+    form_ = form_of(input_, plan);
+    extra_ = result_extra(plan.results, form_);
+    if (is_compressed) compression_ = compression_of(form_, plan);
+  }
+
+  std::size_t row_bytes() const override { return form_.record_bytes; }
+  std::unique_ptr<InputRows> open() const override { return std::make_unique<LasRows>(scan_, input_, form_); }
+  std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t, PointsPart part) const override {
+    std::optional<LasOrigin> origin = input_.origin;
+    if (origin) origin->has_counts = form_.is_as_it_was && part == PointsPart::kAll;
+    return std::make_unique<LasRecords>(out, form_, extra_, std::move(origin), input_.parts.crs,
+                                        compression_);
+  }
+
+ private:
+  const FileScan& scan_;
+  LasInput input_;
+  LasForm form_;
+  std::vector<LasExtraBytes> extra_;
+  std::optional<LasCompression> compression_;
+};
+
+PointsPlan annotated_plan(const FileScan& scan, const OutputConfig& config, std::string name) {
+  return {.scan = scan,
+          .config = config,
+          .results = result_columns(scan, config),
+          .keeps_earlier = false,
+          .name = std::move(name)};
+}
+
+void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+                  bool is_compressed, OutputFile& out) {
+  const PointsPlan plan = annotated_plan(scan, config, out.path().string());
+  write_annotated(detection, LasPointsForm(plan, is_compressed), plan.results, out);
 }
 
 }  // namespace
@@ -215,63 +286,38 @@ FileMark points_las_mark() {
   return {kLasSoftware, kLasSoftwareAt};
 }
 
+std::unique_ptr<PointsForm> las_form(const PointsPlan& plan) {
+  return std::make_unique<LasPointsForm>(plan, false);
+}
+
+std::unique_ptr<PointsForm> laz_form(const PointsPlan& plan) {
+  return std::make_unique<LasPointsForm>(plan, true);
+}
+
+void check_las_form(const PointsPlan& plan) {
+  form_of(examine(plan), plan);
+}
+
+void check_laz_form(const PointsPlan& plan) {
+  compression_of(form_of(examine(plan), plan), plan);
+}
+
 void check_points_las(const FileScan& scan, const OutputConfig& config) {
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  form_of(examine(scan, results), results, "points.las");
+  check_las_form(annotated_plan(scan, config, "points.las"));
 }
 
 void check_points_laz(const FileScan& scan, const OutputConfig& config) {
-  const std::string name = "points.laz";
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  compression_of(form_of(examine(scan, results), results, name), results, scan, name);
+  check_laz_form(annotated_plan(scan, config, "points.laz"));
 }
 
 std::uint64_t las_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  return form_of(examine(scan, results), results, "points.las").record_bytes + bytes_of(results);
+  const PointsPlan plan = annotated_plan(scan, config, points_file(scan, config));
+  return form_of(examine(plan), plan).record_bytes + bytes_of(plan.results);
 }
 
 std::uint64_t laz_row_bytes(const FileScan& scan, const OutputConfig& config) {
   return las_row_bytes(scan, config) / 2;
 }
-
-namespace {
-
-void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
-                  bool is_compressed, OutputFile& out) {
-  const std::string name = out.path().string();
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  LasInput input = examine(scan, results);
-  survey(scan, input);
-  const LasForm form = form_of(input, results, name);
-  const std::vector<LasExtraBytes> extra = result_extra(results, form);
-  if (input.origin) input.origin->has_counts = form.is_as_it_was;
-  std::optional<LasCompression> compression;
-  if (is_compressed) compression = compression_of(form, results, scan, name);
-
-  LasWriter writer(out, form, extra, input.origin, input.parts.crs, std::move(compression));
-  LasRows rows(scan, input, form);
-  const std::size_t stride = writer.record_bytes();
-  for_each_annotated_block(detection, rows, form.record_bytes, results, name,
-                           [&](std::vector<std::byte>& block, std::size_t count) {
-                             std::size_t kept = count;
-                             if (!rows.left_out().empty()) {
-                               kept = 0;
-                               auto next = rows.left_out().begin();
-                               for (std::size_t row = 0; row < count; ++row) {
-                                 if (next != rows.left_out().end() && *next == row) {
-                                   ++next;
-                                   continue;
-                                 }
-                                 std::memmove(&block[kept++ * stride], &block[row * stride], stride);
-                               }
-                             }
-                             writer.put(std::span(block).first(kept * stride));
-                           });
-  writer.finish();
-}
-
-}  // namespace
 
 void write_points_las(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {

@@ -2,9 +2,12 @@
 #include "engine/run/error.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/points.hpp"
+#include "io/results/points_form.hpp"
 #include "io/results/points_pcd_rows.hpp"
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,45 +22,73 @@ void check_rows(const std::string& name, std::uint64_t rows) {
                 std::to_string(kMostRows) + "; --points-format ply or las holds more");
 }
 
-PcdInput pcd_input(const FileScan& scan, const OutputConfig& config, std::span<const ResultColumn> results,
-                   const LocalOffset& offset) {
-  std::optional<PcdInput> kept = kept_pcd_input(scan, results, offset);
-  return kept ? std::move(*kept) : converted_pcd_input(scan, config, results, offset);
+PcdInput pcd_input(const PointsPlan& plan) {
+  std::optional<PcdInput> kept = kept_pcd_input(plan.scan, plan.results, plan.offset);
+  return kept ? std::move(*kept) : converted_pcd_input(plan.scan, plan.config, plan.results, plan.offset);
 }
 
+class PcdWriter final : public PointsWriter {
+ public:
+  PcdWriter(OutputFile& out, const PcdHeader& header) : out_(out) { out_.write(print_pcd_header(header)); }
+  void put(std::span<const std::byte> rows) override { out_.write(rows); }
+
+ private:
+  OutputFile& out_;
+};
+
+class PcdForm final : public PointsForm {
+ public:
+  explicit PcdForm(PointsPlan plan) : plan_(std::move(plan)), header_(pcd_input(plan_).header) {
+    row_bytes_ = header_.row_bytes();
+    header_.encoding = PcdEncoding::kBinary;
+    for (const ResultColumn& result : plan_.results)
+      header_.fields.push_back(pcd_field_of(pcd_name_of(result.name), result.type));
+  }
+
+  std::size_t row_bytes() const override { return row_bytes_; }
+  std::unique_ptr<InputRows> open() const override { return pcd_input(plan_).rows; }
+  std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows, PointsPart) const override {
+    check_rows(out.path().string(), rows);
+    PcdHeader header = header_;
+    if (header.width * header.height != rows) {
+      header.width = rows;
+      header.height = 1;
+    }
+    header.rows = rows;
+    return std::make_unique<PcdWriter>(out, header);
+  }
+
+ private:
+  PointsPlan plan_;
+  PcdHeader header_;
+  std::size_t row_bytes_ = 0;
+};
+
 }  // namespace
+
+std::unique_ptr<PointsForm> pcd_form(const PointsPlan& plan) {
+  return std::make_unique<PcdForm>(plan);
+}
 
 void check_points_pcd(const FileScan& scan, const OutputConfig&) {
   check_rows("points.pcd", scan.expected_points().value_or(0));
 }
 
 std::uint64_t pcd_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  const std::vector<ResultColumn> results = result_columns(scan, config);
   LocalOffset any;
   if (config.local_coordinates) any = Eigen::Vector3d(0, 0, 0);
-  return bytes_of(results) + pcd_input(scan, config, results, any).header.row_bytes();
+  const PointsPlan plan{
+      .scan = scan, .config = config, .results = result_columns(scan, config), .offset = any};
+  return PcdForm(plan).row_bytes() + bytes_of(plan.results);
 }
 
 void write_points_pcd(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {
-  const std::vector<ResultColumn> results = result_columns(scan, config);
-  const std::uint64_t rows = detection.summary.counts.points;
-  check_rows(out.path().string(), rows);
-
-  PcdInput input = pcd_input(scan, config, results, local_offset(detection, config));
-  PcdHeader& header = input.header;
-  if (header.width * header.height != rows) {
-    header.width = rows;
-    header.height = 1;
-  }
-  header.rows = rows;
-  header.encoding = PcdEncoding::kBinary;
-  const std::size_t input_bytes = header.row_bytes();
-  for (const ResultColumn& result : results)
-    header.fields.push_back(pcd_field_of(pcd_name_of(result.name), result.type));
-  out.write(print_pcd_header(header));
-  for_each_annotated_block(detection, *input.rows, input_bytes, results, out.path().string(),
-                           [&](const auto& block, std::size_t) { out.write(block); });
+  const PointsPlan plan{.scan = scan,
+                        .config = config,
+                        .results = result_columns(scan, config),
+                        .offset = local_offset(detection, config)};
+  write_annotated(detection, PcdForm(plan), plan.results, out);
 }
 
 }  // namespace lacuna::io

@@ -97,6 +97,8 @@ class PackedRows final : public InputRows {
     return count;
   }
 
+  void positions(std::vector<Eigen::Vector3d>& positions) const override { rows_->positions(positions); }
+
  private:
   std::unique_ptr<InputRows> rows_;
   Converted made_;

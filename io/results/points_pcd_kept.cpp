@@ -127,6 +127,27 @@ class KeptRows final : public InputRows {
     return 0;
   }
 
+  void positions(std::vector<Eigen::Vector3d>& positions) const override {
+    const PcdHeader& header = rows_->header();
+    const std::size_t stride = header.row_bytes();
+    positions.resize(raw_.size() / stride);
+    std::size_t at = 0;
+    for (const PcdField& field : header.fields) {
+      const auto axis = std::find(kPositionNames.begin(), kPositionNames.end(), known_name(field.name));
+      if (!field.is_padding() && axis != kPositionNames.end()) {
+        const Eigen::Index component = axis - kPositionNames.begin();
+        const double added = header.offset ? (*header.offset)[component] : 0.0;
+        with_pcd_type(field, [&](auto value) {
+          for (std::size_t row = 0; row < positions.size(); ++row) {
+            std::memcpy(&value, &raw_[row * stride + at], sizeof(value));
+            positions[row][component] = static_cast<double>(value) + added;
+          }
+        });
+      }
+      at += field.bytes();
+    }
+  }
+
  private:
   void copy(const Coordinate& coordinate, std::size_t count, std::size_t stride,
             std::vector<std::byte>& block) const {

@@ -3,9 +3,11 @@
 #include "io/results/annotated_rows.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/points.hpp"
+#include "io/results/points_form.hpp"
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace lacuna::io {
@@ -13,49 +15,78 @@ namespace {
 
 bool has_own_quality(const RowLayout& layout) {
   for (std::size_t i = 0; i < layout.properties.size(); ++i) {
-    if (layout.properties[i].name == kQuality && !is_earlier_result(layout, i, {})) return true;
+    if (layout.properties[i].name == kQuality && !is_earlier_quality(layout, i)) return true;
   }
   return false;
 }
 
-struct PlyColumns {
-  std::vector<ResultColumn> results;
-  RowLayout input;
+// The results of a run, with the quality of MeshLab unless the input has its own.
+std::vector<ResultColumn> ply_results(const FileScan& scan, const OutputConfig& config) {
+  std::vector<ResultColumn> results = result_columns(scan, config);
+  const std::vector<RowLayout>& layouts = scan.layouts();
+  if (std::any_of(layouts.begin(), layouts.end(), has_own_quality)) return results;
+  const auto loop = std::find_if(results.begin(), results.end(),
+                                 [](const auto& result) { return result.name == kBeforeQuality; });
+  results.insert(loop + 1, {std::string(kQuality), Scalar::kFloat32, results.front().offset});
+  return results;
+}
 
-  PlyColumns(const FileScan& scan, const OutputConfig& config) : results(result_columns(scan, config)) {
-    const std::vector<RowLayout> layouts = written_layouts(scan, config);
-    if (std::none_of(layouts.begin(), layouts.end(), has_own_quality)) {
-      const auto loop = std::find_if(results.begin(), results.end(),
-                                     [](const auto& result) { return result.name == kBeforeQuality; });
-      results.insert(loop + 1, {std::string(kQuality), Scalar::kFloat32, results.front().offset});
-    }
-    input = join_layouts(layouts, [&](const RowLayout& layout, std::size_t i) {
-      return is_earlier_result(layout, i, results);
-    });
+class PlyRows final : public PointsWriter {
+ public:
+  PlyRows(OutputFile& out, PlyElement vertex, const LocalOffset& offset)
+      : writer_(out, {std::move(vertex)}, offset) {}
+  void put(std::span<const std::byte> rows) override { writer_.put_bytes(rows); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  PlyWriter writer_;
+};
+
+class PlyForm final : public PointsForm {
+ public:
+  explicit PlyForm(const PointsPlan& plan) : scan_(plan.scan), offset_(plan.offset) {
+    input_ = join_layouts(
+        written_layouts(plan.scan, plan.config),
+        [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, plan.results); });
+    for (const Property& property : input_.properties)
+      vertex_.properties.push_back({property.name, property.type, {}});
+    for (const ResultColumn& result : plan.results)
+      vertex_.properties.push_back({result.name, result.type, {}});
   }
+
+  std::size_t row_bytes() const override { return input_.stride; }
+  std::unique_ptr<InputRows> open() const override { return joined_rows(scan_, input_, offset_); }
+  std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows, PointsPart) const override {
+    PlyElement vertex = vertex_;
+    vertex.count = rows;
+    return std::make_unique<PlyRows>(out, std::move(vertex), offset_);
+  }
+
+ private:
+  const FileScan& scan_;
+  LocalOffset offset_;
+  RowLayout input_;
+  PlyElement vertex_{.name = "vertex", .count = 0, .properties = {}};
 };
 
 }  // namespace
 
+std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan) {
+  return std::make_unique<PlyForm>(plan);
+}
+
 std::uint64_t ply_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  const PlyColumns columns(scan, config);
-  return columns.input.stride + bytes_of(columns.results);
+  const PointsPlan plan{.scan = scan, .config = config, .results = ply_results(scan, config)};
+  return PlyForm(plan).row_bytes() + bytes_of(plan.results);
 }
 
 void write_points_ply(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                       OutputFile& out) {
-  const PlyColumns columns(scan, config);
-  PlyElement vertex{.name = "vertex", .count = detection.summary.counts.points, .properties = {}};
-  for (const Property& property : columns.input.properties)
-    vertex.properties.push_back({property.name, property.type, {}});
-  for (const ResultColumn& result : columns.results)
-    vertex.properties.push_back({result.name, result.type, {}});
-  const LocalOffset offset = local_offset(detection, config);
-  PlyWriter writer(out, {vertex}, offset);
-  const std::unique_ptr<InputRows> input = joined_rows(scan, columns.input, offset);
-  for_each_annotated_block(detection, *input, columns.input.stride, columns.results, out.path().string(),
-                           [&](const auto& block, std::size_t) { writer.put_bytes(block); });
-  writer.finish();
+  const PointsPlan plan{.scan = scan,
+                        .config = config,
+                        .results = ply_results(scan, config),
+                        .offset = local_offset(detection, config)};
+  write_annotated(detection, PlyForm(plan), plan.results, out);
 }
 
 }  // namespace lacuna::io

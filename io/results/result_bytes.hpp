@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include <Eigen/Geometry>
+
 namespace lacuna::io {
 
 struct ResultBytes {
@@ -14,15 +16,17 @@ struct ResultBytes {
   std::uint64_t sample = 0;  // sample.ply
   std::uint64_t report = 0;  // report.html without its loops
   std::uint64_t voxels = 0;  // probability.vdb, at most
+  std::uint64_t raster = 0;  // coverage.tif, at most: it is compressed
 
   std::uint64_t certain = 0;  // of these: `points`, where its rows have a fixed size and none is left out
 
-  std::uint64_t all() const { return points + sample + report + voxels; }
+  std::uint64_t all() const { return points + sample + report + voxels + raster; }
 };
 
-// The bytes for a scan with so many rows, of which so many points are evaluated. The files of loops and of
-// boundary points are left out: they depend on the holes that are found.
-ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows,
-                         std::uint64_t points);
+// The bytes for a scan with so many rows, of which so many points are evaluated. `bounds` are those of the
+// scan without its strays; where they are not known, the raster is left out. The files of loops and of
+// boundary points, lids and cut-outs are left out: they depend on the holes that are found.
+ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows, std::uint64_t points,
+                         const Eigen::AlignedBox3d& bounds = {});
 
 }  // namespace lacuna::io

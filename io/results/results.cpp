@@ -8,6 +8,7 @@
 #include "io/report/report.hpp"
 #include "io/report/report_page.hpp"
 #include "io/report/scene.hpp"
+#include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"
@@ -149,21 +150,13 @@ std::vector<ResultFile> unwanted_results(const Config& config) {
   return results;
 }
 
-void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
-  for (const auto& input : scan.files()) {
-    std::error_code error;  // where nothing is, nothing can be lost
-    if (std::filesystem::equivalent(file, input, error)) {
-      throw Error(input.string() + ": is an input in the place of a result; another output folder is needed");
-    }
-  }
-}
-
 }  // namespace
 
 void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
   const Config chosen = with_points_format(config, scan);
   if (config.output.points) check_points(scan, config.output);
+  check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
   for (const ResultFile& result : results_of(chosen)) {
     check_not_input(folder / result.name, scan);
@@ -183,6 +176,8 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
   if (error) throw Error(folder.string() + ": the folder cannot be created: " + error.message());
 
   OutputSet set(overwrite);
+  const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+  arena.for_each(1, [&](std::size_t) { write_cut_outs(detection, scan, config, folder, set); });
   const Config chosen = with_points_format(config, scan);
   const std::vector<ResultFile> results = results_of(chosen);
   std::vector<OutputFile*> files;
@@ -190,7 +185,6 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
     files.push_back(&set.add(folder / result.name, result.mark, result.writer));
   for (const ResultFile& result : unwanted_results(chosen)) set.drop(folder / result.name, result.mark);
   const auto write = [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); };
-  const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(results.size(), [&](std::size_t i) {
     if (!results[i].is_of_others) write(i);
   });

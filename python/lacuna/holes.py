@@ -261,6 +261,13 @@ class Holes:
         if params:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
         target = Path(folder)
+        copied = self._copy_files(target)
+        cut_outs = self._folder / "cut-outs"
+        if cut_outs.is_dir():
+            copied.append(Path(shutil.copytree(cut_outs, target / cut_outs.name, dirs_exist_ok=True)))
+        return copied
+
+    def _copy_files(self, target: Path) -> list[Path]:
         target.mkdir(parents=True, exist_ok=True)
         return [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
 
@@ -268,7 +275,10 @@ class Holes:
         """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name. marks: a file
         that "Save marks" of an earlier report wrote; its marks are shown at the loops that they fit."""
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
-            self.save(folder)
+            if self._found is not None:
+                self.save(folder, cut_outs=0)
+            else:
+                self._copy_files(Path(folder))
             made = _core.write_report(folder, None if marks is None else os.fspath(marks))
             return Path(shutil.copyfile(made, file))
 

@@ -59,6 +59,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"points_format", "pcd"},
     {"sample_points", "200"},
     {"coverage", "3"},
+    {"cut_outs", "3"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},
@@ -95,7 +96,9 @@ class Runs {
     REQUIRE(run.exit_code == 0);
     std::string bytes;
     std::set<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(out)) files.insert(entry.path());
+    for (const auto& entry : fs::recursive_directory_iterator(out)) {
+      if (entry.is_regular_file()) files.insert(entry.path());
+    }
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       bytes += name;
@@ -187,7 +190,8 @@ TEST_CASE("each option without effect has its warning, each other none") {
       const bool is_left_out = parameter.section == "run" || parameter.key == "method" ||
                                parameter.key == "points" || parameter.key == "columns" ||
                                parameter.key == "eps" || parameter.key == "max_perimeter" ||
-                               parameter.key == "polygons";  // the files that it changes are wanted, too
+                               parameter.key == "polygons" ||
+                               parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
@@ -199,6 +203,9 @@ TEST_CASE("each option without effect has its warning, each other none") {
     CHECK(runs.warnings(options) == expected);
     CHECK_FALSE(expected.empty());
   }
+  CHECK(runs.warnings({"--points-format", "ply"}) ==
+        "lacuna: warning: --points-format changes nothing without --points or --cut-outs\n");
+  CHECK(runs.warnings({"--points-format", "ply", "--cut-outs", "1"}).empty());
   CHECK(runs.warnings({"--polygons"}) ==
         "lacuna: warning: --polygons changes nothing without --gpkg, --geojson or --shp\n");
   CHECK(runs.warnings({"--polygons", "--shp"}).empty());

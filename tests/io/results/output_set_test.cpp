@@ -273,4 +273,91 @@ TEST_CASE("the files of a set may lie in several folders", "[io]") {
   CHECK(std::distance(fs::directory_iterator(folder / "x"), {}) == 1);
 }
 
+namespace {
+
+void write_in(OutputSet& set, const ScratchFolder& folder, const std::string& name) {
+  set.write_in(folder.path(), "sub", name, kMark, [](OutputFile& out) { out.write("mine: new"); });
+}
+
+Names names_in(const fs::path& folder) {
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a subfolder appears with its files, and goes with the last of them", "[io]") {
+  const ScratchFolder folder;
+  {
+    OutputSet set(Overwrite::kOwn);
+    for (const std::string name : {"b", "a"}) write_in(set, folder, name);
+    add(set, folder / "last");
+    CHECK_FALSE(fs::exists(folder / "sub"));
+  }
+  CHECK(folder.names().empty());
+  for (int i = 0; i < 2; ++i) {
+    OutputSet set(Overwrite::kOwn);
+    for (const std::string name : {"b", "a"}) write_in(set, folder, name);
+    add(set, folder / "last");
+    CHECK(set.commit() == std::vector<fs::path>{folder / "sub", folder / "last"});
+  }
+  CHECK(names_in(folder / "sub") == Names{"a", "b"});
+  CHECK(read_file(folder / "sub" / "a") == "mine: new");
+  const auto drop = [&](const Names& names) {
+    OutputSet set(Overwrite::kOwn);
+    for (const std::string& name : names) set.drop_in(folder.path(), "sub", name, kMark);
+    CHECK(set.commit().empty());
+  };
+  folder.write("sub/precious", "precious");
+  drop({"a", "b", "precious", "not there"});
+  CHECK(names_in(folder / "sub") == Names{"precious"});
+  fs::remove(folder / "sub" / "precious");
+  drop({"a"});
+  CHECK(folder.names() == Names{"last", "sub"});  // nothing was dropped there
+  folder.write("sub/a", "mine: old");
+  drop({"a"});
+  CHECK(folder.names() == Names{"last"});
+}
+
+TEST_CASE("a commit that fails leaves a subfolder as it was", "[io]") {
+  for (const bool was_there : {false, true}) {
+    const ScratchFolder folder;
+    if (was_there) {
+      fs::create_directory(folder / "sub");
+      folder.write("sub/a", "mine: old");
+    }
+    {
+      OutputSet set(Overwrite::kOwn);
+      write_in(set, folder, "a");
+      write_in(set, folder, "b");
+      // The name is taken by the set itself, which has it twice.
+      add(set, folder / "." / "last");
+      add(set, folder / "last");
+      CHECK_THAT(error_of([&] { set.commit(); }), Contains("last: cannot be put in place"));
+    }
+    CHECK(folder.names() == (was_there ? Names{"sub"} : Names{}));
+    if (was_there) CHECK(read_file(folder / "sub" / "a") == "mine: old");
+  }
+}
+
+TEST_CASE("files go to no subfolder that is a link or a file", "[io]") {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "target");
+  fs::create_directory_symlink(folder / "target", folder / "sub");
+  const auto error = [&] {
+    return error_of([&] {
+      OutputSet set(Overwrite::kAny);
+      write_in(set, folder, "a");
+    });
+  };
+  CHECK_THAT(error(), Contains("sub: is a symbolic link, and a folder of this name is needed"));
+  fs::remove(folder / "sub");
+  folder.write("sub", "mine: but a file");
+  CHECK_THAT(error(), Contains("sub: is a file"));
+  CHECK(folder.names() == Names{"sub", "target"});
+  CHECK(fs::is_empty(folder / "target"));
+}
+
 }  // namespace lacuna::test
