@@ -177,6 +177,11 @@ py::dict loops_of(const Detection& detection) {
   all["mean_probability"] = measures<double>(loops, [](const M& m) { return m.mean_probability; });
   all["persistence"] = measures<double>(loops, [](const M& m) { return m.track.persistence; });
   all["first_scale"] = measures<double>(loops, [](const M& m) { return m.track.first_scale; });
+  py::array_t<double> shares = table<double>(loops.size(), kCauses);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    std::ranges::copy(loops[i].cause.shares, shares.mutable_data() + kCauses * i);
+  all["cause_shares"] = shares;
+  all["hidden_by"] = vectors(loops, [](const M& m) { return m.cause.hidden_by; });
   all["last_scale"] = measures<double>(loops, [](const M& m) { return m.track.last_scale; });
   all["offsets"] = offsets;
   all["ids"] = ids;

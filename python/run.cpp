@@ -4,6 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "io/stations/find_causes.hpp"
 #include "tools/overall_progress.hpp"
 #include "tools/scan_warnings.hpp"
 
@@ -173,7 +174,9 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, py
         tools::refuse_degrees(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
+        const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection = detect(*found->scan, config, found->scratch->path(), watched);
+        if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
         std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),
                           std::back_inserter(found->warnings));
       },

@@ -10,6 +10,7 @@
 #include "io/results/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/result_bytes.hpp"
+#include "io/stations/station_views.hpp"
 #include "tools/attribute_counts.hpp"
 #include "tools/folders.hpp"
 #include "tools/input_files.hpp"
@@ -22,9 +23,11 @@
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +69,7 @@ struct RunInfo {
   std::optional<std::uint64_t> points_bytes;  // with --points; none: they cannot be written
   ResultBytes results;
   double seconds = 0;
+  std::vector<StationSummary> stations;
 };
 
 // Without a pass over the file, where its head has all.
@@ -104,7 +108,12 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   const MadeFolder parent(config.run.scratch.empty() ? fs::temp_directory_path()
                                                      : fs::path(config.run.scratch));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
+  const auto stations = watch_stations(scan, config.output, workspace.path());
   run.estimate = estimate(scan, config, workspace.path(), silence);
+  if (stations) {
+    const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+    for (const StationView& view : stations->complete(scan, arena)) run.stations.push_back(summary_of(view));
+  }
   const Summary& summary = run.estimate.summary;
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
@@ -128,6 +137,19 @@ std::string print_point(const Eigen::Vector3d& point) {
   return out.str();
 }
 
+std::string print_stations(const std::vector<StationSummary>& stations, std::string_view unit) {
+  const auto degrees = [](double radians) { return print_area(radians * 180 / std::numbers::pi, "") + "°"; };
+  std::vector<std::vector<std::string>> rows = {
+      {"stations", "place", "points", "elevations", "turn", "step", "farthest", "certainty"}};
+  for (const StationSummary& station : stations) {
+    rows.push_back({visible(station.name), print_point(station.place), print_count(station.points),
+                    degrees(std::asin(station.lowest)) + " to " + degrees(std::asin(station.highest)),
+                    degrees(2 * std::numbers::pi * station.turn), degrees(station.step),
+                    print_length(station.farthest, unit), print_area(100 * station.certainty, "") + " %"});
+  }
+  return print_table(rows);
+}
+
 void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
@@ -143,6 +165,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
     }
     std::cout << "\n";
   }
+  if (!run.stations.empty()) std::cout << "\n" << print_stations(run.stations, scan.length_unit());
   const Summary& summary = run.estimate.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
   std::cout << print_left_out(summary.counts, scan.filtered_out());
@@ -213,6 +236,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["strays"] = strays_json(summary.strays);
   root["resolution"] = summary.resolution;
   root["thinned_out"] = summary.counts.thinned_out;
+  root["stations"] = stations_json(run.stations);
   root["tiles"] = summary.tiles;
   root["tile_points"] = summary.tile_points;
   root["density"] = run.estimate.density;

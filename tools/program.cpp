@@ -14,6 +14,7 @@
 #include "tools/render_command.hpp"
 #include "tools/report_command.hpp"
 #include "tools/signals.hpp"
+#include "tools/stations_command.hpp"
 #include "tools/synth_command.hpp"
 #include "tools/terminal.hpp"
 #include "tools/unit_commands.hpp"
@@ -182,6 +183,7 @@ int run(int argc, char** argv) {
   add_finish_command(app);
   add_update_command(app);
   add_report_command(app);
+  add_stations_command(app);
   add_render_command(app);
   add_synth_command(app);
   add_reference_commands(app);

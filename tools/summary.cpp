@@ -8,6 +8,7 @@
 #include "tools/visible_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -99,6 +100,22 @@ std::string print_facts(const std::vector<std::pair<std::string, std::string>>& 
   std::string text;
   for (const auto& [label, value] : facts) {
     text += "  " + label + std::string(width - label.size() + 2, ' ') + value + "\n";
+  }
+  return text;
+}
+
+// Empty where no station is known.
+std::string print_causes(const std::vector<LoopMeasures>& loops) {
+  std::array<std::size_t, kCauses> counts{};
+  for (const LoopMeasures& loop : loops)
+    if (const auto cause = loop.cause.main()) ++counts[static_cast<std::size_t>(*cause)];
+  std::string text;
+  for (std::size_t i = 0; i < kCauses; ++i) {
+    if (counts[i] == 0) continue;
+    if (!text.empty()) text += ", ";
+    std::string name(kCauseNames[i]);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += print_count(counts[i]) + " " + name;
   }
   return text;
 }
@@ -204,6 +221,7 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
   const double bound = length_bound(extent);
   const Kind holes = loops_of(loops, LoopKind::kHole, bound);
   const Kind outer = loops_of(loops, LoopKind::kOuter, bound);
+  const std::string causes = print_causes(loops);
   const std::string longer = " longer than " + print_power(bound, unit);
 
   std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
@@ -216,6 +234,7 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
             " in all\n\n";
   }
   auto facts = findings(summary, scan, unit);
+  if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));

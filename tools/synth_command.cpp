@@ -125,6 +125,11 @@ void add_scan(CLI::App& synth) {
                  "from how many places, or in how many strips from the air, 1 to 255")
       ->check(whole_number())
       ->capture_default_str();
+  app.add_option("--place", o.places, "where one more station stands, metres; may be given again")
+      ->check(real_number())
+      ->type_name("X Y Z")
+      ->type_size(3)
+      ->expected(-1);
   app.add_option("--station-factor", o.station_factor,
                  "points of the first station over those of each other one, 0.01 to 100")
       ->check(real_number())

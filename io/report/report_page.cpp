@@ -139,6 +139,12 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
     }));
   });
   add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });
+  add("cause",
+      [](const LoopMeasures& loop) { return loop.cause.name().empty() ? Json() : Json(loop.cause.name()); });
+  add("hidden_by", [](const LoopMeasures& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_by);
+  });
+  add("hidden_from", [](const LoopMeasures& loop) { return Json(loop.cause.hidden_from); });
   json["first"] = loops.first;
   return json;
 }
@@ -157,6 +163,7 @@ Json report_of(const Scene& scene, const MatchedMarks& marks) {
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},
+          {"stations", holes.value("stations", Json::array())},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},

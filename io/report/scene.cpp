@@ -32,6 +32,18 @@ Eigen::Vector3d vector(const Json& values) {
   return {number(values.at(0)), number(values.at(1)), number(values.at(2))};
 }
 
+LoopCause cause_of(const Json& record) {
+  LoopCause cause;
+  if (record.is_null()) return cause;
+  for (std::size_t i = 0; i < kCauses; ++i) cause.shares[i] = number(record.at("shares").at(kCauseNames[i]));
+  if (const Json& hidden_by = record.at("hidden_by"); !hidden_by.is_null()) {
+    cause.hidden_by = vector(hidden_by.at("place"));
+    cause.hidden_by_extent = number(hidden_by.at("extent"));
+    cause.hidden_from = hidden_by.at("station").get<std::int32_t>();
+  }
+  return cause;
+}
+
 LoopMeasures measures_of(const Json& record) {
   return {.kind = record.at("kind") == name_of(LoopKind::kHole) ? LoopKind::kHole : LoopKind::kOuter,
           .points = record.at("points").get<std::uint64_t>(),
@@ -46,6 +58,7 @@ LoopMeasures measures_of(const Json& record) {
                     .persistence = number(record.at("persistence")),
                     .first_scale = number(record.at("first_scale")),
                     .last_scale = number(record.at("last_scale"))},
+          .cause = cause_of(record.value("cause", Json())),
           .tiles = record.at("tiles").get<std::uint64_t>()};
 }
 

@@ -25,7 +25,7 @@ bool has_fields(std::string_view head) {
     at += kBytes;
     return is_it;
   };
-  if (!is_next("id") || !is_next("kind") || !is_next("unit")) return false;
+  if (!is_next("id") || !is_next("kind") || !is_next("cause") || !is_next("unit")) return false;
   for (const LoopMeasure& measure : kLoopMeasures) {
     if (!is_next(measure.short_name)) return false;
   }

@@ -21,7 +21,7 @@ std::string_view table_header() {
   static const std::string header = [] {
     std::string names = "id,kind";
     for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
-    return names + ",x,y,z,nx,ny,nz";
+    return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z";
   }();
   return header;
 }
@@ -41,6 +41,8 @@ void write_table(const Detection& detection, OutputFile& out) {
     for (const Eigen::Vector3d& vector : {loop.centroid, loop.normal}) {
       for (const double component : vector) append(line, component);
     }
+    line.append(",").append(loop.cause.name());
+    for (const double component : loop.cause.hidden_by) append(line, component);
     out.write(line + "\n");
   }
 }

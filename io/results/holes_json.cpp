@@ -68,22 +68,6 @@ Json levels_json(const std::vector<LevelSummary>& levels) {
   return list;
 }
 
-Json stations_json(const std::vector<StationSummary>& stations) {
-  Json list_of_all = Json::array();
-  for (const StationSummary& station : stations) {
-    list_of_all.push_back({{"name", station.name},
-                           {"place", list(station.place)},
-                           {"points", station.points},
-                           {"certainty", station.certainty},
-                           {"lowest_sine", station.lowest},
-                           {"highest_sine", station.highest},
-                           {"turn", station.turn},
-                           {"step", station.step},
-                           {"farthest", station.farthest}});
-  }
-  return list_of_all;
-}
-
 // null where it is not known.
 Json cause_json(const LoopCause& cause) {
   if (cause.name().empty()) return {};

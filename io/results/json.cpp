@@ -66,6 +66,22 @@ Json strays_json(const Strays& strays) {
           {"rest", corners(strays.rest)}};
 }
 
+Json stations_json(const std::vector<StationSummary>& stations) {
+  Json list_of_all = Json::array();
+  for (const StationSummary& station : stations) {
+    list_of_all.push_back({{"name", station.name},
+                           {"place", list(station.place)},
+                           {"points", station.points},
+                           {"certainty", station.certainty},
+                           {"lowest_sine", station.lowest},
+                           {"highest_sine", station.highest},
+                           {"turn", station.turn},
+                           {"step", station.step},
+                           {"farthest", station.farthest}});
+  }
+  return list_of_all;
+}
+
 Json counts_of(const FilteredOut& filtered) {
   return {{"origin", filtered.origin},
           {"bounds", filtered.bounds},

@@ -34,6 +34,7 @@ Json read_json(const std::filesystem::path& file, const Json::parser_callback_t&
 
 Json list(const Eigen::Vector3d& vector);
 Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty
+Json stations_json(const std::vector<StationSummary>& stations);
 Json strays_json(const Strays& strays);
 Json counts_of(const FilteredOut& filtered);  // by filter
 

@@ -17,6 +17,11 @@ struct LoopMeasure {
   bool is_count = false;  // a whole number
 };
 
+template <Cause cause>
+double share_of(const LoopMeasures& loop) {
+  return loop.cause.share(cause);
+}
+
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"points", "points", [](const LoopMeasures& loop) { return static_cast<double>(loop.points); }, true},
     {"confidence", "confidence", [](const LoopMeasures& loop) { return loop.track.confidence; }},
@@ -28,6 +33,11 @@ inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"diameter", "diameter", [](const LoopMeasures& loop) { return loop.diameter; }},
     {"planarity", "planarity", [](const LoopMeasures& loop) { return loop.planarity; }},
     {"mean_probability", "mean_prob", [](const LoopMeasures& loop) { return loop.mean_probability; }},
+    {"hidden", "hidden", share_of<Cause::kHidden>},
+    {"opening", "opening", share_of<Cause::kOpening>},
+    {"out_of_view", "out_view", share_of<Cause::kOutOfView>},
+    {"no_return", "no_return", share_of<Cause::kNoReturn>},
+    {"filtered", "filtered", share_of<Cause::kFiltered>},
 });
 
 }  // namespace lacuna::io

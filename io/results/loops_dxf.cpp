@@ -106,6 +106,10 @@ void put_measures(DxfText& dxf, std::size_t id, const LoopMeasures& loop) {
   dxf.put_whole(1071, id);
   dxf.put(1000, "kind");
   dxf.put(1000, name_of(loop.kind));
+  if (!loop.cause.name().empty()) {
+    dxf.put(1000, "cause");
+    dxf.put(1000, loop.cause.name());
+  }
   for (const LoopMeasure& measure : kLoopMeasures) {
     const double value = measure.of(loop);
     if (!std::isfinite(value)) continue;

@@ -152,6 +152,7 @@ class LoopsWriter {
     layers_.push_back({layer, is_of_polygons});
     add_field("id", OFTInteger64);
     add_field("kind", OFTString);
+    add_field("cause", OFTString);
     add_field("unit", OFTString);
     for (const LoopMeasure& measure : kLoopMeasures)
       add_field(name_of_field(measure), measure.is_count ? OFTInteger64 : OFTReal);
@@ -180,6 +181,8 @@ class LoopsWriter {
     int field = 0;
     feature.SetField(field++, static_cast<GIntBig>(id));
     feature.SetField(field++, lacuna::name_of(loop.measures.kind));
+    const std::string cause(loop.measures.cause.name());
+    cause.empty() ? feature.SetFieldNull(field++) : feature.SetField(field++, cause.c_str());
     feature.SetField(field++, task_.unit.c_str());
     for (const LoopMeasure& measure : kLoopMeasures) {
       const double value = measure.of(loop.measures);

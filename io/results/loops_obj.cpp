@@ -4,6 +4,7 @@
 #include "io/results/digits.hpp"
 #include "io/results/loop_measures.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace lacuna::io {
@@ -12,7 +13,9 @@ namespace {
 std::string head_of(std::size_t id, const LoopMeasures& loop) {
   const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
   std::string text = "\n";
+  if (!loop.cause.name().empty()) text.append("# cause ").append(loop.cause.name()).append("\n");
   for (const LoopMeasure& measure : kLoopMeasures) {
+    if (!std::isfinite(measure.of(loop))) continue;
     text += "# " + std::string(measure.name) + " ";
     append_plain(text, measure.of(loop));
     text += "\n";

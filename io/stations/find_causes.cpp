@@ -155,17 +155,7 @@ double tolerance_of(const LoopMeasures& loop) {
 void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, Detection& detection) {
   const TaskArena arena(static_cast<std::size_t>(run.threads));
   const std::span<const StationView> views = stations.complete(scan, arena);
-  for (const StationView& view : views) {
-    detection.stations.push_back({.name = view.station.name,
-                                  .place = view.station.place,
-                                  .points = view.points,
-                                  .certainty = view.certainty(),
-                                  .lowest = view.field.lowest(),
-                                  .highest = view.field.highest(),
-                                  .turn = view.field.turn(),
-                                  .step = view.step,
-                                  .farthest = view.farthest});
-  }
+  for (const StationView& view : views) detection.stations.push_back(summary_of(view));
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     LoopMeasures& loop = detection.loops[i];
     if (loop.kind == LoopKind::kHole && !views.empty())

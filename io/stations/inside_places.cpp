@@ -13,18 +13,6 @@ namespace {
 constexpr std::uint64_t kMostCorners = 64;  // of a loop that is triangulated
 constexpr double kPlaces = 256;             // of a hole, at least
 
-// Corners at even numbers of points.
-std::vector<Eigen::Vector3d> corners_of(const Detection& detection, std::size_t loop) {
-  const std::uint64_t points = detection.loops[loop].points;
-  const std::uint64_t count = std::min(points, kMostCorners);
-  std::vector<Eigen::Vector3d> corners;
-  std::uint64_t at = 0;
-  detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
-    if (corners.size() < count && at++ >= corners.size() * points / count) corners.push_back(point.position);
-  });
-  return corners;
-}
-
 // Spread evenly over the triangles, by the sequence R2 (Roberts, 2018).
 std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
   const double spacing = area(mesh) / kPlaces;
@@ -52,8 +40,20 @@ std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
 }  // namespace
 
 std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop) {
-  const std::vector<Eigen::Vector3d> corners = corners_of(detection, loop);
-  return corners.size() < 3 ? std::vector<InsidePlace>() : places_inside(triangulate_polygon(corners));
+  const std::uint64_t points = detection.loops[loop].points, count = std::min(points, kMostCorners);
+  std::vector<Eigen::Vector3d> corners;
+  std::uint64_t at = 0;
+  detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
+    if (corners.size() < count && at++ >= corners.size() * points / count) corners.push_back(point.position);
+  });
+  return inside_places(corners);
+}
+
+std::vector<InsidePlace> inside_places(std::span<const Eigen::Vector3d> loop) {
+  const std::size_t count = std::min<std::size_t>(loop.size(), kMostCorners);
+  std::vector<Eigen::Vector3d> corners;
+  for (std::size_t i = 0; i < count; ++i) corners.push_back(loop[i * loop.size() / count]);
+  return count < 3 ? std::vector<InsidePlace>() : places_inside(triangulate_polygon(corners));
 }
 
 }  // namespace lacuna::io

@@ -88,6 +88,18 @@ double StationView::certainty() const {
   return points == 0 ? 0 : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
 }
 
+StationSummary summary_of(const StationView& view) {
+  return {.name = view.station.name,
+          .place = view.station.place,
+          .points = view.points,
+          .certainty = view.certainty(),
+          .lowest = view.field.lowest(),
+          .highest = view.field.highest(),
+          .turn = view.field.turn(),
+          .step = view.step,
+          .farthest = view.farthest};
+}
+
 StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
                            std::filesystem::path folder)
     : folder_(std::move(folder)), files_(scan.files()), are_stated_(!stated.empty()) {

@@ -2,6 +2,7 @@
 // What each station measured in each direction, collected while the scan is read for the run.
 #pragma once
 
+#include "engine/model/cause.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/file_scan.hpp"
 #include "io/stations/range_image.hpp"
@@ -52,6 +53,8 @@ struct StationView {
   double certainty() const;
   static constexpr double kLeastCertain = 0.75;
 };
+
+StationSummary summary_of(const StationView& view);
 
 // Stations are those that a file states, else the ones that the scans have: E57 and PTX, PCD with a
 // viewpoint, and files with a pose. Each image is a file of 25 MiB in the folder.

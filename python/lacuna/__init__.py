@@ -14,10 +14,11 @@ docs/python.md has all of it with examples.
 
 from ._core import Error, version as __version__
 from .files import compare, evaluate, load, stream
-from .holes import Holes, Loop, Loops, LacunaWarning
+from .holes import CAUSES, Holes, Loop, Loops, LacunaWarning
 from .run import detect, find_holes, parameters
 
 __all__ = [
+    "CAUSES",
     "Error",
     "Holes",
     "LacunaWarning",

@@ -17,7 +17,7 @@ from typing import Any, Union
 import numpy as np
 
 from . import _core
-from .holes import NUMBERS, Holes
+from .holes import CAUSES, NUMBERS, Holes
 
 Result = Union[Holes, str, "os.PathLike[str]"]
 
@@ -148,10 +148,22 @@ def _arrays_of(loops: list[dict[str, Any]]) -> dict[str, np.ndarray]:
         "points": np.array(counts, np.int64),
         **{name: numbers(name) for name in NUMBERS},
         **{name: vectors(name) for name in ("centroid", "normal")},
+        **_causes_of([loop.get("cause") for loop in loops]),
         "offsets": np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
         "ids": np.array([i for loop in loops for i in loop["ids"]], np.int64),
         "xyz": np.concatenate(xyz) if xyz else np.empty((0, 3)),
     }
+
+
+def _causes_of(causes: list[Any]) -> dict[str, np.ndarray]:
+    shares = np.full((len(causes), len(CAUSES)), np.nan)
+    hidden_by = np.full((len(causes), 3), np.nan)
+    for i, cause in enumerate(causes):
+        if cause is not None:
+            shares[i] = [cause["shares"][name] for name in CAUSES]
+            if cause["hidden_by"] is not None:
+                hidden_by[i] = cause["hidden_by"]["place"]
+    return {"cause_shares": shares, "hidden_by": hidden_by}
 
 
 _SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance", "surface_area")

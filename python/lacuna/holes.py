@@ -30,6 +30,8 @@ MEASURES = (
     "first_scale",
     "last_scale",
 )
+# Why no scanner sampled the inside of a hole, in the order of `cause_shares`.
+CAUSES = ("hidden", "opening", "out_of_view", "no_return", "filtered")
 # Those that are no counts.
 NUMBERS = tuple(name for name in MEASURES if name != "points")
 
@@ -61,6 +63,13 @@ class Loop:
     persistence: float  # octaves from the spacing to the last scale at which it is found
     first_scale: float
     last_scale: float
+    cause_shares: np.ndarray  # of its area, in the order of `lacuna.CAUSES`; NaN where no station is known
+    hidden_by: np.ndarray  # a point that hides it; NaN where nothing does
+
+    @property
+    def cause(self) -> Optional[str]:
+        """The cause with the largest share; None where no station is known."""
+        return None if np.isnan(self.cause_shares[0]) else CAUSES[int(np.argmax(self.cause_shares))]
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -111,6 +120,8 @@ class Loops(Sequence):
             xyz=a["xyz"][of_loop],
             centroid=a["centroid"][i],
             normal=a["normal"][i],
+            cause_shares=a["cause_shares"][i],
+            hidden_by=a["hidden_by"][i],
             **scalars,
         )
 
@@ -203,6 +214,7 @@ class Holes:
         frame = pandas.DataFrame({"kind": np.where(loops.is_outer, "outer", "hole")})
         for name in MEASURES:
             frame[name] = getattr(loops, name)
+        frame["cause"] = [loop.cause for loop in loops]
         for vector in ("centroid", "normal"):
             for axis, letter in enumerate("xyz"):
                 frame[f"{vector}_{letter}"] = getattr(loops, vector)[:, axis]

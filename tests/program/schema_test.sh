@@ -17,11 +17,16 @@ printf '%s\n' "$work/torus.ply" "$work/few.xyz pose=5 0 0 0 0 0 1" >"$work/list"
 "$program" detect "$work/few.xyz" --out "$work/none" --quiet 2>/dev/null
 "$program" detect "$work/torus.ply" --out "$work/local" --quiet --local-coordinates
 
+"$program" synth scan "$work/room.ply" --points 60000 >/dev/null
+"$program" detect "$work/room.ply" --out "$work/room" --quiet --stations "$work/room.stations.txt"
+"$program" detect "$work/room.ply" --out "$work/room_tiled" --quiet --stations "$work/room.stations.txt" --threads 3 --tile-points 900 --memory-limit 100MiB
+cmp "$work/room/holes.json" "$work/room_tiled/holes.json"
+
 for file in holes.json holes.csv loops.ply boundary.ply; do
   cmp "$work/one/$file" "$work/tiled/$file"
 done
 # Debian's own python3, since python3-jsonschema is a package of it.
-/usr/bin/python3 - docs/holes.schema.json "$work"/{one,two,none,local}/holes.json <<'END'
+/usr/bin/python3 - docs/holes.schema.json "$work"/{one,two,none,local,room}/holes.json <<'END'
 import csv, json, sys
 from pathlib import Path
 import jsonschema
@@ -32,7 +37,9 @@ validator = jsonschema.Draft202012Validator(schema)
 reports = [json.loads(Path(name).read_text(encoding="utf-8")) for name in sys.argv[2:]]
 for report in reports:
     validator.validate(report)
-one, two, none, local = reports
+one, two, none, local, room = reports
+assert [station["name"] for station in room["stations"]] == ["station_0", "station_1"]
+assert any(loop["cause"] and loop["cause"]["hidden_by"] for loop in room["loops"])
 assert len(one["loops"]) == 3 and not none["loops"]
 assert all(len(loop["ids"]) == len(loop["coordinates"]) == loop["points"] for loop in one["loops"])
 assert [loop["ids"] for loop in two["loops"]] == [loop["ids"] for loop in one["loops"]]

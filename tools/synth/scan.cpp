@@ -34,6 +34,8 @@ void check(const ScanOptions& o) {
       "--field-of-view: needs -90 <= lowest < highest <= 90 degrees, 1 degree apart");
   require(o.station_factor >= 0.01 && o.station_factor <= 100, "--station-factor: must be 0.01 to 100");
   require(o.sweeps >= 1 && o.sweeps <= 8, "--sweeps: must be 1 to 8");
+  require(o.places.size() % 3 == 0 && o.places.size() <= 300,
+          "--place: x y z are needed, of at most 100 stations");
   for (const double offset : o.translate) {
     require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 metres");
     require(o.coordinates == Coordinates::kDouble || std::fabs(offset) <= 10'000,

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// next_stations: where to stand next, so that most of what is hidden will be seen.
+//
+// Idea: each place on the floor sees a part of the hidden area. The places that together see most are chosen
+// one after the other, each with the most that those before it do not see. They reach at least 63 % of what
+// as many best places would (1 - 1/e: Nemhauser, Wolsey, Fisher, Mathematical Programming 1978).
+#pragma once
+
+#include "io/stations/inside_places.hpp"
+#include "io/stations/obstacles.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+struct SightLimits {
+  double range = 0;         // how far a scanner measures
+  double least_cosine = 0;  // of the angle of incidence
+};
+
+struct NextStation {
+  Eigen::Vector3d eye;
+  double area = 0;  // that it sees, and that none before it does
+};
+
+// At most `most` of the eyes, until the next one would see less than a hundredth of all hidden area. Of equal
+// ones the first counts. Cost: a ray for each eye and hidden place, in the arena of the calling thread;
+// greedy choice is linear in them for each station.
+std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
+                                         std::span<const Eigen::Vector3d> eyes, const Obstacles& obstacles,
+                                         const SightLimits& limits, std::size_t most);
+
+struct FloorLimits {
+  double height = 1.6;   // of an eye over the floor
+  double grid = 0;       // distance of places; 0: half the height, and so far that there are at most 500
+  double clearance = 0;  // free space around the axis of an eye
+};
+
+// Eyes over the scanned floor: level points that are the lowest near them, with free space above up to the
+// eye. In ascending y, then x. `normals`: one for each point, of any side.
+std::vector<Eigen::Vector3d> eyes_over_floor(std::span<const Eigen::Vector3d> points,
+                                             std::span<const Eigen::Vector3f> normals,
+                                             const Obstacles& obstacles, const FloorLimits& limits);
+
+}  // namespace lacuna::io

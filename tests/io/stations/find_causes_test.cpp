@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/find_causes.hpp"
+
+#include "engine/pipeline.hpp"
+#include "tests/io/stations/true_causes.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tools/synth/scan.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+// Holes of a synthetic scan with their causes, against those of its scene.
+struct Found {
+  Found(synth::SceneKind scene, std::uint32_t stations, std::uint64_t points, InputConfig input = {}) {
+    options.scene = scene;
+    options.stations = stations;
+    options.points = points;
+    options.out = folder / "scan.ply";
+    synth::write_scan(options);
+    Config config;
+    config.input = std::move(input);
+    config.output.stations = (folder / "scan.stations.txt").string();
+    FileScan scan({options.out}, config.input);
+    views = watch_stations(scan, config.output, folder.path());
+    NoProgress silence;
+    detection = detect(scan, config, folder.path(), silence);
+    find_causes(*views, scan, config.run, *detection);
+  }
+
+  // Shares of the area of holes for which both have the same cause. Places off all surfaces do not count.
+  double agreement() const {
+    const synth::Scanner scanner(options, synth::make_scene(options.scene, options.seed));
+    double same = 0, all = 0;
+    for (std::size_t i = 0; i < detection->loops.size(); ++i) {
+      if (detection->loops[i].kind != LoopKind::kHole) continue;
+      std::vector<InsidePlace> places = inside_places(*detection, i);
+      std::erase_if(places, [&](const InsidePlace& place) { return !test::is_on_surface(place, scanner); });
+      const LoopCause found = cause_of(places, views->views(), tolerance_of(detection->loops[i]));
+      const auto truth = test::true_shares(places, scanner);
+      if (!found.main() || *std::max_element(truth.begin(), truth.end()) == 0) continue;
+      for (const InsidePlace& place : places) {
+        all += place.area;
+        for (std::size_t cause = 0; cause < kCauses; ++cause)
+          same += place.area * std::min(truth[cause], found.shares[cause]);
+      }
+    }
+    return same / all;
+  }
+
+  double area_by(Cause cause) const {
+    double area = 0;
+    for (const LoopMeasures& loop : detection->loops)
+      if (loop.cause.main() == cause) area += loop.area;
+    return area;
+  }
+
+  test::ScratchFolder folder;
+  synth::ScanOptions options;
+  std::unique_ptr<StationViews> views;
+  std::unique_ptr<Detection> detection;
+};
+
+}  // namespace
+
+// Figures of 500,000 points are in docs/stations.md.
+TEST_CASE("causes of the holes in a room are those of its scene") {
+  const Found found(synth::SceneKind::kRoom, 1, 150'000);
+  CHECK(found.agreement() > 0.9);
+  CHECK(found.detection->stations.size() == 1);
+  CHECK(found.detection->stations[0].certainty > 0.98);
+  CHECK(found.detection->stations[0].lowest == Approx(-std::sqrt(0.75)).margin(0.01));  // -60 degrees
+  CHECK(found.area_by(Cause::kOpening) > 4);                                            // two windows, a door
+  CHECK(found.area_by(Cause::kOutOfView) > 1);                                          // the tripod
+  for (const LoopMeasures& loop : found.detection->loops) {
+    CHECK(loop.cause.main().has_value() <= (loop.kind == LoopKind::kHole));
+    if (!loop.cause.main()) continue;
+    CHECK(std::accumulate(loop.cause.shares.begin(), loop.cause.shares.end(), 0.0) == Approx(1));
+    CHECK((loop.cause.share(Cause::kHidden) > 0) == loop.cause.hidden_by.allFinite());
+  }
+}
+
+TEST_CASE("what a filter has left out is the cause of the hole that it leaves") {
+  InputConfig input;
+  input.leave_out = {5, 1.5, -0.1, 6, 2.5, 0.1};  // a square metre of the floor
+  const Found found(synth::SceneKind::kRoom, 1, 150'000, input);
+  CHECK(found.area_by(Cause::kFiltered) == Approx(1).epsilon(0.2));
+}
+
+TEST_CASE("a station in a wrong place has little certainty, and no hole has a cause") {
+  const Found found(synth::SceneKind::kRoom, 1, 60'000);
+  const test::ScratchFolder folder;
+  FileScan scan({found.options.out}, {});
+  OutputConfig config;
+  config.stations = folder.write("wrong.txt", "wrong 30 40 50\n");
+  StationViews views(scan, config.stations, folder.path());
+  find_causes(views, scan, {}, *found.detection);
+  CHECK(found.detection->stations.back().certainty < StationView::kLeastCertain);
+}
+
+TEST_CASE("causes of holes are those of the scenes", "[.slow]") {
+  for (const auto scene : {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall,
+                           synth::SceneKind::kVault, synth::SceneKind::kStreet, synth::SceneKind::kPlant})
+    for (const std::uint32_t stations : {1, 2, 3, 4})
+      CHECK(Found(scene, stations, 500'000).agreement() > 0.78);
+}
+
+}  // namespace lacuna::io

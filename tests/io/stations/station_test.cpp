@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/station.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/stations/range_image.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+using Catch::Matchers::Contains;
+
+const std::vector<std::filesystem::path> kFiles = {"survey/a.laz", "survey/b.laz", "old/a.laz"};
+
+std::vector<Station> read(const test::ScratchFolder& folder, const std::string& text) {
+  return read_stations(folder.write("stations.txt", text), kFiles);
+}
+
+}  // namespace
+
+TEST_CASE("a file of stations has names, places and what each has measured") {
+  const test::ScratchFolder folder;
+  const auto stations = read(folder,
+                             "name;x;y;z;file\n"
+                             "# a comment\n"
+                             "north; 1; -2.5; 3; b.laz\n"
+                             "south 4 5 6 old/a.laz 7\r\n"
+                             "tower,7,8,9,12\n");
+  REQUIRE(stations.size() == 3);
+  CHECK(stations[0].name == "north");
+  CHECK(stations[0].place == Eigen::Vector3d(1, -2.5, 3));
+  CHECK(stations[0].file == std::optional<std::size_t>(1));
+  CHECK_FALSE(stations[0].source);
+  CHECK(stations[1].file == std::optional<std::size_t>(2));
+  CHECK(stations[1].source == std::optional<std::uint32_t>(7));
+  CHECK_FALSE(stations[2].file);
+  CHECK(stations[2].source == std::optional<std::uint32_t>(12));
+  CHECK(read(folder, "only 1 2 3\n").size() == 1);
+}
+
+TEST_CASE("an error in a file of stations names the line and what is needed") {
+  const test::ScratchFolder folder;
+  const auto fails = [&](const std::string& text, const std::string& reason) {
+    CHECK_THROWS_WITH(read(folder, text), Contains(reason));
+  };
+  fails("", "names no station");
+  fails("a 1 2\n", "line 1");
+  fails("a 1 2 x\n", "is not a number");
+  fails("a 1 2 nan\n", "is not a number");
+  fails("a 1 2 3 c.laz\n", "c.laz is not the name of a scan");
+  fails("a 1 2 3 a.laz\n", "a.laz is the name of several scans");
+  fails("a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station");
+  fails("a 1 2 3 4 5\n", "is no number of a source");
+}
+
+TEST_CASE("a range image keeps the nearest range of each direction, and fills gaps as far as wanted") {
+  const test::ScratchFolder folder;
+  RangeImage image(folder.path());
+  for (std::size_t cell = 0; cell < RangeImage::kCells; cell += 9'973) {
+    const Eigen::Vector3d direction = RangeImage::direction_of(cell);
+    CHECK(direction.norm() == Approx(1));
+    CHECK(image.at(direction) == 0);
+    CHECK(image.put(3 * direction, 5) == 0);
+    CHECK(image.put(direction, 7) == 5);
+    CHECK(image.put(direction, 4) == 5);
+    CHECK(image.at(2 * direction) == 4);
+    CHECK(image.cells()[cell] == 4);
+  }
+  RangeImage other(folder.path());
+  const std::size_t middle = (2 * RangeImage::kEdge + 500) * RangeImage::kEdge + 500;  // of the third face
+  other.put(RangeImage::direction_of(middle), 2);
+  other.put(RangeImage::direction_of(middle + 10), 3);
+  other.fill(4);
+  CHECK(other.cells()[middle + 4] == 2);
+  CHECK(other.cells()[middle - 4 * RangeImage::kEdge] == 2);
+  CHECK(other.cells()[middle + 5] == 0);
+  CHECK(other.cells()[middle + 6] == 3);
+  CHECK(other.cells()[middle + 3 + 3 * RangeImage::kEdge] == 0);  // 4.2 cells away
+}
+
+}  // namespace lacuna::io

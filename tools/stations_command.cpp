@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stations_command.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
+#include "io/length_unit.hpp"
+#include "io/report/scene.hpp"
+#include "io/results/output_set.hpp"
+#include "io/stations/next_stations.hpp"
+#include "tools/measures_text.hpp"
+#include "tools/summary.hpp"
+#include "tools/value_options.hpp"
+#include "tools/visible_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMark =
+    "{\n  \"type\": \"FeatureCollection\",\n  \"name\": \"lacuna_next_stations\"";
+constexpr const char* kFile = "next_stations.geojson";
+
+struct StationsArguments {
+  fs::path folder;
+  std::size_t count = 5;
+  double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0: chosen
+  bool overwrite = false;
+};
+
+double metres_of(const std::string& unit) {
+  for (const double metres : {1000.0, 0.01, 0.001, 0.3048, 1200.0 / 3937, 0.0254, 0.9144})
+    if (!unit.empty() && unit_of_metres(metres) == unit) return metres;
+  return 1;
+}
+
+// Positions of the sample and of hidden places, in the coordinates of the scan.
+struct HiddenScan {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<InsidePlace> hidden;
+  double area = 0;
+};
+
+// What another station can see counts: shares that are hidden or out of view. Without causes, all of it.
+double share_to_see(const LoopCause& cause) {
+  return cause.main() ? cause.share(Cause::kHidden) + cause.share(Cause::kOutOfView) : 1;
+}
+
+HiddenScan hidden_in(const Scene& scene) {
+  HiddenScan found;
+  const auto place = [&](const Eigen::Vector3f& position) {
+    return Eigen::Vector3d(scene.origin + position.cast<double>());
+  };
+  for (const Eigen::Vector3f& position : scene.points.positions) found.points.push_back(place(position));
+  found.normals = scene.points.normals;
+  std::vector<Eigen::Vector3d> loop;
+  for (std::size_t i = 0; i < scene.loops.ids.size(); ++i) {
+    const LoopMeasures& measures = scene.loops.measures[i];
+    const double share = share_to_see(measures.cause);
+    if (measures.kind != LoopKind::kHole || !(share > 0)) continue;
+    loop.clear();
+    for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
+      loop.push_back(place(scene.loops.vertices[v]));
+    for (InsidePlace& inside : inside_places(loop)) {
+      inside.area *= share;
+      found.area += inside.area;
+      found.hidden.push_back(inside);
+    }
+  }
+  return found;
+}
+
+// Every so many places stand for the others, so that rays take seconds.
+void thin(std::vector<InsidePlace>& places) {
+  constexpr std::size_t kMost = 6000;
+  const std::size_t step = (places.size() + kMost - 1) / kMost;
+  if (step < 2) return;
+  std::vector<InsidePlace> kept;
+  for (std::size_t i = 0; i < places.size(); i += step) {
+    kept.push_back(places[i]);
+    for (std::size_t j = i + 1; j < std::min(i + step, places.size()); ++j)
+      kept.back().area += places[j].area;
+  }
+  places.swap(kept);
+}
+
+double farthest_of(const Json& stations) {
+  double farthest = 0;
+  for (const Json& station : stations) farthest = std::max(farthest, station.at("farthest").get<double>());
+  return farthest;
+}
+
+void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
+                  std::span<const NextStation> chosen, double hidden) {
+  Json json = {{"type", "FeatureCollection"}, {"name", "lacuna_next_stations"}};
+  json["crs_of_coordinates"] = scene.holes.at("crs");
+  json["hidden_area"] = hidden;
+  json["features"] = Json::array();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    json["features"].push_back(
+        {{"type", "Feature"},
+         {"geometry", {{"type", "Point"}, {"coordinates", list(chosen[i].eye)}}},
+         {"properties", {{"rank", i + 1}, {"area", chosen[i].area}, {"share", chosen[i].area / hidden}}}});
+  }
+  OutputSet set(overwrite);
+  set.add(file, kMark).write(print(json, 2) + "\n");
+  set.commit();
+}
+
+void run_stations(const StationsArguments& arguments) {
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  const fs::path file = arguments.folder / kFile;
+  check_output(file, kMark, overwrite);
+  const Scene scene = read_scene(arguments.folder);
+  if (scene.points.positions.empty())
+    throw Error(
+        arguments.folder.string() +
+        ": has no sample.ply, which rays are checked against; a run without --sample-points 0 writes it");
+  HiddenScan scan = hidden_in(scene);
+  thin(scan.hidden);
+  const std::string unit = scene.holes.at("unit").get<std::string>();
+  const double metre = 1 / metres_of(unit);
+  const Obstacles obstacles(scan.points, 2.0 * static_cast<double>(scene.points.spacing));
+  const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : 1.6 * metre,
+                          .grid = arguments.grid,
+                          .clearance = 0.3 * metre};
+  const double farthest = farthest_of(scene.holes.value("stations", Json::array()));
+  const SightLimits limits{.range = arguments.range > 0 ? arguments.range
+                                    : farthest > 0      ? farthest
+                                                        : 30 * metre,
+                           .least_cosine = std::sin(arguments.incidence * std::numbers::pi / 180)};
+  const std::vector<Eigen::Vector3d> eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
+  const std::vector<NextStation> chosen =
+      choose_stations(scan.hidden, eyes, obstacles, limits, arguments.count);
+  write_places(file, overwrite, scene, chosen, scan.area);
+
+  std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size())
+            << " places on the floor were tried\n";
+  if (!chosen.empty()) {
+    std::vector<std::vector<std::string>> rows = {
+        {"next station", "place of the scanner", "sees", "of what is hidden", "with those before"}};
+    double sum = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      sum += chosen[i].area;
+      const auto percent = [&](double area) { return print_area(100 * area / scan.area, "") + " %"; };
+      rows.push_back({std::to_string(i + 1), print_place(chosen[i].eye, scene.edge),
+                      print_area(chosen[i].area, unit), percent(chosen[i].area), percent(sum)});
+    }
+    std::cout << "\n" << print_table(rows) << "\n";
+  }
+  std::cout << "written: " << visible(file.string()) << "\n";
+}
+
+}  // namespace
+
+void add_stations_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("stations", "Say where a scanner should stand next, to see what is hidden");
+  const auto arguments = std::make_shared<StationsArguments>();
+  command->add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--count", arguments->count, "How many places at most")
+      ->check(whole_number())
+      ->capture_default_str();
+  const auto length = [&](const char* name, double& value, const char* help) {
+    command->add_option(name, value, help)->check(real_number())->type_name("LENGTH")->capture_default_str();
+  };
+  length("--height", arguments->height,
+         "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
+  length("--range", arguments->range, "How far it measures; 0: as far as the scan's stations, else 30 m");
+  length("--grid", arguments->grid, "Distance of the places that are tried; 0: as many as take seconds");
+  command->add_option("--incidence", arguments->incidence, "Degrees between a ray and a surface, at least")
+      ->check(real_number())
+      ->type_name("DEGREES")
+      ->capture_default_str();
+  command->add_flag("--overwrite", arguments->overwrite, "Replace a file that Lacuna did not write, too");
+  command->callback([arguments] { run_stations(*arguments); });
+}
+
+}  // namespace lacuna::tools
