@@ -177,6 +177,8 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, py
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection = detect(*found->scan, config, found->scratch->path(), watched);
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
+        std::ranges::copy(tools::station_warnings(found->detection->stations),
+                          std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),
                           std::back_inserter(found->warnings));
       },

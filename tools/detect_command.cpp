@@ -187,6 +187,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
     end_update(workspace->folder.path());
   }
   progress->end();
+  for (const std::string& warning : station_warnings(detection->stations)) spdlog::warn("{}", warning);
   for (const std::string& warning : scan_warnings(scan, detection->summary, config))
     spdlog::warn("{}", warning);
 

@@ -6,6 +6,7 @@
 #include "io/crs/crs_text.hpp"
 #include "io/crs/stated_crs.hpp"
 #include "io/results/points.hpp"
+#include "io/stations/station_views.hpp"
 #include "tools/summary.hpp"
 #include "tools/visible_text.hpp"
 
@@ -222,6 +223,19 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   if (config.output.points && not_finite > 0 && is_las) {
     warnings.push_back(points_file(scan, config.output) + " is without the " + print_count(not_finite) +
                        " points that have no finite position, which LAS cannot hold; ids count them");
+  }
+  return warnings;
+}
+
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
+  std::vector<std::string> warnings;
+  for (const StationSummary& station : stations) {
+    if (station.certainty >= StationView::kLeastCertain) continue;
+    std::ostringstream message;
+    message.precision(3);
+    message << "station " << visible(station.name) << " does not count: at most " << 100 * station.certainty
+            << " % of its points can have been seen from there, as rays end at the first surface";
+    warnings.push_back(message.str());
   }
   return warnings;
 }

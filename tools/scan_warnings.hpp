@@ -32,6 +32,9 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 // How many points lie far from all others, where, and which option leaves them out; empty without any.
 std::string stray_warning(const Strays& strays, double resolution);
 
+// Stations that do not count, as their points cannot all have been seen from there.
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations);
+
 // After a run: strays, too few points for their neighbourhoods, coordinates too coarse for their spacing, and
 // rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,

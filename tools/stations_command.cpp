@@ -133,7 +133,7 @@ void run_stations(const StationsArguments& arguments) {
   thin(scan.hidden);
   const std::string unit = scene.holes.at("unit").get<std::string>();
   const double metre = 1 / metres_of(unit);
-  const Obstacles obstacles(scan.points, 2.0 * static_cast<double>(scene.points.spacing));
+  const Obstacles obstacles(scan.points, 3.0 * static_cast<double>(scene.points.spacing));
   const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : 1.6 * metre,
                           .grid = arguments.grid,
                           .clearance = 0.3 * metre};

@@ -158,8 +158,10 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, D
   for (const StationView& view : views) detection.stations.push_back(summary_of(view));
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     LoopMeasures& loop = detection.loops[i];
-    if (loop.kind == LoopKind::kHole && !views.empty())
-      loop.cause = cause_of(inside_places(detection, i), views, tolerance_of(loop));
+    if (loop.kind != LoopKind::kHole || views.empty()) return;
+    const std::vector<InsidePlace> places = inside_places(detection, i);
+    loop.cause = cause_of(places, views, tolerance_of(loop));
+    if (!loop.cause.main()) loop.cause = cause_of(places, views, 0);  // a coarse loop near all of the surface
   });
 }
 

@@ -51,7 +51,7 @@ struct StationView {
   // A single sweep has one range in most directions. The share of points for which this holds; below
   // `kLeastCertain` the station did not measure them.
   double certainty() const;
-  static constexpr double kLeastCertain = 0.75;
+  static constexpr double kLeastCertain = 0.98;
 };
 
 StationSummary summary_of(const StationView& view);

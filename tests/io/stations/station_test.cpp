@@ -52,7 +52,9 @@ TEST_CASE("an error in a file of stations names the line and what is needed") {
   fails("a 1 2 3 c.laz\n", "c.laz is not the name of a scan");
   fails("a 1 2 3 a.laz\n", "a.laz is the name of several scans");
   fails("a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station");
-  fails("a 1 2 3 4 5\n", "is no number of a source");
+  fails("a 1 2 3 4 5\n", "4 is not the name of a scan");
+  fails("a 1 2 3 b.laz 5 6\n", "are needed");
+  fails("a 1 2 3 b.laz a.laz\n", "is no number of a source");
 }
 
 TEST_CASE("a range image keeps the nearest range of each direction, and fills gaps as far as wanted") {

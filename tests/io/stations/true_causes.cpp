@@ -66,6 +66,16 @@ bool is_on_surface(const io::InsidePlace& place, const Scanner& scanner) {
   return on_surface(scanner.scene(), place).has_value();
 }
 
+double area_seen_by_last(std::span<const io::InsidePlace> places, const Scanner& scanner) {
+  const Visibility last = Visibility(scanner).only(static_cast<std::uint32_t>(scanner.stations().size() - 1));
+  double area = 0;
+  for (const io::InsidePlace& place : places) {
+    const std::optional<SurfacePlace> surface = on_surface(scanner.scene(), place);
+    if (surface && last.any(*surface)) area += place.area;
+  }
+  return area;
+}
+
 std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places, const Scanner& scanner) {
   std::array<double, kCauses> shares{};
   double all = 0;

@@ -15,6 +15,9 @@ namespace lacuna::test {
 std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places,
                                         const synth::Scanner& scanner);
 
+// The area of places on surfaces that the last station of the scanner samples.
+double area_seen_by_last(std::span<const io::InsidePlace> places, const synth::Scanner& scanner);
+
 bool is_on_surface(const io::InsidePlace& place, const synth::Scanner& scanner);
 
 }  // namespace lacuna::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/station_views.hpp"
+
+#include "tests/support/e57_encoder.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+using test::ScratchFolder;
+
+std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {}) {
+  const ScratchFolder folder;
+  FileScan scan(std::move(inputs), {});
+  const auto views = watch_stations(scan, config, folder.path());
+  std::vector<StationSummary> stations;
+  if (!views) return stations;
+  for (const StationView& view : views->complete(scan, TaskArena(2))) stations.push_back(summary_of(view));
+  return stations;
+}
+
+}  // namespace
+
+TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each") {
+  const ScratchFolder folder;
+  const auto scan = [](const std::string& pose, std::vector<double> x) {
+    return test::E57TestScan{
+        .fields = {test::e57_doubles("cartesianX", x), test::e57_doubles("cartesianY", x),
+                   test::e57_doubles("cartesianZ", x)},
+        .pose = pose};
+  };
+  const std::string file = folder.write(
+      "a.e57", test::encode_e57({scan(test::e57_pose({1, 0, 0, 0}, {1, 2, 3}), {1, 2, 3}), scan("", {4}),
+                                 scan(test::e57_pose({0, 1, 0, 0}, {7, 8, 9}), {1, 2})}));
+  const auto stations = stations_of({file});
+  REQUIRE(stations.size() == 2);  // one has no pose
+  CHECK(stations[0].name == "a 0");
+  CHECK(stations[0].place == Eigen::Vector3d(1, 2, 3));
+  CHECK(stations[0].points == 3);
+  CHECK(stations[1].name == "a 2");
+  CHECK(stations[1].place == Eigen::Vector3d(7, 8, 9));
+  CHECK(stations[1].points == 2);
+  CHECK(stations[1].farthest == Approx(2 * std::sqrt(3)));
+}
+
+TEST_CASE("a PCD file with a viewpoint, and a scan with a pose, are stations") {
+  const ScratchFolder folder;
+  const std::string pcd =
+      folder.write("a.pcd",
+                   "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+                   "VIEWPOINT 5 6 7 1 0 0 0\nPOINTS 2\nDATA ascii\n1 2 3\n4 5 6\n");
+  const std::string text = folder.write("b.xyz", "1 2 3\n");
+  const auto stations = stations_of({pcd, ScanInput(text, parse_pose("10 20 30 0 0 0 1"))});
+  REQUIRE(stations.size() == 2);
+  CHECK(stations[0].place == Eigen::Vector3d(5, 6, 7));
+  CHECK(stations[0].points == 2);
+  CHECK(stations[1].place == Eigen::Vector3d(10, 20, 30));
+  CHECK(stations_of({text}).empty());
+}
+
+TEST_CASE("a file of stations says which rows are whose, and rows of none count nowhere") {
+  const ScratchFolder folder;
+  const std::string a = folder.write("a.xyz", "x y z scan\n1 0 0 1\n2 0 0 2\n3 0 0 2\n4 0 0 9\n");
+  const std::string b = folder.write("b.xyz", "1 1 1\nnan 0 0\n2 2 2\n");
+  OutputConfig config;
+  config.stations =
+      folder.write("stations.txt", "one 0 0 5 1\ntwo 0 0 6 a.xyz 2\nbee 0 0 7 b.xyz\nnone 0 0 8 77\n");
+  const auto stations = stations_of({a, b}, config);
+  REQUIRE(stations.size() == 3);
+  CHECK(stations[0].points == 1);
+  CHECK(stations[1].points == 2);
+  CHECK(stations[2].name == "bee");
+  CHECK(stations[2].points == 2);
+}
+
+TEST_CASE("stations that a scan names and a file does not count no more") {
+  const ScratchFolder folder;
+  OutputConfig config;
+  config.stations = folder.write("stations.txt", "stated 0 0 5\n");
+  const auto stations =
+      stations_of({ScanInput(folder.write("b.xyz", "1 2 3\n"), parse_pose("10 20 30 0 0 0 1"))}, config);
+  REQUIRE(stations.size() == 1);
+  CHECK(stations[0].name == "stated");
+}
+
+}  // namespace lacuna::io
