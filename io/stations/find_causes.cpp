@@ -25,7 +25,7 @@ constexpr double kLevel = 0.7;     // cosine between the normal of a floor and t
 enum class Finding { kSurface, kLeftOut, kFarther, kNothing, kNearer, kOutOfView };
 constexpr std::size_t kFindings = 6;
 
-// Of several stations, the finding of the least rank counts; of equal ranks, that of the nearest station.
+// The finding of the least rank counts, among equal ones that of the nearest station.
 int rank_of(Finding finding) {
   return std::min(static_cast<int>(finding), static_cast<int>(Finding::kNearer));
 }

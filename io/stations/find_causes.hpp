@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // find_causes: why no station sampled the inside of a hole.
 //
-// Idea: each ray of a station says what is there up to its range, and beyond it nothing. So the directions
-// from a station to the inside of a hole have shorter ranges where something hides it, and longer ones, or
-// none, where rays pass.
+// Idea: each ray says that nothing lies before its end. So in the directions from a station to the inside of
+// a hole, ranges are shorter where something hides it. Where rays pass, they are longer, or there are none.
 #pragma once
 
 #include "engine/config.hpp"
@@ -26,7 +25,7 @@ inline constexpr double kLeastIncidence = 0.0523;
 //   4. no return: opening, or no return, see below
 //   5. a shorter range: hidden; or nothing, as the place is outside of its field of view, beyond its farthest
 //      point, or seen at less than kLeastIncidence: out of view
-// Of several stations, the first finding of this list counts, and in 5 that of the nearest station.
+// The first finding of this list counts among all stations, and in 5 that of the nearest one.
 //
 // A place without return is an opening where a twentieth of the hole has longer ranges. Else it is an opening
 // in a wall or a ceiling, and no return in a floor: rays that go down end on something. But where a part of

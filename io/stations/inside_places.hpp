@@ -21,7 +21,7 @@ struct InsidePlace {
 // between some 64 points of the loop. The sum of their areas is that of the triangles. None where the loop
 // has no area. Cost: 0.3 ms, and reading the loop.
 std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop);
-// Likewise for a loop with these points.
+// This one takes the points of a loop.
 std::vector<InsidePlace> inside_places(std::span<const Eigen::Vector3d> loop);
 
 }  // namespace lacuna::io

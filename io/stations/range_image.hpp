@@ -12,9 +12,9 @@
 
 namespace lacuna::io {
 
-// Faces are at right angles to the axes of the scan, so that directions need no arithmetic but divisions, and
-// have the same cell on every machine. A cell is 0.11 degrees wide in the middle of a face and 0.08 at its
-// sides. Its cells lie in a file that has no name any more: 25 MiB, of which only touched pages take memory.
+// Faces are at right angles to the axes of the scan. So directions need no arithmetic but divisions, and have
+// the same cell on every machine. A cell is 0.11 degrees wide in the middle of a face and 0.06 at its sides.
+// Its cells lie in a file that has no name any more: 25 MiB, of which only touched pages take memory.
 class RangeImage {
  public:
   static constexpr std::size_t kEdge = 1024;  // cells along an edge of a face

@@ -27,8 +27,8 @@ std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
   return sources;
 }
 
-// Fills the directions between rays, as far as rays lie from each other: in images so coarse, almost all
-// quarters of a cell have a range where the cell has one.
+// Fills the directions between rays, as far as rays lie from each other. That is the edge of cells so coarse
+// that almost all quarters of a cell have a range where the cell has one.
 void fill_between_rays(StationView& view) {
   const auto filled = count_filled(view.ranges);
   std::size_t coarser = 0;

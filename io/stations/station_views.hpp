@@ -56,8 +56,8 @@ struct StationView {
 
 StationSummary summary_of(const StationView& view);
 
-// Stations are those that a file states, else the ones that the scans have: E57 and PTX, PCD with a
-// viewpoint, and files with a pose. Each image is a file of 25 MiB in the folder.
+// A file states the stations, or else the scans have them: E57 and PTX, PCD with a viewpoint, and files with
+// a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
   // `stated`: that file; empty: none. `folder` is empty where files are in memory. Throws `Error`.

@@ -106,7 +106,7 @@ TEST_CASE("the points of several stations taken for those of one have little cer
                      [](const LoopMeasures& loop) { return loop.cause.main().has_value(); }));
 }
 
-// Of the hidden places on surfaces, how much a scan from the first proposed place samples, over what was
+// How much of the hidden places on surfaces a scan from the first proposed place samples, over what was
 // promised.
 double kept_promise(const Found& found) {
   const synth::Scanner scanner(found.options, synth::make_scene(found.options.scene, found.options.seed));

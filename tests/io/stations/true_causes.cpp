@@ -18,7 +18,7 @@ Vec3 vec3(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Where the normal through a place meets a shape, if that is near.
+// Where the normal through a place hits a shape, if that is near.
 std::optional<SurfacePlace> on_surface(const Scene& scene, const io::InsidePlace& place) {
   std::optional<SurfacePlace> nearest;
   double least = kNear;
