@@ -44,11 +44,15 @@ void fill_between_rays(StationView& view) {
   if (view.left_out) view.left_out->fill(std::size_t{1} << coarser);
 }
 
+// By every fourth cell of each row and column: 0.4 degrees are enough.
 void find_field(StationView& view) {
+  constexpr std::size_t kEdge = RangeImage::kEdge, kStep = 4;
   const std::span<const float> ranges = view.ranges.cells();
-  for (std::size_t cell = 0; cell < ranges.size(); ++cell) {
-    if (ranges[cell] > 0 || (view.left_out && view.left_out->cells()[cell] > 0))
-      view.field.add(RangeImage::direction_of(cell));
+  for (std::size_t row = 0; row < 6 * kEdge; row += kStep) {
+    for (std::size_t cell = row * kEdge; cell < (row + 1) * kEdge; cell += kStep) {
+      if (ranges[cell] > 0 || (view.left_out && view.left_out->cells()[cell] > 0))
+        view.field.add(RangeImage::direction_of(cell));
+    }
   }
 }
 
