@@ -32,6 +32,7 @@ function expose(page) {
     stations: data.stations.length,
     next_stations: data.next_stations.length,
     cause: (id) => data.loops.cause[data.loops.id.indexOf(id)],
+    shares: (id) => Object.fromEntries(kCauses.map(({name}) => [name, data.loops.shares[name][data.loops.id.indexOf(id)]])),
     causes: () => Array.from(data.loops.cause),
     colours: () => Object.fromEntries(["view", "hole", "outer", "marked", ...kCauses.map(({name}) => cause_style(name).slice(2))].map(
         (name) => [name, css_rgb(style_value(`--${name}`)).map((value) => Math.round(255 * value))])),
