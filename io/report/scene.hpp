@@ -57,9 +57,9 @@ struct SceneLimits {
 // up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
 
-// The places to stand next of next_stations.geojson in `folder`, as {rank, place, area, share} in its order; null
-// where it is not there. Apart from read_scene(), since `lacuna stations` replaces a damaged file. Throws `Error`
-// where the file is not as that command writes it.
+// The places to stand next of next_stations.geojson in `folder`, as {rank, place, area, share} in its order;
+// null where it is not there. Apart from read_scene(), since `lacuna stations` replaces a damaged file.
+// Throws `Error` where the file is not as that command writes it.
 Json read_next_stations(const std::filesystem::path& folder);
 
 }  // namespace lacuna::io

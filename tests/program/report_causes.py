@@ -102,7 +102,7 @@ def check_colours(driver):
     choose(driver, "loop-colouring", "cause")
     after = {name: driver.execute_script(PIXELS, name) for name in names}
     require(driver.execute_script(PIXELS, "hole") == 0, "loops have no longer the colour of holes")
-    # Of one cause all loops may be too small for pixels without a mixture.
+    # All loops of one cause may be too small for pixels without a mixture.
     require(sum(after[name] > before[name] + 10 for name in names) >= min(3, len(names)), f"they have those of causes: {after}")
     if value(driver, "innerWidth >= 900"):
         legend = driver.find_element(By.ID, "legend").text

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The report of a synthetic scan in headless Chromium: points and loops are drawn; rows, filters, section, keys, marks,
-# links, print and tools work, with stations and without. Marks go into the report of another run. The argument is the scan, `room` or `flat`.
+# The report of a synthetic scan in headless Chromium, with stations and without: points and loops are drawn; rows,
+# filters, section, keys, marks, links, print and tools work. Marks go into the report of another run. The argument is the scan, `room` or `flat`.
 set -euo pipefail
 : "${LACUNA_PROGRAM:?}"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies over the view: the legend of colours and lines, the scale, the axes.
 
-// `heights`: real heights at the two ends of the colours; `lines`: lists of what loops and markers are; `hidden`: what the
-// section hides, may be empty.
+// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty. `lines`: lists
+// of elements that say what loops and markers are.
 function draw_legend(colouring, theme, heights, units, lines, hidden) {
   const parts = [];
   const names = {probability: "Boundary probability", height: "Height", colour: "Colours of the scan", plain: ""};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stations, and the places to stand next: small markers over the view, with their names or numbers.
 
-const kLongestName = 24;  // letters of a name over the view; the facts have all of it
+const kLongestName = 24;  // characters over the view; the facts have the whole name
 
 // The shape of a marker around 0 0; the legend has the same ones.
 function station_shape(is_next) {
