@@ -103,15 +103,15 @@ def add_causes(loops, stations, chance):
         share = round(chance.uniform(0.6, 0.95), 3)
         loop.update({name: 0.0 for name in CAUSES}, cause=CAUSES[main])
         loop.update({CAUSES[main]: share, CAUSES[(main + 1) % 5]: round(0.995 - share, 3), CAUSES[(main + 2) % 5]: 0.005})
-        if main == 0:
+        if loop["hidden"] > 0.01:
             loop["hidden_from"] = (holes // 6) % len(stations)
             eye = stations[loop["hidden_from"]]["place"]
             loop["hidden_by"] = [round(0.6 * c + 0.4 * e, 3) for c, e in zip(loop["centroid"], eye)]
 
 
 def next_stations_of(stations):
-    return [{"rank": i + 1, "place": [station["place"][0] + 1.5, station["place"][1] - 0.8, station["place"][2]],
-             "area": round(0.4 / (i + 1), 4), "share": round(0.5 / (i + 1), 4)} for i, station in enumerate(stations)]
+    return [{"rank": i + 1, "place": [station["place"][0] + 1.5, station["place"][1] + 0.2, station["place"][2]],
+             "area": round(0.4 / (i + 1), 4), "share": round(0.5 / (i + 1), 4)} for i, station in enumerate(stations[:3])]
 
 
 class Sheet:

@@ -161,7 +161,7 @@ def end_selection(driver):
 
 
 def check_details(driver):
-    for name in ("hidden", "opening"):
+    for name in ("hidden", "opening", "filtered"):
         loop = select_cause(driver, name)
         if loop is None:
             continue
@@ -185,9 +185,9 @@ def check_details(driver):
             require(dashes[0] == "none" and dashes[1] != "none", "dashed behind what hides")
             require(driver.find_elements(By.CSS_SELECTOR, "#stations-over .chosen path.station"), "the station is emphasised")
         else:
-            require(not lines, "an opening has no line")
+            require(("what stands at" in text) == ("hidden" in words) and not lines, "one with another cause has no line")
         end_selection(driver)
-    require(not driver.execute_script(MARKERS)["lines"], "without a selection there is no line")
+        require(not driver.execute_script(MARKERS)["lines"], "without a selection there is no line")
 
 
 def check_facts(driver):

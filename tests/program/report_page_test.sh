@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The report of a synthetic scan in headless Chromium, with stations and without: points and loops are drawn; rows,
-# filters, section, keys, marks, links, print and tools work. Marks go into the report of another run. The argument is the scan, `room` or `flat`.
+# The report of a synthetic scan in headless Chromium, with stations and without. Points and loops are drawn; rows,
+# filters, section, keys, marks, links, print and tools work. Marks go into the report of another run. The argument is
+# the scan, `room` or `flat`.
 set -euo pipefail
 : "${LACUNA_PROGRAM:?}"
 
@@ -18,8 +19,11 @@ if [ "$1" = room ]; then
   "$LACUNA_PROGRAM" stations "$scratch/out" > "$scratch/log"
   "$LACUNA_PROGRAM" report "$scratch/out" > "$scratch/log"
   /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --dark --causes
-  /usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000  # has all causes
-  for size in 400x800 1280x800; do /usr/bin/python3 report_page.py "$scratch/mock.html" --size $size --causes; done
+  # All causes, and so many stations that their names would overlap.
+  /usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000 --stations 9
+  for size in 400x800 1280x800; do
+    /usr/bin/python3 report_page.py "$scratch/mock.html" --size $size --causes
+  done
 fi
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --save-marks "$scratch/marks.json"
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --no-webgl

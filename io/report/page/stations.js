@@ -37,13 +37,14 @@ class StationMarks {
     if (index >= 0) this.marks[index].node.classList.add("chosen");
   }
 
-  // After each picture. A name that would cover a marker or another name is left out.
+  // After each picture. A name that would be cut, or cover a marker or another name, is left out.
   draw() {
     find("stations-over").toggleAttribute("hidden", !this.is_shown);
     if (!this.is_shown) return;
     const places = this.marks.map(({place}) => pixel_of(this.view, place, 10));
     const taken = places.filter(Boolean).map(([x, y]) => [x - 8, y - 8, x + 8, y + 8]);
-    const is_free = ([left, top, right, bottom]) =>
+    const {width} = view_pixels(this.view);
+    const is_free = ([left, top, right, bottom]) => left >= 0 && right <= width &&
         taken.every((box) => right <= box[0] || left >= box[2] || bottom <= box[1] || top >= box[3]);
     const first = this.chosen < 0 ? [] : [this.chosen];
     for (const i of new Set([...first, ...this.marks.keys()])) {
