@@ -115,6 +115,14 @@ def check_colours(driver):
     driver.execute_script("document.getElementById('through').click(); document.getElementById('show-points').click();")
 
 
+def check_names(seen):
+    """No name covers another one, or a marker."""
+    names, markers = seen["names"], seen["stations"] + seen["next"]
+    apart = all(a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+                for i, a in enumerate(names) for b in names[:i] + markers)
+    require(apart, f"{len(names)} names do not overlap")
+
+
 def check_markers(driver):
     stations, next_stations = value(driver, "[lacuna.stations, lacuna.next_stations]")
     driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
@@ -122,9 +130,8 @@ def check_markers(driver):
     seen = driver.execute_script(MARKERS)
     require(len(seen["stations"]) == stations and len(seen["next"]) == next_stations,
             f"{stations} stations and {next_stations} next ones are drawn")
-    names = seen["names"]
-    require(names and all(a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
-                          for i, a in enumerate(names) for b in names[:i]), f"{len(names)} names do not overlap")
+    require(seen["names"], "some with names")
+    check_names(seen)
     more = driver.find_element(By.ID, "view-more")
     more.send_keys(Keys.ENTER)
     switch = driver.find_element(By.ID, "show-stations")
@@ -135,6 +142,9 @@ def check_markers(driver):
     switch.send_keys(Keys.SPACE)
     more.send_keys(Keys.ENTER)
     require(driver.execute_script(MARKERS) == seen, "and shows them again")
+    press(driver, "2")
+    still(driver)
+    check_names(driver.execute_script(MARKERS))
     driver.find_element(By.CSS_SELECTOR, "[data-side=fit]").click()
     still(driver)
 
