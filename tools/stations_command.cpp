@@ -29,10 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMark =
-    "{\n  \"type\": \"FeatureCollection\",\n  \"name\": \"lacuna_next_stations\"";
-constexpr const char* kFile = "next_stations.geojson";
-
 struct StationsArguments {
   fs::path folder;
   std::size_t count = 5;
@@ -116,14 +112,14 @@ void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
          {"properties", {{"rank", i + 1}, {"area", chosen[i].area}, {"share", chosen[i].area / hidden}}}});
   }
   OutputSet set(overwrite);
-  set.add(file, kMark).write(print(json, 2) + "\n");
+  set.add(file, kNextStationsMark).write(print(json, 2) + "\n");
   set.commit();
 }
 
 void run_stations(const StationsArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  const fs::path file = arguments.folder / kFile;
-  check_output(file, kMark, overwrite);
+  const fs::path file = arguments.folder / kNextStationsFile;
+  check_output(file, kNextStationsMark, overwrite);
   const Scene scene = read_scene(arguments.folder);
   if (scene.points.positions.empty())
     throw Error(

@@ -17,7 +17,8 @@ WrittenReport write_report(const fs::path& folder, Overwrite overwrite,
   check_output(file, kReportMark, overwrite);
   MatchedMarks matched;
   if (marks) matched.marks = read_marks(*marks);
-  const Scene scene = read_scene(folder);
+  Scene scene = read_scene(folder);
+  scene.next_stations = read_next_stations(folder);
   matched.matches = match_marks(matched.marks, scene.loops);
   OutputSet set(overwrite);
   write_report(scene, set.add(file, kReportMark), matched);

@@ -164,6 +164,7 @@ Json report_of(const Scene& scene, const MatchedMarks& marks) {
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},
           {"stations", holes.value("stations", Json::array())},
+          {"next_stations", scene.next_stations},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},

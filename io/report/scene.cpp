@@ -6,6 +6,7 @@
 #include "io/report/scene_colours.hpp"
 #include "io/results/results.hpp"
 #include "io/scan_reader.hpp"
+#include "io/stations/next_stations.hpp"
 #include "io/vectors.hpp"
 
 #include <algorithm>
@@ -254,6 +255,27 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);
   return scene;
+}
+
+Json read_next_stations(const fs::path& folder) {
+  const fs::path file = folder / kNextStationsFile;
+  if (!fs::exists(file)) return nullptr;
+  const Json collection = read_json(file, {}, "a result of lacuna stations");
+  Json stations = Json::array();
+  try {
+    for (const Json& feature : collection.at("features")) {
+      const Json& properties = feature.at("properties");
+      const Json& place = feature.at("geometry").at("coordinates");
+      stations.push_back(
+          {{"rank", properties.at("rank").get<std::uint64_t>()},
+           {"place", {place.at(0).get<double>(), place.at(1).get<double>(), place.at(2).get<double>()}},
+           {"area", properties.at("area").get<double>()},
+           {"share", properties.at("share").get<double>()}});
+    }
+  } catch (const Json::exception& error) {
+    throw Error(file.string() + ": is not as lacuna stations writes it: " + error.what());
+  }
+  return stations;
 }
 
 }  // namespace lacuna::io

@@ -22,6 +22,7 @@ using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 struct Scene {
   Json holes;                       // holes.json without its loops
   Json run;                         // run.json; null where the folder has none
+  Json next_stations;               // of read_next_stations(); null without
   Eigen::AlignedBox3d bounds;       // of the scan without its strays; empty without points
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
@@ -55,5 +56,10 @@ struct SceneLimits {
 // the order of their ids. Throws `Error` where a file is missing or not as `lacuna detect` writes it. Memory:
 // up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
+
+// The places to stand next of next_stations.geojson in `folder`, as {rank, place, area, share} in its order;
+// null where it is not there. Apart from read_scene(), since `lacuna stations` replaces a damaged file.
+// Throws `Error` where the file is not as that command writes it.
+Json read_next_stations(const std::filesystem::path& folder);
 
 }  // namespace lacuna::io

@@ -17,6 +17,7 @@
 #include "io/results/loops_obj.hpp"
 #include "io/results/loops_vtp.hpp"
 #include "io/results/points.hpp"
+#include "io/stations/next_stations.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -122,6 +123,8 @@ const std::vector<ResultFile>& all_results() {
        [](C c) { return c.output.report; }, Writer::kThis, true},
       // lacuna update writes it afterwards. It does not belong to the results of another run.
       {kChangesFile, kJsonMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
+      // So does lacuna stations.
+      {kNextStationsFile, kNextStationsMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
       {"holes.json", kJsonMark, write_holes, always}};

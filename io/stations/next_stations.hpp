@@ -11,11 +11,17 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace lacuna::io {
+
+// In the folder of results; an earlier one is recognised by how it begins.
+inline constexpr const char* kNextStationsFile = "next_stations.geojson";
+inline constexpr std::string_view kNextStationsMark =
+    "{\n  \"type\": \"FeatureCollection\",\n  \"name\": \"lacuna_next_stations\"";
 
 struct SightLimits {
   double range = 0;         // how far a scanner measures

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes report.html of a synthetic scan, in the format that `lacuna detect --report` has, to work on the page without it.
 
-    mock_report.py OUT.html [--points N] [--holes N] [--utm] [--colours] [--no-loops] [--empty] [--no-run] [--flat-loops N]
+    mock_report.py OUT.html [--points N] [--holes N] [--utm] [--colours] [--no-loops] [--empty] [--no-run] [--flat-loops N] [--stations N]
     mock_report.py OUT.html --ply SCAN.ply          # an ASCII or float PLY; loops of SCAN.ply.loops.txt if it is there
 
 The scan is a bumpy sheet of 10 x 7 m with holes and its outer edge. Needs Debian's libjs-three and Python 3 alone.
@@ -76,6 +76,42 @@ def measures(number, is_hole, vertices, confidence, planarity):
 
 def short(value):
     return float(f"{value:.6g}")
+
+
+CAUSES = ["hidden", "opening", "out_of_view", "no_return", "filtered"]
+
+
+def stations_of(count, bounds):
+    """As holes.json has them: over the diagonal of the scan, the first one with a long name."""
+    low, high = bounds["min"], bounds["max"]
+    names = ["a long name of a station, as in E57", *(f"station {i}" for i in range(1, count))]
+    return [{"name": name, "place": [round(l + (h - l) * (i + 1) / (count + 1), 3) for l, h in zip(low[:2], high[:2])] + [high[2]],
+             "points": 150000, "certainty": 0.6 if i == 2 else 0.98, "lowest_sine": -0.9, "highest_sine": 0.2, "turn": 1.0,
+             "step": 0.003, "farthest": 12.0} for i, name in enumerate(names[:count])]
+
+
+def add_causes(loops, stations, chance):
+    """Each cause in turn, with a smaller second one; one hole of six has none. Outer curves have none."""
+    holes = 0
+    for loop in loops:
+        loop.update({"cause": None, "hidden_by": None, "hidden_from": -1, **{name: None for name in CAUSES}})
+        if loop["kind"] == "outer" or not stations:
+            continue
+        main, holes = holes % 6, holes + 1
+        if main == len(CAUSES):
+            continue
+        share = round(chance.uniform(0.6, 0.95), 3)
+        loop.update({name: 0.0 for name in CAUSES}, cause=CAUSES[main])
+        loop.update({CAUSES[main]: share, CAUSES[(main + 1) % 5]: round(0.995 - share, 3), CAUSES[(main + 2) % 5]: 0.005})
+        if loop["hidden"] > 0.01:
+            loop["hidden_from"] = (holes // 6) % len(stations)
+            eye = stations[loop["hidden_from"]]["place"]
+            loop["hidden_by"] = [round(0.6 * c + 0.4 * e, 3) for c, e in zip(loop["centroid"], eye)]
+
+
+def next_stations_of(stations):
+    return [{"rank": i + 1, "place": [station["place"][0] + 1.5, station["place"][1] + 0.2, station["place"][2]],
+             "area": round(0.4 / (i + 1), 4), "share": round(0.5 / (i + 1), 4)} for i, station in enumerate(stations[:3])]
 
 
 class Sheet:
@@ -193,6 +229,9 @@ def make(arguments):
 def assemble(arguments, points, spacing, probabilities, normals, colours, raw_loops):
     loops = [measures(number, *loop) for number, loop in enumerate(raw_loops)]
     loops.sort(key=lambda loop: -loop["perimeter"])
+    stations = stations_of(arguments.stations, {"min": [min(p[k] for p in points) for k in range(3)],
+                                                "max": [max(p[k] for p in points) for k in range(3)]}) if points else []
+    add_causes(loops, stations, random.Random(3))
     everything = points + [v for loop in loops for v in loop["vertices"]]
     bounds = {"min": [min(p[k] for p in points) for k in range(3)],
               "max": [max(p[k] for p in points) for k in range(3)]} if points else None
@@ -206,7 +245,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
         histogram[min(19, value * 20 // 256)] += 1
     has_colours = bool(arguments.colours and colours)
     columns = ["id", "kind", "points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
-               "centroid", "normal"]
+               "centroid", "normal", "cause", "hidden_by", "hidden_from", *CAUSES]
     holes = sum(loop["kind"] == "hole" for loop in loops)
     report = {
         "lacuna": "0.1.0", "title": arguments.ply.name if arguments.ply else "scan.laz",
@@ -216,7 +255,8 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
                    "thinned_out": 0, "duplicates": 110, "candidates": len(points) // 40, "coherent": len(points) // 60,
                    "boundary_points": first[-1], "boundary_edges": first[-1], "holes": holes,
                    "outer": len(loops) - holes, "loops": len(loops)},
-        "bounds": bounds, "resolution": 0, "strays": 0, "median_distance": 1.7 * spacing if points else 0, "surface_area": points * spacing ** 2, "method": "tangential",
+        "bounds": bounds, "resolution": 0, "strays": 0, "median_distance": 1.7 * spacing if points else 0, "surface_area": len(points) * spacing ** 2, "method": "tangential",
+        "stations": stations, "next_stations": next_stations_of(stations) or None,
         "parameters": {"neighbours": {"k": 24, "radius": 0}, "criteria": {"angle": True, "halfdisc": True},
                        "loops": {"min_hole": 0.1, "min_confidence": 0, "holes_only": False},
                        "output": {"report": True, "sample_points": 300000}},
@@ -266,6 +306,7 @@ def main():
     parser.add_argument("--empty", action="store_true", help="no points and no loops")
     parser.add_argument("--no-run", action="store_true")
     parser.add_argument("--flat-loops", type=int, default=0, help="this many small loops more")
+    parser.add_argument("--stations", type=int, default=3, help="this many, with causes of holes and places to stand next")
     parser.add_argument("--ply", type=Path)
     arguments = parser.parse_args()
     arguments.out.write_text(make(arguments))

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
-    report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks]
+    report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks] [--causes]
                    [--save-marks FILE] [--has-marks FILE] [--load-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
+--causes      checks causes and stations alone, or that the page says how to give stations
 --save-marks  writes the marks that the checks have made
 --has-marks   checks that the page begins with the marks and notes of this file
 --load-marks  loads a file of marks, as by hand
@@ -22,6 +23,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # none among the sources
 
 import report_browser
+import report_causes
 import report_marks
 import report_print
 import report_section
@@ -199,7 +201,9 @@ def run(driver, arguments):
         report_marks.check_has(driver, arguments.has_marks)
     if arguments.load_marks:
         print(report_marks.load(driver, arguments.load_marks.read_text(encoding="utf-8")))
-    if not arguments.no_checks:
+    if arguments.causes:
+        report_causes.check(driver, driver.execute_script("return lacuna.visible_loops()"))
+    elif not arguments.no_checks:
         check_policy(driver)
         check_facts(driver)
         if arguments.no_webgl:
@@ -238,6 +242,7 @@ def main():
     parser.add_argument("--dark", action="store_true")
     parser.add_argument("--no-webgl", action="store_true")
     parser.add_argument("--no-checks", action="store_true")
+    parser.add_argument("--causes", action="store_true")
     parser.add_argument("--save-marks", type=Path)
     parser.add_argument("--has-marks", type=Path)
     parser.add_argument("--load-marks", type=Path)

@@ -1,22 +1,36 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The report of a synthetic scan in headless Chromium: points and loops are drawn; rows, filters, section, keys, marks,
-# links, print and tools work. Marks go into the report of another run. The argument is the scan, `room` or `flat`.
+# The report of a synthetic scan in headless Chromium, with stations and without. Points and loops are drawn; rows,
+# filters, section, keys, marks, links, print and tools work. Marks go into the report of another run. The argument is
+# the scan, `room` or `flat`.
 set -euo pipefail
 : "${LACUNA_PROGRAM:?}"
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+stations=()
 case $1 in
-  room) made=(scan --stations 1 --points 60000 --seed 2) ;;
+  room) made=(scan --stations 1 --points 60000 --seed 2) stations=(--stations "$scratch/scan.stations.txt") ;;
   flat) made=(surface --points 40000 --holes 6 --hole-radius 5 12) ;;
 esac
 "$LACUNA_PROGRAM" synth "${made[@]}" "$scratch/scan.ply" > "$scratch/log"
-"$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/out" --quiet --report
+"$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/out" --quiet --report "${stations[@]}"
+if [ "$1" = room ]; then
+  "$LACUNA_PROGRAM" stations "$scratch/out" > "$scratch/log"
+  "$LACUNA_PROGRAM" report "$scratch/out" > "$scratch/log"
+  /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --dark --causes
+  # All causes, and so many stations that their names would overlap.
+  /usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000 --stations 9
+  for size in 400x800 1280x800; do
+    /usr/bin/python3 report_page.py "$scratch/mock.html" --size $size --causes
+  done
+fi
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --save-marks "$scratch/marks.json"
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --no-webgl
 
 "$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/other" --quiet --k 30
+/usr/bin/python3 mock_report.py "$scratch/without.html" --points 5000 --stations 0
+/usr/bin/python3 report_page.py "$scratch/without.html" --causes
 "$LACUNA_PROGRAM" report "$scratch/other" --marks "$scratch/marks.json" > "$scratch/log"
 cat "$scratch/log"
 grep --quiet '^marks: 1 of 2 found their loops' "$scratch/log"  # the checks leave one far away from the scan

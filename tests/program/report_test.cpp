@@ -285,6 +285,42 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
   CHECK_THAT(refused(out), Contains("holes.json: is not there"));
 }
 
+TEST_CASE("a report has the places to stand next, until another run has other results") {
+  Made made(sheet(), {"--report"});
+  const std::string out = made.out().string();
+  const fs::path file = made.out() / "next_stations.geojson";
+  CHECK(json::parse(element(made.page(), "report")).at("next_stations").is_null());
+  CHECK(json::parse(element(made.page(), "report")).at("stations").empty());
+
+  REQUIRE(run_program({"stations", out, "--height", "20", "--range", "100"}).exit_code == 0);
+  REQUIRE(run_program({"report", out}).exit_code == 0);
+  const json written = json::parse(read_file(file)).at("features");
+  const json places = json::parse(element(made.page(), "report")).at("next_stations");
+  REQUIRE(!written.empty());
+  REQUIRE(places.size() == written.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    CHECK(places[i].at("place") == written[i].at("geometry").at("coordinates"));
+    for (const char* const key : {"rank", "area", "share"})
+      CHECK(places[i].at(key) == written[i].at("properties").at(key));
+  }
+
+  const std::string text = read_file(file);
+  for (std::size_t size = 0; size < text.size() - 2; size += 97) {
+    std::ofstream(file) << text.substr(0, size);
+    const auto run = run_program({"report", out});
+    test::check_failure(run, 1, "next_stations.geojson: ");
+    CHECK(test::count_lines(run.err) == 1);
+  }
+  std::ofstream(file) << R"({"features": [{"properties": {"rank": "one"}}]})";
+  test::check_failure(run_program({"report", out}), 1, "is not as lacuna stations writes it");
+  std::ofstream(file) << text.substr(0, 200);
+  CHECK(run_program({"stations", out, "--height", "20", "--range", "100"}).exit_code == 0);
+  CHECK(read_file(file) == text);
+
+  made.detect({"--report"});
+  CHECK_FALSE(fs::exists(file));
+}
+
 TEST_CASE("JSON that is a pipe, or nested without end, is refused by every command that reads it") {
   const Made made(sheet());
   const std::string out = made.out().string();

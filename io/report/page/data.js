@@ -85,7 +85,8 @@ function vector_column(values, count) {
   return out;
 }
 
-function read_loops(loops) {
+// `has_causes`: whether the scan has stations, from which causes are known.
+function read_loops(loops, has_causes) {
   const count = loops && loops.id ? loops.id.length : 0;
   const column = (name) => number_column(loops && loops[name], count);
   return {
@@ -105,12 +106,17 @@ function read_loops(loops) {
     mean_probability: column("mean_probability"),
     centroid: vector_column(loops && loops.centroid, count),
     normal: vector_column(loops && loops.normal, count),
+    has_causes,
+    cause: Array.from({length: count}, (_, i) => (loops.cause && loops.cause[i]) || kNoCause),
+    shares: Object.fromEntries(kCauses.map(({name}) => [name, column(name)])),
+    hidden_by: vector_column(loops && loops.hidden_by, count),
+    hidden_from: column("hidden_from"),
     first: loops && loops.first ? loops.first : [0],
     vertices: unpack_positions(take_bytes("loop_vertices"), 1),
   };
 }
 
-// { report, frame, points: {count, positions, attributes, colours or null}, loops }
+// { report, frame, stations, points: {count, positions, attributes, colours or null}, loops }
 function read_data() {
   const element = document.getElementById("report");
   const report = element ? JSON.parse(element.textContent) : {};
@@ -119,11 +125,14 @@ function read_data() {
   const count = Math.floor(bytes.length / 8);
   const step = spread_step(count);
   const sample = report.sample || {};
+  const stations = report.stations || [];
   const has_normals = Boolean(sample.has_normals);
   const colours = take_bytes("colours");
   return {
     report,
     frame,
+    stations,
+    next_stations: report.next_stations || [],
     has_normals,
     points: {
       count,
@@ -132,7 +141,7 @@ function read_data() {
                                   has_normals ? take_bytes("normals") : new Uint8Array(0)),
       colours: sample.has_colours && colours.length >= 3 * count ? pack_colours(count, step, colours) : null,
     },
-    loops: read_loops(report.loops),
+    loops: read_loops(report.loops, stations.length > 0),
   };
 }
 

@@ -51,6 +51,7 @@ class Details {
       ["Diameter", units.length(loops.diameter[index], 4)],
       ["Confidence", format_fraction(loops.confidence[index])],
       ["Found at scales", scales(loops, index, units)],
+      ...cause_rows(this.data, index, this.decimals),
       ["Planarity", format_fraction(loops.planarity[index])],
       ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
       ["Points", format_count(loops.points[index])],

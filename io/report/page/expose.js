@@ -29,7 +29,12 @@ function expose(page) {
     },
     theme: (name) => page.set_theme(name),
     colouring: (name) => page.set_colouring(name),
-    colours: () => Object.fromEntries(["view", "hole", "outer", "marked"].map(
+    stations: data.stations.length,
+    next_stations: data.next_stations.length,
+    cause: (id) => data.loops.cause[data.loops.id.indexOf(id)],
+    shares: (id) => Object.fromEntries(kCauses.map(({name}) => [name, data.loops.shares[name][data.loops.id.indexOf(id)]])),
+    causes: () => Array.from(data.loops.cause),
+    colours: () => Object.fromEntries(["view", "hole", "outer", "marked", ...kCauses.map(({name}) => cause_style(name).slice(2))].map(
         (name) => [name, css_rgb(style_value(`--${name}`)).map((value) => Math.round(255 * value))])),
     read_pixels: () => view.read_pixels(),
     loop_at: (x, y) => { const at = view.loop_at(x, y); return at < 0 ? null : data.loops.id[at]; },

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Facts of the scan and of the run: sources, counts, parameters, times.
 
+const kLeastCertainty = 0.75;  // of a station that counts, as in io/stations/station_views.hpp
+
 function draw_facts(data, units) {
   const {report} = data;
-  const parts = [scan_facts(data, units), result_facts(data, units), parameter_facts(report)];
+  const parts = [scan_facts(data, units), result_facts(data, units), cause_facts(data), station_facts(data),
+                 next_station_facts(data, units), parameter_facts(report)];
   if (report.run) parts.push(run_facts(report.run));
   if (report.lacuna) parts.push(element("p", {class: "quiet"}, `Written by lacuna ${report.lacuna}.`));
   find("facts-body").replaceChildren(...parts.filter(Boolean));
@@ -140,4 +143,50 @@ function run_facts(run) {
     made.append(list);
   }
   return made;
+}
+
+// How many holes each cause has; without stations, how to give them.
+function cause_facts({loops}) {
+  if (!loops.has_causes) {
+    return facts_part("Causes of holes", element("p", {class: "quiet"},
+        "Causes are not known, because no station is: --stations FILE gives stations (docs/stations.md)."));
+  }
+  const rows = cause_counts(loops, loops.cause.keys()).map(
+      ([name, count]) => [element("span", {}, cause_swatch(name, "dot"), cause_title(name)), format_count(count)]);
+  return facts_part("Causes of holes", rows.length > 0 ? description(rows) : element("p", {class: "quiet"}, "There are no holes."));
+}
+
+// `columns`: [title, text of a row].
+function place_table(rows, columns) {
+  return element("table", {class: "places"},
+      element("thead", {}, element("tr", {}, ...columns.map(([title]) => element("th", {scope: "col"}, title)))),
+      element("tbody", {}, ...rows.map((row) => element("tr", {}, ...columns.map(([, text]) => element("td", {}, text(row)))))));
+}
+
+// To about the distance of neighbours: enough for a tripod.
+function station_place(place, {median_distance}) {
+  return place.map((value) => format_place(value, Math.max(0, place_decimals(median_distance) - 1))).join("  ");
+}
+
+const kFewStations = 6;
+
+function station_facts({stations, report}) {
+  if (stations.length === 0) return null;
+  const table = place_table(stations, [["Name", ({name}) => name], ["x  y  z", ({place}) => station_place(place, report)],
+                                       ["Points", ({points}) => format_count(points)]]);
+  const made = facts_part("Stations", stations.length <= kFewStations ? table
+      : element("details", {}, element("summary", {}, plural(stations.length, "station", "stations")), table));
+  const doubtful = stations.filter(({certainty}) => certainty < kLeastCertainty);
+  if (doubtful.length > 0) {
+    made.append(element("p", {class: "quiet"}, `${doubtful.map(({name}) => name).join(", ")}: too few of the points can have been ` +
+        `measured from there, so ${doubtful.length === 1 ? "it does" : "they do"} not count.`));
+  }
+  return made;
+}
+
+function next_station_facts({next_stations, report}, units) {
+  if (next_stations.length === 0) return null;
+  return facts_part("Where to stand next", place_table(next_stations, [
+    ["", ({rank}) => String(rank)], ["x  y  z", ({place}) => station_place(place, report)],
+    ["Sees", ({area}) => units.area(area)], ["Of hidden", ({share}) => `${(100 * share).toPrecision(2)} %`]]));
 }

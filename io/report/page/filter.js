@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loops are shown: kind, mark, diameter from and to, least confidence. Sliders and number fields say the same.
+// Which loops are shown: kind, mark, cause, diameter from and to, least confidence. Sliders and number fields say the same.
 
 class LoopFilter {
   // `on_change()` after each change, at most once a picture.
@@ -9,6 +9,7 @@ class LoopFilter {
     this.on_change = on_change;
     this.kind = "all";
     this.mark = "any";
+    this.cause = "any";
     this.size = 0;        // least diameter, in the scan's unit
     this.most_size = Infinity;
     this.confidence = 0;
@@ -25,6 +26,7 @@ class LoopFilter {
       radio.addEventListener("change", () => { this.kind = radio.value; this.changed(); });
     }
     find("mark-filter").addEventListener("change", () => { this.mark = find("mark-filter").value; this.changed(); });
+    find("cause-filter").addEventListener("change", () => { this.cause = find("cause-filter").value; this.changed(); });
     const {least, most} = this;
     const slider = find("size-slider"), number = find("size-number");
     slider.disabled = !(most > 0);
@@ -68,19 +70,23 @@ class LoopFilter {
     find("filters").reset();
     for (const name of ["size-number", "size-most", "confidence-number"]) typed_number(find(name));
     this.kind = "all";
-    this.mark = "any";
+    this.mark = this.cause = "any";
     this.size = this.confidence = 0;
     this.most_size = Infinity;
     this.changed();
   }
 
-  is_active() { return this.kind !== "all" || this.mark !== "any" || this.size > 0 || this.most_size < Infinity || this.confidence > 0; }
+  is_active() {
+    return this.kind !== "all" || this.mark !== "any" || this.cause !== "any" || this.size > 0 || this.most_size < Infinity ||
+           this.confidence > 0;
+  }
 
   // What it leaves out, in words; nothing if nothing.
   words(units) {
     const parts = [];
     if (this.kind !== "all") parts.push(this.kind === "hole" ? "holes" : "outer curves");
     if (this.mark !== "any") parts.push(`mark: ${mark_title(this.mark).toLowerCase()}`);
+    if (this.cause !== "any") parts.push(`cause: ${cause_title(this.cause)}`);
     if (this.size > 0) parts.push(`diameter at least ${units.length(this.size)}`);
     if (this.most_size < Infinity) parts.push(`diameter at most ${units.length(this.most_size)}`);
     if (this.confidence > 0) parts.push(`confidence at least ${format_number(this.confidence, 2)}`);
@@ -92,6 +98,7 @@ class LoopFilter {
     if (this.kind === "hole" && !is_hole[i]) return false;
     if (this.kind === "outer" && is_hole[i]) return false;
     if (this.mark !== "any" && this.marks.mark[i] !== this.mark) return false;
+    if (this.cause !== "any" && this.loops.cause[i] !== this.cause) return false;
     if (this.size > 0 && !(diameter[i] >= this.size)) return false;
     if (this.most_size < Infinity && !(diameter[i] <= this.most_size)) return false;
     return !(this.confidence > 0) || confidence[i] >= this.confidence;

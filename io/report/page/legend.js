@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies over the view: the legend of colours and lines, the scale, the axes.
 
-// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty.
-function draw_legend(colouring, theme, heights, units, loops, hidden) {
+// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty. `lines`: lists
+// of elements that say what loops and markers are.
+function draw_legend(colouring, theme, heights, units, lines, hidden) {
   const parts = [];
   const names = {probability: "Boundary probability", height: "Height", colour: "Colours of the scan", plain: ""};
   if (colouring === "probability" || colouring === "height") {
@@ -17,15 +18,17 @@ function draw_legend(colouring, theme, heights, units, loops, hidden) {
   } else if (names[colouring]) {
     parts.push(element("p", {class: "legend-name"}, names[colouring]));
   }
-  if (loops.count > 0) {
-    const has_outer = loops.is_hole.some((is_hole) => !is_hole), has_hole = loops.is_hole.some((is_hole) => is_hole);
-    parts.push(element("p", {class: "legend-lines"},
-        has_hole ? element("span", {}, element("i", {class: "swatch hole"}), "Hole") : null,
-        has_outer ? element("span", {}, element("i", {class: "swatch outer"}), "Outer curve") : null));
-  }
+  for (const line of lines) if (line.length > 0) parts.push(element("p", {class: "legend-lines"}, ...line));
   if (hidden) parts.push(element("p", {class: "legend-section"}, hidden));
   find("legend").hidden = parts.length === 0;
   find("legend").replaceChildren(...parts);
+}
+
+// Lines of the legend where loops have the colours of their kinds.
+function kind_legend({is_hole}) {
+  const line = (name, text) => element("span", {}, element("i", {class: `swatch ${name}`}), text);
+  return [...(is_hole.some((value) => value) ? [line("hole", "Hole")] : []),
+          ...(is_hole.some((value) => !value) ? [line("outer", "Outer curve")] : [])];
 }
 
 // A bar of a round length at the distance of the target.

@@ -63,6 +63,8 @@ const kLineVertexShader = `
 const kLineFragmentShader = `
   ${kDepthShader}
   uniform vec3 colour;
+  uniform sampler2D loop_colours;  // of each loop, 256 in a row
+  uniform float rows;              // of them; 0: all loops have one colour
   uniform float has_depth, hidden, opacity, pull, dash;
   varying vec2 place;
   varying float edge_pixels, along, inverse_distance, loop_number, half_pixels;
@@ -77,11 +79,13 @@ const kLineFragmentShader = `
       if (here * 0.997 - pull > scene_distance(gl_FragCoord.xy)) shown = hidden;
     }
     if (shown <= 0.0) discard;
-    #ifdef PICK
     float number = floor(loop_number + 0.5);
+    #ifdef PICK
     gl_FragColor = vec4(mod(number, 256.0), mod(floor(number / 256.0), 256.0), floor(number / 65536.0), 255.0) / 255.0;
     #else
-    gl_FragColor = vec4(colour, cover * shown * opacity);
+    vec2 place_of_colour = (vec2(mod(number, 256.0), floor(number / 256.0)) + 0.5) / vec2(256.0, max(rows, 1.0));
+    vec3 own = rows > 0.5 ? texture2D(loop_colours, place_of_colour).rgb : colour;
+    gl_FragColor = vec4(own, cover * shown * opacity);
     #endif
   }`;
 
@@ -148,6 +152,8 @@ class LoopLines {
         ...this.camera_uniforms,
         half_width: {value: style.width / 2},
         colour: {value: new THREE.Vector3(1, 1, 1)},
+        loop_colours: {value: null},
+        rows: {value: 0},
         opacity: {value: style.opacity === undefined ? 1 : style.opacity},
         hidden: {value: 0},
         pull: {value: 0},

@@ -17,6 +17,7 @@ class Page {
     find("csv").disabled = loops.count === 0;
     this.marks = new Marks(this.data, () => this.apply_marks());
     connect_marks(this.marks, () => `${this.file_title()}_marks.json`);
+    connect_causes(loops);
     this.filter = new LoopFilter(loops, this.units, this.marks, () => this.apply_filter());
     this.table = new LoopTable(loops, this.units, this.decimals, this.marks, (index) => this.toggle(index));
     this.details = new Details(this.data, this.units, this.decimals, this.marks,
@@ -52,6 +53,7 @@ class Page {
           draw_scale(view, this.units);
           draw_triad(view.navigation.camera);
           if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
+          if (this.sight) { this.sight.draw(); this.station_marks.draw(); }
           if (this.measure) this.measure.draw();
         },
         on_pick: (x, y) => {
@@ -107,6 +109,10 @@ class Page {
     find("measure").disabled = this.data.points.count === 0;
     find("picture").addEventListener("click", () => this.view.save_picture((blob) => save_blob(blob, `${this.file_title()}_view.png`)));
     connect_shown(this.view.scenes);
+    this.station_marks = new StationMarks(this.view, this.data);
+    this.sight = new SightLine(this.view, this.data, this.station_marks);
+    find("show-stations").addEventListener("change", () => this.update_legend());
+    find("loop-colouring").addEventListener("change", () => this.set_by_cause(find("loop-colouring").value === "cause"));
     find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
     for (const button of document.querySelectorAll("[data-side]")) {
@@ -150,6 +156,14 @@ class Page {
     this.update_colours();
   }
 
+  // Colours of loops: by cause, else by kind.
+  set_by_cause(by_cause) {
+    find("loop-colouring").value = by_cause ? "cause" : "kind";
+    document.body.classList.toggle("by-cause", by_cause);
+    this.view.scenes.set_by_cause(by_cause);
+    this.update_legend();
+  }
+
   set_theme(theme) {
     this.theme = theme;
     document.documentElement.dataset.theme = theme;
@@ -166,9 +180,11 @@ class Page {
 
   update_legend() {
     const {low, high} = this.view.bounds.box;
-    const {frame} = this.data;
+    const {frame, loops} = this.data;
+    const markers = this.station_marks && this.station_marks.is_shown ? station_legend(this.data) : [];
+    const lines = [this.view.scenes.by_cause ? cause_legend(loops) : kind_legend(loops), markers];
     const heights = [low[frame.up], high[frame.up]].map((height) => real_height(frame, height));
-    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, this.data.loops,
+    draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, lines,
                 this.section.words());
   }
 
@@ -231,6 +247,7 @@ class Page {
     this.details.show(index);
     if (this.view) {
       this.view.scenes.set_selected(index);
+      this.sight.select(index);
       if (is_flight) {
         const {navigation} = this.view;
         if (!this.former) this.former = navigation.flight ? navigation.flight.to : navigation.pose();
@@ -246,7 +263,10 @@ class Page {
     set_link(null);
     this.table.select(-1);
     this.details.show(-1);
-    if (this.view) this.view.scenes.set_selected(-1);
+    if (this.view) {
+      this.view.scenes.set_selected(-1);
+      this.sight.select(-1);
+    }
     this.update_chip();
   }
 
@@ -299,7 +319,8 @@ class Page {
     if (index < 0) return;
     const {loops} = this.data;
     const box = find("view").getBoundingClientRect();
-    tag.textContent = `${loop_name(loops, index)} · ⌀ ${this.units.length(loops.diameter[index])}`;
+    const cause = loops.cause[index] === kNoCause ? "" : ` · ${cause_title(loops.cause[index])}`;
+    tag.textContent = `${loop_name(loops, index)} · ⌀ ${this.units.length(loops.diameter[index])}${cause}`;
     tag.style.transform = `translate(${Math.round(x - box.left + 14)}px, ${Math.round(y - box.top + 12)}px)`;
   }
 

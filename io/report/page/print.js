@@ -117,7 +117,7 @@ class PrintPages {
   }
 
   summary(all, shown, pictures, plan) {
-    const {data, units, filter, marks} = this.page;
+    const {data, units, filter, marks, view} = this.page;
     const {report, loops} = data;
     const counts = report.counts || {};
     const sum = all.reduce((area, i) => area + (loops.area[i] || 0), 0);
@@ -132,6 +132,9 @@ class PrintPages {
       const {min, max} = report.bounds;
       rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × ")]);
     }
+    if (loops.has_causes) {
+      rows.push(["Causes", cause_counts(loops, all).map(([cause, count]) => `${cause_title(cause)} ${format_count(count)}`).join(", ") || kMissing]);
+    }
     const origin = [["Unit", units.name || "not stated"], ["CRS", report.crs ? crs_name(report.crs) : "not stated"],
                     ["Method", report.method || kMissing]];
     const marked = kMarks.map(({name, title}) => [element("span", {}, mark_sign(name), title),
@@ -139,6 +142,7 @@ class PrintPages {
     return element("section", {class: "print-page print-summary"},
         this.head(report.title || "Scan", `Lacuna report, ${new Date().toISOString().slice(0, 10)}`),
         pictures.summary ? element("img", {src: pictures.summary, class: "print-picture", alt: ""}) : plan.figure(-1),
+        view && view.scenes.by_cause ? element("p", {class: "legend-lines"}, ...cause_legend(loops)) : "",
         element("p", {class: "print-words"},
                 `${plural(all.length, this.name(1), this.name(2))} ${all.length === 1 ? "passes" : "pass"} the filters` +
                 `${words ? ` (${words})` : ""}. ${pages}`),
@@ -148,13 +152,18 @@ class PrintPages {
 
   summary_table(shown) {
     const {data: {loops}, units, table, marks} = this.page;
-    const names = ["Id", "Area", "Diameter", "Confidence", "Mark", `Place x, y, z${units.name ? `, ${units.name}` : ""}`];
-    const rows = shown.slice(0, kSummaryRows).map((i) => element("tr", {},
-        ...[String(loops.id[i]), units.area(loops.area[i]), units.length(loops.diameter[i]), format_fraction(loops.confidence[i]),
-            marks.mark[i] === kNoMark ? "" : mark_title(marks.mark[i]), table.place(i).join("  ")].map((text) => element("td", {}, text))));
+    const columns = [
+      ["Id", (i) => String(loops.id[i])], ["Area", (i) => units.area(loops.area[i])],
+      ["Diameter", (i) => units.length(loops.diameter[i])], ["Confidence", (i) => format_fraction(loops.confidence[i])],
+      ...(loops.has_causes ? [["Cause", (i) => (loops.cause[i] === kNoCause ? "" : cause_title(loops.cause[i])), "word"]] : []),
+      ["Mark", (i) => (marks.mark[i] === kNoMark ? "" : mark_title(marks.mark[i])), "word"],
+      [`Place x, y, z${units.name ? `, ${units.name}` : ""}`, (i) => table.place(i).join("  ")],
+    ];
+    const rows = shown.slice(0, kSummaryRows).map(
+        (i) => element("tr", {}, ...columns.map(([, text, style]) => element("td", {class: style}, text(i)))));
     return element("table", {class: "print-table"},
                    element("caption", {}, shown.length > kSummaryRows ? `The ${kSummaryRows} largest` : "By size"),
-                   element("thead", {}, element("tr", {}, ...names.map((name) => element("th", {scope: "col"}, name)))),
+                   element("thead", {}, element("tr", {}, ...columns.map(([name, , style]) => element("th", {scope: "col", class: style}, name)))),
                    element("tbody", {}, ...rows));
   }
 

@@ -6,6 +6,7 @@ class Scenes {
     Object.assign(this, {data, uniforms, on_change});
     this.through = false;
     this.selected = -1;
+    this.by_cause = false;  // colours of loops; else by kind
     this.are_loops_shown = true;
     this.points = new THREE.Scene();
     this.loops = new THREE.Scene();
@@ -40,6 +41,9 @@ class Scenes {
       selected_casing: add("selected", {width: 8, order: 5}),
       selected: add("selected", {width: 3, order: 6}),
     };
+    const rows = Math.max(1, Math.ceil(loops.count / 256));
+    this.loop_colours = new THREE.DataTexture(new Uint8Array(1024 * rows), 256, rows, THREE.RGBAFormat);
+    this.passes.hole.loop_colours.value = this.loop_colours;
     const pick = (name) => this.lines[name].add_pass(this.pick, {width: 8}, true);
     this.picks = [pick("outer"), pick("hole")];
   }
@@ -93,16 +97,30 @@ class Scenes {
     this.set_colours();
   }
 
+  set_by_cause(by_cause) {
+    this.by_cause = by_cause;
+    this.set_colours();
+  }
+
   set_colours() {
+    const {loops} = this.data;
     const set = (pass, name) => this.passes[pass].colour.value.set(...css_rgb(style_value(name)));
-    const is_hole = this.selected >= 0 && this.data.loops.is_hole[this.selected];
     set("hole", "--hole");
-    set("outer", "--outer");
+    set("outer", this.by_cause ? cause_style(kNoCause) : "--outer");
+    this.passes.hole.rows.value = this.by_cause ? this.loop_colours.image.height : 0;
+    if (this.by_cause) this.write_cause_colours(loops);
     set("hole_casing", "--casing");
     set("outer_casing", "--casing");
-    set("selected_casing", is_hole ? "--hole" : "--outer");
+    set("selected_casing", this.selected < 0 ? "--hole" : loop_style(loops, this.selected, this.by_cause));
     set("selected", "--marked");
     this.on_change();
+  }
+
+  write_cause_colours({cause}) {
+    const names = [...kCauses.map(({name}) => name), kNoCause];
+    const colours = new Map(names.map((name) => [name, css_rgb(style_value(cause_style(name))).map((value) => Math.round(255 * value))]));
+    cause.forEach((name, i) => this.loop_colours.image.data.set(colours.get(name) || colours.get(kNoCause), 4 * i));
+    this.loop_colours.needsUpdate = true;
   }
 
   // The picture of `count` points over `target`, which holds points before their shading.

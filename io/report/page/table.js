@@ -8,6 +8,7 @@ const kColumns = [
   {key: "id", name: "Id", kind: "count"},
   {key: "kind", name: "Kind", kind: "kind"},
   {key: "mark", name: "Mark", kind: "mark"},
+  {key: "cause", name: "Cause", kind: "cause"},
   {key: "area", name: "Area", kind: "area"},
   {key: "perimeter", name: "Perimeter", kind: "length"},
   {key: "diameter", name: "Diameter", kind: "length"},
@@ -26,7 +27,8 @@ class LoopTable {
     this.selected = -1;
     this.focused = 0;     // row
     this.scales = {};
-    for (const {key, kind} of kColumns) {
+    this.columns = kColumns.filter(({key}) => key !== "cause" || loops.has_causes);
+    for (const {key, kind} of this.columns) {
       if (kind !== "length" && kind !== "area") continue;
       const most = loops[key].reduce((a, b) => (b > a ? b : a), 0);
       this.scales[key] = units.scale(most, kind === "area" ? 2 : 1);
@@ -46,14 +48,14 @@ class LoopTable {
   }
 
   make_head() {
-    for (const {key, name, kind} of kColumns) {
+    for (const {key, name, kind} of this.columns) {
       const unit = this.scales[key] ? this.scales[key].name : kind === "place" ? this.units.name : "";
       const button = element("button", {type: "button"}, element("span", {class: "arrow", "aria-hidden": "true"}), name,
                              unit ? element("span", {class: "unit"}, unit) : null);
       button.addEventListener("click", () => this.sort_by(key));
       find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
     }
-    find("table").setAttribute("aria-colcount", kColumns.length);
+    find("table").setAttribute("aria-colcount", this.columns.length);
     let longest = 11;
     for (let i = 0; i < this.loops.count; ++i) longest = Math.max(longest, this.place(i).join("  ").length);
     find("table").style.setProperty("--place", `${longest}`);
@@ -61,7 +63,7 @@ class LoopTable {
 
   sort_by(key) {
     const is_same = this.sort.key === key && !this.sort.holes_first;
-    const starts_falling = !["id", "kind", "mark", "place"].includes(key);
+    const starts_falling = !["id", "kind", "mark", "cause", "place"].includes(key);
     this.sort = {key, is_falling: is_same ? !this.sort.is_falling : starts_falling, holes_first: false};
     this.order = null;
     this.show(this.passes);
@@ -74,6 +76,7 @@ class LoopTable {
     const {loops, sort} = this;
     const values = sort.key === "kind" ? loops.is_hole.map((is_hole) => 1 - is_hole)
         : sort.key === "mark" ? this.mark_ranks()
+        : sort.key === "cause" ? cause_ranks(loops)
         : sort.key === "place" ? Float64Array.from(loops.id, (_, i) => loops.centroid[3 * i]) : loops[sort.key];
     const sign = sort.is_falling ? -1 : 1;
     this.order = Array.from({length: loops.count}, (_, i) => i).sort((a, b) => {
@@ -122,7 +125,7 @@ class LoopTable {
     this.rendered = state;
     const had_focus = this.body.contains(document.activeElement);
     const space = (count) => element("tr", {class: "space", "aria-hidden": "true"},
-        element("td", {colspan: kColumns.length, style: `height:${count * kRowPixels}px`}));
+        element("td", {colspan: this.columns.length, style: `height:${count * kRowPixels}px`}));
     const rows = [];
     if (begin > 0) rows.push(space(begin));
     for (let row = begin; row < end; ++row) rows.push(this.row(row));
@@ -137,7 +140,7 @@ class LoopTable {
     const made = element("tr", {"data-row": row, "data-id": this.loops.id[i], tabindex: row === this.focused ? 0 : -1,
                                 "aria-rowindex": row + 2, "aria-current": is_selected ? "true" : null,
                                 class: is_selected ? "selected" : null});
-    for (const column of kColumns) {
+    for (const column of this.columns) {
       const cell = this.cell(column, i);
       cell.classList.add(`column-${column.key}`);
       made.append(cell);
@@ -155,6 +158,10 @@ class LoopTable {
       const name = this.marks.mark[i];
       return name === kNoMark ? element("td", {class: "mark-cell"})
                               : element("td", {class: "mark-cell"}, mark_sign(name), mark_title(name));
+    }
+    if (kind === "cause") {
+      const name = loops.cause[i];
+      return name === kNoCause ? element("td") : element("td", {class: "cause"}, cause_swatch(name, "dot"), cause_title(name));
     }
     if (kind === "place") return element("td", {class: "place"}, this.place(i).join("  "));
     const value = loops[key][i];
@@ -233,13 +240,18 @@ class LoopTable {
     const quoted = (words) => (/[",\r\n]/.test(words) ? `"${words.replace(/"/g, '""')}"` : words);
     const place = (value) => (Number.isFinite(value) ? String(short_place(value)) : "");
     const names = ["points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
+    // As in holes.csv.
+    const causes = loops.has_causes ? kCauses.map(({name}) => name) : [];
+    const more = loops.has_causes ? ["cause", ...["x", "y", "z"].map((axis) => `hidden_by_${axis}${unit}`)] : [];
+    const cause = (i) => (loops.has_causes ? [loops.cause[i] === kNoCause ? "" : loops.cause[i], ...Array.from(loops.hidden_by.subarray(3 * i, 3 * i + 3), place)] : []);
     const units = {first_scale: unit, last_scale: unit, perimeter: unit, area: square, diameter: unit};
-    const lines = [["id", "kind", ...names.map((name) => name + (units[name] || "")), ...["x", "y", "z"].map((name) => name + unit),
-                    "nx", "ny", "nz", "mark", "note"].join(",")];
+    const lines = [["id", "kind", ...names.map((name) => name + (units[name] || "")), ...causes, ...["x", "y", "z"].map((name) => name + unit),
+                    "nx", "ny", "nz", ...more, "mark", "note"].join(",")];
     for (const i of this.shown) {
       lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...names.map((name) => text(loops[name][i])),
+                  ...causes.map((name) => text(loops.shares[name][i])),
                   ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), place),
-                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text),
+                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text), ...cause(i),
                   marks.mark[i] === kNoMark ? "" : marks.mark[i], quoted(marks.note[i])].join(","));
     }
     return lines.join("\n") + "\n";

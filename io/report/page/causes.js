@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why holes are there: names, colours, counts and words of causes. docs/stations.md says what they are.
+
+// In the order of the legend, the filter and the sort. The style --cause-NAME has the colour of each: they differ for
+// colour-blind readers, too (Machado, Oliveira, Fernandes 2009), by 0.11 or more in OKLab.
+const kCauses = [
+  {name: "hidden", title: "hidden"},
+  {name: "opening", title: "opening"},
+  {name: "out_of_view", title: "out of view"},
+  {name: "no_return", title: "no return"},
+  {name: "filtered", title: "filtered"},
+];
+const kNoCause = "none";  // of outer curves, and of holes where no station counts
+const kLeastShare = 0.01;  // of a hole's area: smaller ones are not named
+
+function cause_title(name) {
+  const known = kCauses.find((cause) => cause.name === name);
+  return known ? known.title : "not known";
+}
+
+function cause_style(name) {
+  return `--cause-${name.replace(/_/g, "-")}`;
+}
+
+function cause_swatch(name, shape) {
+  return element("i", {class: shape, style: `--own:var(${cause_style(name)})`});
+}
+
+// The style of a loop's colour.
+function loop_style(loops, index, by_cause) {
+  if (by_cause) return cause_style(loops.cause[index]);
+  return loops.is_hole[index] ? "--hole" : "--outer";
+}
+
+// Places in kCauses; NaN without a cause.
+function cause_ranks(loops) {
+  const ranks = new Map(kCauses.map(({name}, rank) => [name, rank]));
+  return Float64Array.from(loops.cause, (name) => (ranks.has(name) ? ranks.get(name) : NaN));
+}
+
+// [name, count] of the causes of these holes (indices), without zeros; kNoCause comes last.
+function cause_counts(loops, indices) {
+  const counts = new Map([...kCauses.map(({name}) => [name, 0]), [kNoCause, 0]]);
+  for (const i of indices) {
+    if (loops.is_hole[i]) counts.set(loops.cause[i], (counts.get(loops.cause[i]) || 0) + 1);
+  }
+  return Array.from(counts).filter(([, count]) => count > 0);
+}
+
+// Shows what only scans with stations have, and fills the list of the filter.
+function connect_causes(loops) {
+  document.body.classList.toggle("has-causes", loops.has_causes);
+  for (const id of ["cause-select", "loop-colours"]) find(id).hidden = !loops.has_causes;
+  const counts = new Map(cause_counts(loops, loops.cause.keys()));
+  const option = (value, text) => element("option", {value}, text);
+  find("cause-filter").append(option("any", "Any cause"),
+      ...kCauses.map(({name, title}) => option(name, `${title[0].toUpperCase()}${title.slice(1)} (${format_count(counts.get(name) || 0)})`)),
+      option(kNoCause, "No cause"));
+}
+
+// Rows of a loop's measures: its cause with the shares of its area, and what hides it.
+function cause_rows({loops, stations}, index, decimals) {
+  if (!loops.has_causes || !loops.is_hole[index]) return [];
+  const shares = kCauses.map(({name, title}) => ({title, share: loops.shares[name][index]}))
+      .filter(({share}) => share > kLeastShare).sort((a, b) => b.share - a.share);
+  if (loops.cause[index] === kNoCause || shares.length === 0) return [["Cause", cause_title(loops.cause[index])]];
+  const words = shares.map(({title, share}) => `${title} ${Math.round(100 * share)} %`).join(", ");
+  const rows = [["Cause", element("span", {}, cause_swatch(loops.cause[index], "dot"), words), "wide"]];
+  const station = stations[loops.hidden_from[index]];
+  if (station && loops.shares.hidden[index] > kLeastShare) {
+    const place = [0, 1, 2].map((axis) => format_place(loops.hidden_by[3 * index + axis], decimals)).join("  ");
+    rows.push(["Hidden by", `what stands at ${place}, from station ${station.name}`, "wide"]);
+  }
+  return rows;
+}
+
+// Lines of the legend where loops have the colours of causes.
+function cause_legend(loops) {
+  const lines = cause_counts(loops, loops.cause.keys()).map(
+      ([name]) => element("span", {}, cause_swatch(name, "swatch cause"), cause_title(name)));
+  if (loops.is_hole.some((is_hole) => !is_hole)) lines.push(element("span", {}, cause_swatch(kNoCause, "swatch outer"), "outer curve"));
+  return lines;
+}
