@@ -89,12 +89,15 @@ import json
 import math
 from pathlib import Path
 
-MEASURES = {name: name for name in ("id", "kind", "unit", "points", "confidence", "last_scale", "perimeter", "area", "diameter",
+SHARES = ("hidden", "opening", "out_of_view", "no_return", "filtered")
+MEASURES = {name: name for name in ("id", "kind", "cause", "unit", "points", "confidence", "last_scale", "perimeter", "area", "diameter",
                                     "planarity")}
 
 
 def is_near(a, b):
-    return (a or "") == b if isinstance(b, str) else math  # a Shapefile has no empty text.isclose(a, b, rel_tol=1e-12, abs_tol=1e-14)
+    if a is None or b is None or isinstance(b, str):
+        return (a or "") == (b or "")  # a Shapefile has no empty text
+    return math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-14)
 
 
 def distance(line, coordinates):
@@ -104,7 +107,8 @@ def distance(line, coordinates):
 CONVERTED = ("utm", "heights", "own", "stated")
 for run in (*CONVERTED, "again", "nonsense", "local"):
     result = json.loads(Path(run, "holes.json").read_text(encoding="utf-8"))
-    loops = [{**loop, "unit": result["unit"]} for loop in result["loops"]]
+    # Without stations, no cause is known.
+    loops = [{**loop, "unit": result["unit"], **dict.fromkeys(SHARES)} for loop in result["loops"]]
     assert len(loops) == 5 and loops[0]["coordinates"][0][1] > 5e6
     assert '"crs"' not in Path(run, "loops.geojson").read_text(encoding="utf-8")
     if run in CONVERTED:
@@ -123,6 +127,7 @@ for run in (*CONVERTED, "again", "nonsense", "local"):
             else:
                 assert line[:-1] == loop["coordinates"], (run, format)
             short = {"mean_probability": "mean_prob", "persistence": "persist", "first_scale": "first_scal"}
+            short |= {share: "out_view" if share == "out_of_view" else share for share in SHARES}
             names = MEASURES | {name if format == "shp" else key: key for key, name in short.items()}
             assert feature["properties"].keys() == names.keys(), feature["properties"]
             for name, key in names.items():

@@ -60,6 +60,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"sample_points", "200"},
     {"coverage", "3"},
     {"cut_outs", "3"},
+    {"stations", LACUNA_SOURCE_DIR "/tests/data/station.txt"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
     {"tile_points", "150"},

@@ -400,7 +400,7 @@ TEST_CASE("a file that the program did not write is refused before the work, and
     CHECK(run_program(arguments).exit_code == 0);  // its own file
     if (arguments == synth) {
       for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "holes.csv", "holes.json",
-                               "run.json", "points.loops.txt"})
+                               "run.json", "points.loops.txt", "points.stations.txt"})
         fs::remove(scratch / "out" / name);
     }
   }

@@ -49,7 +49,7 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
   const auto json = report(out);
   CHECK(json.at("loops").empty());
   CHECK(json.at("bounds").is_null());
-  CHECK(read_file(out / "holes.csv").ends_with("nx,ny,nz\n"));
+  CHECK(read_file(out / "holes.csv").ends_with("nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n"));
   CHECK(run_of(out).at("points_per_second").is_null());
   CHECK(run_of(out).at("peak_memory_bytes") > 0);
   CHECK(json.at("inputs")[0].at("points") == 1);
@@ -99,11 +99,11 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                       "0,\"last_scale\":0.0,"
                       "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_"
                       "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
-                      "\"normal\":[0.0,0.0,1.0],\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
+                      "\"normal\":[0.0,0.0,1.0],\"cause\":null,\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
                       "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
   CHECK_THAT(
       read_file(folder / "holes.csv"),
-      Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,1,2,3,0,0,1\n1,outer,4,1,0,0,0,0.1,,0,0,0,1,2,3,0,0,1\n"));
+      Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,4,1,0,0,0,0.1,,0,0,0,,,,,,1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());
   CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));
