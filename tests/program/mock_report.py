@@ -86,7 +86,7 @@ def stations_of(count, bounds):
     low, high = bounds["min"], bounds["max"]
     names = ["a long name of a station, as in E57", *(f"station {i}" for i in range(1, count))]
     return [{"name": name, "place": [round(l + (h - l) * (i + 1) / (count + 1), 3) for l, h in zip(low[:2], high[:2])] + [high[2]],
-             "points": 150000, "certainty": 0.6 if i == 2 else 0.98, "lowest_sine": -0.9, "highest_sine": 0.2, "turn": 1.0,
+             "points": 150000, "certainty": 0.6 if i == 2 else 0.999, "lowest_sine": -0.9, "highest_sine": 0.2, "turn": 1.0,
              "step": 0.003, "farthest": 12.0} for i, name in enumerate(names[:count])]
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Facts of the scan and of the run: sources, counts, parameters, times.
 
-const kLeastCertainty = 0.75;  // of a station that counts, as in io/stations/station_views.hpp
+const kLeastCertainty = 0.98;  // of a station that counts, as in io/stations/station_views.hpp
 
 function draw_facts(data, units) {
   const {report} = data;
