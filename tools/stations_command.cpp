@@ -129,7 +129,11 @@ void run_stations(const StationsArguments& arguments) {
   thin(scan.hidden);
   const std::string unit = scene.holes.at("unit").get<std::string>();
   const double metre = 1 / metres_of(unit);
-  const Obstacles obstacles(scan.points, 3.0 * static_cast<double>(scene.points.spacing));
+  const double least_length = 1e-4 * scene.edge;  // of voxels and grids: finer ones take too long
+  if (arguments.grid != 0 && !(arguments.grid >= least_length))
+    throw UsageError("--grid: must be 0, or " + print_length(least_length, unit) + " or more");
+  const Obstacles obstacles(scan.points,
+                            std::max(3.0 * static_cast<double>(scene.points.spacing), least_length));
   const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : 1.6 * metre,
                           .grid = arguments.grid,
                           .clearance = 0.3 * metre};

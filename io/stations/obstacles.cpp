@@ -27,14 +27,15 @@ struct Obstacles::Grid {
 
 Obstacles::Obstacles(std::span<const Eigen::Vector3d> points, double voxel)
     : grid_(std::make_unique<Grid>()), voxel_(voxel) {
+  if (!points.empty()) origin_ = points.front();
   openvdb::tree::ValueAccessor<openvdb::MaskTree> voxels(grid_->tree);
-  for (const Eigen::Vector3d& point : points) voxels.setValueOn(voxel_of(point / voxel_));
+  for (const Eigen::Vector3d& point : points) voxels.setValueOn(voxel_of((point - origin_) / voxel_));
 }
 
 Obstacles::~Obstacles() = default;
 
 bool Obstacles::block(const Eigen::Vector3d& eye, const Eigen::Vector3d& place) const {
-  const Eigen::Vector3d from = eye / voxel_, arm = (place - eye) / voxel_;
+  const Eigen::Vector3d from = (eye - origin_) / voxel_, arm = (place - eye) / voxel_;
   const double length = arm.norm();
   constexpr double kAtEye = 1, kAtPlace = 2;
   if (!(length > kAtEye + kAtPlace)) return false;
@@ -48,7 +49,8 @@ bool Obstacles::block(const Eigen::Vector3d& eye, const Eigen::Vector3d& place) 
 }
 
 bool Obstacles::touch(const Eigen::AlignedBox3d& box) const {
-  const openvdb::CoordBBox voxels(voxel_of(box.min() / voxel_), voxel_of(box.max() / voxel_));
+  const openvdb::CoordBBox voxels(voxel_of((box.min() - origin_) / voxel_),
+                                  voxel_of((box.max() - origin_) / voxel_));
   for (auto at = voxels.begin(); at; ++at)
     if (grid_->tree.isValueOn(*at)) return true;
   return false;

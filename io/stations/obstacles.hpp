@@ -11,7 +11,7 @@ namespace lacuna::io {
 
 class Obstacles {
  public:
-  // Memory: a few bytes for each voxel with points.
+  // `voxel`: its edge, above 0. Memory: a few bytes for each voxel with points.
   Obstacles(std::span<const Eigen::Vector3d> points, double voxel);
   ~Obstacles();
 
@@ -23,6 +23,7 @@ class Obstacles {
  private:
   struct Grid;
   std::unique_ptr<Grid> grid_;
+  Eigen::Vector3d origin_{0, 0, 0};  // near the points, which may be far from 0 0 0
   double voxel_;
 };
 

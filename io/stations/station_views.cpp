@@ -169,7 +169,7 @@ void StationViews::take(std::size_t file, const ScanReader& reader, const RowBat
   for (std::size_t i = 0; i < rows.count; ++i) {
     if (!sources.empty() && sources[i] != last) {
       last = sources[i];
-      view = find(file, static_cast<std::uint64_t>(last));
+      view = find(file, last >= 0 && last < 0x1p32 ? static_cast<std::uint64_t>(last) : kAny);
     }
     if (view) put(*view, read[i], !std::isnan(kept[i].x()));
   }

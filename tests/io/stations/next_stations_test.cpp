@@ -32,6 +32,12 @@ TEST_CASE("a ray is blocked by points between its ends, and not by those at its 
   CHECK_FALSE(obstacles.block({0, 1, 3}, {2, 1, 3}));     // over it
   CHECK_FALSE(obstacles.block({0, 1, 1}, {1, 1, 1}));     // to it
   CHECK_FALSE(obstacles.block({1.02, 1, 1}, {3, 1, 1}));  // from it
+  const Eigen::Vector3d far(5e5, 5.4e6, 300);             // voxels there have numbers beyond 2^31
+  std::vector<Eigen::Vector3d> moved;
+  for (const Eigen::Vector3d& point : points) moved.push_back(point + far);
+  const Obstacles fine(moved, 0.001);
+  CHECK(fine.block(moved.front() - Eigen::Vector3d(1, 0, 0), moved.front() + Eigen::Vector3d(1, 0, 0)));
+  CHECK_FALSE(fine.block(far + Eigen::Vector3d(0, 1, 3), far + Eigen::Vector3d(2, 1, 3)));
   CHECK(obstacles.touch({Eigen::Vector3d(0.9, 0.9, 0.9), Eigen::Vector3d(1.1, 1.1, 1.1)}));
   CHECK_FALSE(obstacles.touch({Eigen::Vector3d(0.2, 0.9, 0.9), Eigen::Vector3d(0.8, 1.1, 1.1)}));
 }
