@@ -267,6 +267,21 @@ class Files(Folder):
         with self.assertRaisesRegex(lacuna.Error, "is no result"):
             lacuna.load(self.folder)
 
+    def test_causes_of_holes_where_stations_are_known(self):
+        scan, stations = self.folder / "room.ply", self.folder / "room.stations.txt"
+        subprocess.run([PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
+        holes = lacuna.detect(scan, stations=stations)
+        causes = [loop.cause for loop in holes.loops]
+        self.assertTrue({"hidden", "opening"} <= set(causes))
+        for loop in holes.loops:
+            self.assertEqual(loop.cause is None, bool(np.isnan(loop.cause_shares).all()))
+            self.assertEqual(np.isfinite(loop.hidden_by).all(), bool(loop.cause_shares[0] > 0))
+        holes.save(self.folder / "out")
+        loaded = lacuna.load(self.folder / "out")
+        np.testing.assert_array_equal(loaded.loops.cause_shares, holes.loops.cause_shares)
+        np.testing.assert_array_equal(loaded.loops.hidden_by, holes.loops.hidden_by)
+        self.assertEqual({loop.cause for loop in lacuna.detect(scan).loops}, {None})
+
     def test_results_are_compared_with_the_truth_and_with_others(self):
         subprocess.run([PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(self.folder / "s.ply")

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/next_stations.hpp"
 
+#include "tests/support/clouds.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -60,6 +64,33 @@ TEST_CASE("next stations are chosen by what each adds, within range and angle") 
   CHECK(choose_stations(hidden, eyes, obstacles, {.range = 1, .least_cosine = 0}, 5).empty());
   CHECK(choose_stations(hidden, eyes, obstacles, {.range = 6, .least_cosine = 0.9}, 5).empty());
   CHECK(choose_stations({}, eyes, obstacles, limits, 5).empty());
+}
+
+TEST_CASE("two next stations see at least 63 % of what the best two would") {
+  const Obstacles nothing({}, 0.1);
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    Random random(seed);
+    std::vector<InsidePlace> hidden;
+    for (int i = 0; i < 200; ++i)
+      hidden.push_back(on_floor(random.uniform(0, 20), random.uniform(0, 20), random.uniform()));
+    std::vector<Eigen::Vector3d> eyes;
+    for (int i = 0; i < 30; ++i) eyes.emplace_back(random.uniform(0, 20), random.uniform(0, 20), 1.6);
+    const SightLimits limits{.range = 6, .least_cosine = 0.1};
+    double best = 0;
+    for (const Eigen::Vector3d& a : eyes) {
+      for (const Eigen::Vector3d& b : eyes) {
+        double area = 0;
+        for (const NextStation& station : choose_stations(hidden, std::vector{a, b}, nothing, limits, 2))
+          area += station.area;
+        best = std::max(best, area);
+      }
+    }
+    const auto chosen = choose_stations(hidden, eyes, nothing, limits, 2);
+    REQUIRE(chosen.size() == 2);
+    CHECK(chosen[0].area >= chosen[1].area);
+    CHECK(chosen[0].area + chosen[1].area >= 0.632 * best);
+    CHECK(chosen[0].area + chosen[1].area <= best * (1 + 1e-12));
+  }
 }
 
 TEST_CASE("eyes stand over the floor, neither on tables nor in walls") {
