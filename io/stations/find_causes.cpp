@@ -161,6 +161,7 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, D
     if (loop.kind != LoopKind::kHole || views.empty()) return;
     const std::vector<InsidePlace> places = inside_places(detection, i);
     loop.cause = cause_of(places, views, tolerance_of(loop));
+    stations.note_touched(2 * places.size() * views.size());
     if (!loop.cause.main()) loop.cause = cause_of(places, views, 0);  // a coarse loop near all of the surface
   });
 }

@@ -11,11 +11,6 @@
 #include <sys/mman.h>
 
 namespace lacuna::io {
-namespace {
-
-constexpr std::size_t kBytes = RangeImage::kCells * sizeof(float);
-
-}  // namespace
 
 void RangeImage::Unmap::operator()(float* cells) const {
   ::munmap(cells, kBytes);

@@ -19,6 +19,7 @@ class RangeImage {
  public:
   static constexpr std::size_t kEdge = 1024;  // cells along an edge of a face
   static constexpr std::size_t kCells = 6 * kEdge * kEdge;
+  static constexpr std::size_t kBytes = kCells * sizeof(float);
   static constexpr double kCellAngle = 2.0 / kEdge;  // radians, at most
 
   // `folder`: for the file; empty: it is in memory. Throws `Error`.

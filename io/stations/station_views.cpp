@@ -12,6 +12,7 @@
 namespace lacuna::io {
 namespace {
 
+constexpr std::size_t kNoted = 1024;   // rows, after which memory is checked
 constexpr double kConflict = 0.1;      // of the range
 constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
 
@@ -106,7 +107,7 @@ StationSummary summary_of(const StationView& view) {
 
 StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
                            std::filesystem::path folder)
-    : folder_(std::move(folder)), files_(scan.files()), are_stated_(!stated.empty()) {
+    : folder_(std::move(folder)), memory_(scan.memory()), files_(scan.files()), are_stated_(!stated.empty()) {
   if (!are_stated_) return;
   for (Station& station : read_stations(stated, scan.files())) add(std::move(station));
 }
@@ -172,6 +173,19 @@ void StationViews::take(std::size_t file, const ScanReader& reader, const RowBat
       view = find(file, last >= 0 && last < 0x1p32 ? static_cast<std::uint64_t>(last) : kAny);
     }
     if (view) put(*view, read[i], !std::isnan(kept[i].x()));
+    if (i % kNoted == kNoted - 1) note_touched(kNoted);
+  }
+}
+
+void StationViews::note_touched(std::uint64_t places) const {
+  constexpr std::uint64_t kPage = 4096;
+  const std::uint64_t images = views_.size() * RangeImage::kBytes;
+  touched_ += places;
+  if (std::min(touched_ * kPage, images) <= memory_) return;
+  touched_ = 0;
+  for (const StationView& view : views_) {
+    view.ranges.leave_memory();
+    if (view.left_out) view.left_out->leave_memory();
   }
 }
 
@@ -189,10 +203,12 @@ std::span<const StationView> StationViews::complete(FileScan& scan, const TaskAr
   }
   scan.observe(nullptr);
   std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
-  arena.for_each(views_.size(), [&](std::size_t i) {
+  const std::vector<std::uint64_t> needs(views_.size(), 2 * RangeImage::kBytes);
+  arena.for_each_within_budget(needs, memory_, [&](std::size_t i) {
     fill_between_rays(views_[i]);
     find_field(views_[i]);
     views_[i].ranges.leave_memory();
+    if (views_[i].left_out) views_[i].left_out->leave_memory();
   });
   return views_;
 }

@@ -9,6 +9,7 @@
 #include "io/stations/station.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -70,6 +71,9 @@ class StationViews final : public RowObserver {
 
   // In the order of the file, or of the scans. Stations without points are left out. Reads the scan where no
   // pass over it has ended yet.
+  // Keeps the pages of images within the memory of the scan's reader, as far as they were touched at so many
+  // places since they last left.
+  void note_touched(std::uint64_t places) const;
   std::span<const StationView> views() const { return views_; }  // once complete
   std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
 
@@ -80,6 +84,8 @@ class StationViews final : public RowObserver {
   void put(StationView& view, const Eigen::Vector3d& position, bool is_kept);
 
   std::filesystem::path folder_;
+  std::uint64_t memory_;                            // of pages of images
+  mutable std::atomic<std::uint64_t> touched_ = 0;  // places of images, since the pages last left memory
   std::vector<std::filesystem::path> files_;
   bool are_stated_ = false, is_complete_ = false;
   std::vector<StationView> views_;

@@ -82,6 +82,28 @@ TEST_CASE("the lid of a large hole stays within the memory limit") {
   check_limit(plane(600).punched({300, 300}, 250).jittered(0.2, 1), {"--lids"});
 }
 
+TEST_CASE("range images of stations stay within the memory limit, with the same causes as without one") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "room.ply").string(),
+                    stations = (scratch / "room.stations.txt").string();
+  REQUIRE(test::run_program({"synth", "scan", scan, "--points", "150000", "--stations", "4"}).exit_code == 0);
+  const auto detect = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> words = {"detect",  scan,         "--out",  (scratch / out).string(),
+                                      "--quiet", "--stations", stations, "--threads",
+                                      "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return test::run_program(words);
+  };
+  const test::ProgramResult limited = detect("limited", {"--memory-limit", "64MiB"});
+  REQUIRE(limited.exit_code == 0);
+  CAPTURE(limited.peak_memory >> 20);  // MiB
+  CHECK(limited.peak_memory <= 64 << 20);
+  REQUIRE(detect("free", {}).exit_code == 0);
+  const bool same =
+      test::read_file(scratch / "limited/holes.json") == test::read_file(scratch / "free/holes.json");
+  CHECK(same);
+}
+
 TEST_CASE("large cut-outs of many holes stay within the memory limit") {
   Cloud cloud = plane(600);
   for (int x = 60; x < 600; x += 80) {
