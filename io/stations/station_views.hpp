@@ -71,8 +71,8 @@ class StationViews final : public RowObserver {
 
   // In the order of the file, or of the scans. Stations without points are left out. Reads the scan where no
   // pass over it has ended yet.
-  // Keeps the pages of images within the memory of the scan's reader, as far as they were touched at so many
-  // places since they last left.
+  // Notes that so many places of images were touched. Their pages leave memory where they may be more than
+  // the scan's reader may hold.
   void note_touched(std::uint64_t places) const;
   std::span<const StationView> views() const { return views_; }  // once complete
   std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
