@@ -29,6 +29,12 @@ std::string unit_of_metres(double metres) {
   return unit == std::end(kUnits) ? "" : unit->name;
 }
 
+std::optional<double> metres_of_unit(std::string_view unit) {
+  const auto* const known = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                         [&](const Unit& other) { return unit == other.name; });
+  return known == std::end(kUnits) ? std::nullopt : std::optional(known->metres);
+}
+
 std::string length_unit(std::string_view crs) {
   if (is_geographic(crs)) return "";
   // Units of angles, and of the geographic system below it, come before the unit of length: the last counts.

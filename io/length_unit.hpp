@@ -2,6 +2,7 @@
 // The unit of length of a scan, where its file names one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,8 @@ namespace lacuna::io {
 // Returns the unit that has this length in metres: "m", "km", "cm", "mm", "ft" (international foot), "us-ft"
 // (US survey foot), "in", "yd". Empty for another length.
 std::string unit_of_metres(double metres);
+// The length of such a unit in metres; none for another name.
+std::optional<double> metres_of_unit(std::string_view unit);
 
 // The horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162). Empty
 // where it is geographic, where the text is a code, and where it names another unit.

@@ -36,12 +36,6 @@ struct StationsArguments {
   bool overwrite = false;
 };
 
-double metres_of(const std::string& unit) {
-  for (const double metres : {1000.0, 0.01, 0.001, 0.3048, 1200.0 / 3937, 0.0254, 0.9144})
-    if (!unit.empty() && unit_of_metres(metres) == unit) return metres;
-  return 1;
-}
-
 // Positions of the sample and of hidden places, in the coordinates of the scan.
 struct HiddenScan {
   std::vector<Eigen::Vector3d> points;
@@ -128,8 +122,8 @@ void run_stations(const StationsArguments& arguments) {
   HiddenScan scan = hidden_in(scene);
   thin(scan.hidden);
   const std::string unit = scene.holes.at("unit").get<std::string>();
-  const double metre = 1 / metres_of(unit);
-  const double least_length = 1e-4 * scene.edge;  // of voxels and grids: finer ones take too long
+  const double metre = 1 / metres_of_unit(unit).value_or(1);  // lengths without a unit count as metres
+  const double least_length = 1e-4 * scene.edge;              // of voxels and grids: finer ones take too long
   if (arguments.grid != 0 && !(arguments.grid >= least_length))
     throw UsageError("--grid: must be 0, or " + print_length(least_length, unit) + " or more");
   const Obstacles obstacles(scan.points,
