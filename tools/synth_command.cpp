@@ -121,8 +121,7 @@ void add_scan(CLI::App& synth) {
   ScanOptions& o = *options;
   add_common(app, o);
   add_choice(app, "--scene", kScenes, o.scene, "what is scanned; aerial: from the air")->default_str("room");
-  app.add_option("--stations", o.stations,
-                 "from how many places, or in how many strips from the air, 1 to 255")
+  app.add_option("--stations", o.stations, "from how many places, or in how many strips or lanes, 1 to 255")
       ->check(whole_number())
       ->capture_default_str();
   app.add_option("--place", o.places, "where one more station stands, metres; may be given again")
@@ -130,6 +129,8 @@ void add_scan(CLI::App& synth) {
       ->type_name("X Y Z")
       ->type_size(3)
       ->expected(-1);
+  app.add_flag("--drive", o.drives,
+               "the scanner drives along x, in so many lanes as --stations says, and turns around its path");
   app.add_option("--station-factor", o.station_factor,
                  "points of the first station over those of each other one, 0.01 to 100")
       ->check(real_number())
@@ -158,7 +159,7 @@ void add_scan(CLI::App& synth) {
       ->check(real_number())
       ->capture_default_str();
   app.add_option("--field-of-view", o.field_of_view,
-                 "lowest and highest elevation, degrees; not from the air")
+                 "lowest and highest elevation, degrees; not of a moving scanner")
       ->check(real_number())
       ->type_name("LOW HIGH")
       ->default_str("-60 90");

@@ -40,7 +40,8 @@ std::string PlyOutput::header() const {
   std::string text = std::string(kScanMark) + std::string(kCountWidth - count.size() + 1, '-') +
                      "\nelement vertex " + count + "\n";
   for (const char* axis : {" x\n", " y\n", " z\n"}) text += "property " + type + axis;
-  if (extras_ == Extras::kScanAndIntensity) text += "property uchar scan\nproperty float intensity\n";
+  if (extras_ != Extras::kNone) text += "property uchar scan\nproperty float intensity\n";
+  if (extras_ == Extras::kScanAndTime) text += "property double gps_time\n";
   return text + "end_header\n";
 }
 
@@ -51,9 +52,10 @@ void PlyOutput::add(Vec3 position) {
   ++count_;
 }
 
-void PlyOutput::add(Vec3 position, std::uint8_t scan, float intensity) {
-  std::array<std::byte, 32> row;
-  std::byte* const end = put(put(put_position(row.data(), position, coordinates_), scan), intensity);
+void PlyOutput::add(Vec3 position, std::uint8_t scan, float intensity, double time) {
+  std::array<std::byte, 40> row;
+  std::byte* end = put(put(put_position(row.data(), position, coordinates_), scan), intensity);
+  if (extras_ == Extras::kScanAndTime) end = put(end, time);
   file_.write(std::span(row.data(), end));
   ++count_;
 }

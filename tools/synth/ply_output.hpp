@@ -12,18 +12,19 @@
 namespace lacuna::synth {
 
 enum class Coordinates { kFloat, kDouble };
-enum class Extras { kNone, kScanAndIntensity };  // uchar scan, float intensity
+// None; uchar scan, float intensity; and double gps_time with these.
+enum class Extras { kNone, kScan, kScanAndTime };
 
 // How each file of a PlyOutput begins: an earlier one is recognised by it.
 inline constexpr std::string_view kScanMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna synth ";
 
-// Little-endian rows x y z [scan intensity].
+// Little-endian rows x y z [scan intensity [gps_time]].
 class PlyOutput {
  public:
   PlyOutput(io::OutputFile& file, Coordinates coordinates, Extras extras);
 
   void add(Vec3 position);
-  void add(Vec3 position, std::uint8_t scan, float intensity);
+  void add(Vec3 position, std::uint8_t scan, float intensity, double time);  // time: where rows have it
   std::uint64_t count() const { return count_; }
 
   void finish();  // fills the count in

@@ -45,24 +45,46 @@ void check(const ScanOptions& o) {
 
 constexpr std::string_view kStationsMark = "# stations of a synthetic scan: name x y z source\n";
 
-// As `--stations` of lacuna detect reads it. A flight has no stations.
+constexpr std::string_view kTrajectoryMark = "# trajectory of a synthetic scan\ntime x y z\n";
+
+void append_place(std::string& line, Vec3 place, const ScanOptions& options) {
+  const auto [x, y, z] = options.translate;
+  for (const double coordinate : {place.x + x, place.y + y, place.z + z}) {
+    line += ' ';
+    append_shortest(line, coordinate);
+  }
+}
+
+// As `--stations` of lacuna detect reads it.
 void write_stations(const Scanner& scanner, const ScanOptions& options, OutputFile& file) {
   file.write(kStationsMark);
   for (std::size_t i = 0; i < scanner.stations().size(); ++i) {
     std::string line = "station_" + std::to_string(i);
-    const Vec3& place = scanner.stations()[i];
-    for (const double coordinate :
-         {place.x + options.translate[0], place.y + options.translate[1], place.z + options.translate[2]}) {
-      line += ' ';
-      append_shortest(line, coordinate);
-    }
+    append_place(line, scanner.stations()[i], options);
     file.write(line + " " + std::to_string(i) + "\n");
   }
 }
 
-void check_flight(const ScanOptions& o) {
-  require(o.sweeps == 1, "--sweeps: a flight has one sweep on each strip");
-  require(o.field_of_view == kFieldOfView, "--field-of-view: a flight has its own, 20 degrees to both sides");
+// Likewise: each strip by a place for every metre or more.
+void write_trajectory(const Scanner& scanner, const ScanOptions& options, OutputFile& file) {
+  file.write(kTrajectoryMark);
+  const double length = scanner.strip_length();
+  const double steps = std::ceil(std::min(length, 1000.0));
+  for (const Sweep& strip : scanner.sweeps()) {
+    for (double step = 0; step <= steps; ++step) {
+      const double share = step / steps;
+      std::string line;
+      append_shortest(line, scanner.strip_start(strip.station) + share * length / Scanner::kSpeed);
+      append_place(line, strip.origin + (share - 0.5) * length * strip.x, options);
+      file.write(line + "\n");
+    }
+  }
+}
+
+void check_movement(const ScanOptions& o) {
+  require(o.sweeps == 1, "--sweeps: a moving scanner has one sweep on each strip");
+  require(o.places.empty(), "--place: a moving scanner has no stations");
+  require(o.field_of_view == kFieldOfView, "--field-of-view: a moving scanner has its own");
 }
 
 }  // namespace
@@ -73,15 +95,17 @@ ScanSummary write_scan(const ScanOptions& options) {
 
 ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   check(options);
-  if (scene.flown) check_flight(options);
+  if (scene.flown || options.drives) check_movement(options);
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
+  const Scanner scanner(options, scene);
   OutputSet set(options.overwrite);
   OutputFile& truth_file = set.add(truth_path, kTruthMark);
-  const std::filesystem::path stations_path =
-      std::filesystem::path(options.out).replace_extension(".stations.txt");
-  OutputFile* const stations = scene.flown ? nullptr : &set.add(stations_path, kStationsMark);
-  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kScanAndIntensity);
-  const Scanner scanner(options, scene);
+  OutputFile& stations =
+      set.add(std::filesystem::path(options.out)
+                  .replace_extension(scanner.moves() ? ".trajectory.txt" : ".stations.txt"),
+              scanner.moves() ? kTrajectoryMark : kStationsMark);
+  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates,
+                scanner.moves() ? Extras::kScanAndTime : Extras::kScan);
   const std::uint64_t count = scanner.rays();
   ScanTruth truth(scanner, options.points);
   const Permutation shuffled(count, options.seed);
@@ -93,14 +117,14 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
     if (!echo) continue;
     truth.note(*echo, index, ply.count());
     ply.add(echo->position, static_cast<std::uint8_t>(scanner.sweeps()[ray.sweep].station),
-            static_cast<float>(echo->intensity));
+            static_cast<float>(echo->intensity), scanner.moves() ? scanner.time(ray) : 0);
   }
 
   const std::vector<NamedLoop> loops = truth.loops();
   write_truth_head(truth_file, options.out);
   for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
   for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
-  if (stations) write_stations(scanner, options, *stations);
+  scanner.moves() ? write_trajectory(scanner, options, stations) : write_stations(scanner, options, stations);
   ply.finish();
   set.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};

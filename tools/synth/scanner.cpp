@@ -21,6 +21,8 @@ constexpr double kGolden = 0.6180339887498949;
 constexpr double kFlightWobble = 0.4;  // of a step: a platform in the air sways
 constexpr double kSwath = 20 / 360.0;  // turns, to each side of a strip
 constexpr double kHalfSwath = 0.6;     // distances of strips: neighbours overlap by a fifth of them
+constexpr double kDriveRange = 5;      // metres at which profiles of a drive are as far apart as their points
+constexpr double kPause = 5;           // seconds between strips
 constexpr double kLeafReflectance = 0.2;
 
 enum Stream : std::uint64_t { kPlaces = 16, kAims, kRanges, kStrays, kProbes, kRegistrations, kCrowns };
@@ -43,6 +45,17 @@ std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options)
   return stations;
 }
 
+// The middles of lanes at equal distances over the ground where stations can stand.
+std::vector<Vec3> place_lanes(const Scene& scene, const ScanOptions& options) {
+  const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
+  std::vector<Vec3> middles;
+  for (std::uint32_t lane = 0; lane < options.stations; ++lane) {
+    middles.push_back({0.5 * (scene.stand_low.x + scene.stand_high.x),
+                       scene.stand_low.y + (lane + 0.5) * distance, scene.stand_low.z});
+  }
+  return middles;
+}
+
 // The middles of strips at equal distances, as high as their swaths need to overlap.
 std::vector<Vec3> place_strips(const Scene& scene, const ScanOptions& options) {
   const Random random(options.seed, kPlaces);
@@ -63,14 +76,20 @@ std::vector<Vec3> place_strips(const Scene& scene, const ScanOptions& options) {
 Scanner::Scanner(const ScanOptions& options, Scene scene)
     : options_(options),
       scene_(std::move(scene)),
-      lowest_(scene_.flown ? -kSwath : options.field_of_view[0] / 360),
-      upright_(scene_.flown ? 2 * kSwath : (options.field_of_view[1] - options.field_of_view[0]) / 360),
+      lowest_(scene_.flown     ? -kSwath
+              : options.drives ? -0.5
+                               : options.field_of_view[0] / 360),
+      upright_(scene_.flown     ? 2 * kSwath
+               : options.drives ? 1
+                                : (options.field_of_view[1] - options.field_of_view[0]) / 360),
       max_range_(scene_.flown ? std::numeric_limits<double>::max() : options.max_range),
       wobble_(options.seed, kAims),
       range_(options.seed, kRanges),
       stray_(options.seed, kStrays),
       leaves_(options.seed, kCrowns),
-      stations_(scene_.flown ? place_strips(scene_, options) : place_stations(scene_, options)) {
+      stations_(scene_.flown     ? place_strips(scene_, options)
+                : options.drives ? place_lanes(scene_, options)
+                                 : place_stations(scene_, options)) {
   if (options_.registration > 0) misplace_stations();
   lay_sweeps();
   lay_rays();
@@ -117,13 +136,13 @@ void Scanner::lay_sweeps() {
 }
 
 Vec3 Scanner::eye(const Sweep& sweep, Vec3 place) const {
-  return scene_.flown ? sweep.origin + dot(place - sweep.origin, sweep.x) * sweep.x : sweep.origin;
+  return moves() ? sweep.origin + dot(place - sweep.origin, sweep.x) * sweep.x : sweep.origin;
 }
 
 Beam Scanner::beam(const Ray& ray) const {
   const Sweep& sweep = sweeps_[ray.sweep];
   const auto [sin_elevation, cos_elevation] = sin_cos(ray.elevation);
-  if (scene_.flown) {
+  if (moves()) {
     return {sweep.origin + (ray.azimuth - 0.5) * strip_length() * sweep.x,
             sin_elevation * sweep.y - cos_elevation * sweep.axis};
   }
@@ -165,6 +184,14 @@ std::optional<Echo> Scanner::measure(const Ray& ray, std::uint64_t index) const 
               .stray = stray};
 }
 
+double Scanner::strip_start(std::uint32_t strip) const {
+  return strip * (strip_length() / kSpeed + kPause);
+}
+
+double Scanner::time(const Ray& ray) const {
+  return strip_start(sweeps_[ray.sweep].station) + ray.azimuth * strip_length() / kSpeed;
+}
+
 std::uint64_t Scanner::rays() const {
   const Sweep& last = sweeps_.back();
   return last.first_ray + last.scanlines * last.per_scanline;
@@ -186,8 +213,10 @@ void Scanner::lay_rays() {
   double weights = 0;
   for (const Sweep& sweep : sweeps_) weights += weight(sweep);
   // Height over width of the field of rays.
-  const double aspect =
-      scene_.flown ? upright_ * kTwoPi * (stations_[0].z - scene_.stand_low.z) / strip_length() : upright_;
+  const double aspect = scene_.flown
+                            ? upright_ * kTwoPi * (stations_[0].z - scene_.stand_low.z) / strip_length()
+                        : options_.drives ? kTwoPi * kDriveRange / strip_length()
+                                          : upright_;
   std::uint64_t first = 0;
   for (Sweep& sweep : sweeps_) {
     const double rays = static_cast<double>(options_.points) * weight(sweep) / weights *

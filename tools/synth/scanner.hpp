@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual laser scanner: at several stations on the ground, or over it in strips.
+// A virtual laser scanner: at several stations on the ground, or moving in strips, over it or on it.
 #pragma once
 
 #include "tools/synth/random.hpp"
@@ -13,7 +13,7 @@
 namespace lacuna::synth {
 
 // Angles are in turns. On a strip the azimuth is a share of its length instead, and the elevation is the
-// angle from straight down.
+// angle from straight down, around the strip.
 struct Ray {
   std::uint32_t sweep;
   double azimuth, elevation;
@@ -58,7 +58,12 @@ class Scanner {
   double max_range() const { return max_range_; }
   // A surface counts as sampled from this cosine of the angle of incidence on.
   double least_cosine() const { return scene_.flown ? kGrazingFromAir : kGrazing; }
+  bool moves() const { return scene_.flown || options_.drives; }
   double strip_length() const { return scene_.stand_high.x - scene_.stand_low.x; }
+  // Seconds at which a ray of a strip starts. The strips follow each other, at kSpeed, with pauses.
+  static constexpr double kSpeed = 10;  // metres a second
+  double time(const Ray& ray) const;
+  double strip_start(std::uint32_t strip) const;
 
   // Where the ray of a sweep to this place starts.
   Vec3 eye(const Sweep& sweep, Vec3 place) const;

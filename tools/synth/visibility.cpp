@@ -44,6 +44,8 @@ std::string in_words(const Cause& cause, const Scene& scene) {
 
 Visibility::Visibility(const Scanner& scanner)
     : scanner_(scanner), lowest_(sin_cos(scanner.lowest()).sin), highest_(sin_cos(scanner.highest()).sin) {
+  if (scanner.highest() - scanner.lowest() == 1) lowest_ = -1, highest_ = 1;  // a whole turn
+
   for (std::uint32_t sweep = 0; sweep < scanner.sweeps().size(); ++sweep) sweeps_.push_back(sweep);
 }
 
@@ -68,6 +70,9 @@ Cause Visibility::cause(const SurfacePlace& place, std::uint32_t number) const {
   const Vec3 direction = (1 / range) * arm;
   const double facing = -dot(direction, place.normal);
   const double elevation = dot(direction, scene.flown ? sweep.y : sweep.axis);
+  const bool is_ahead =
+      scanner_.moves() && 2 * std::fabs(dot(eye - sweep.origin, sweep.x)) > scanner_.strip_length();
+  if (is_ahead) return {Cause::kStrip, sweep.station};
   if (elevation < lowest_) return {scene.flown ? Cause::kStrip : Cause::kBelow, sweep.station};
   if (elevation > highest_) return {scene.flown ? Cause::kStrip : Cause::kAbove, sweep.station};
   if (range > scanner_.max_range()) return {Cause::kFar, sweep.station};
@@ -110,7 +115,7 @@ double Visibility::density(const SurfacePlace& place, std::uint32_t number) cons
   // Steps between rays: around the axis in turns, or along the strip in its lengths; and of the elevation.
   const double around = 1 / static_cast<double>(sweep.scanlines);
   const double along = (scanner_.highest() - scanner_.lowest()) / static_cast<double>(sweep.per_scanline);
-  if (scene.flown) {
+  if (scanner_.moves()) {
     const double step = std::max(scanner_.strip_length() * around, range * kTwoPi * along);
     return share * incidence / (step * step);
   }

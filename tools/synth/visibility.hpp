@@ -22,7 +22,7 @@ struct Cause {
     kWater,
     kBelow,  // the field of view of the station
     kAbove,
-    kStrip,  // to a side of it
+    kStrip,  // to a side of it, or past its ends
     kFar
   } kind = kNone;
   std::uint32_t number = 0;  // of the shape, or of the station
