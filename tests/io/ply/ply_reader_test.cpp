@@ -410,8 +410,9 @@ TEST_CASE("a header without an end is given up", "[io]") {
   std::string lines = "ply\nformat ascii 1.0\n";
   while (lines.size() < (2u << 20)) lines += "comment and so on and on and on\n";
   CHECK(read_error(folder.write("a.ply", lines)).find("no 'end_header'") != std::string::npos);
-  CHECK(read_error(folder.write("a.ply", "ply\n" + std::string(3u << 20, 'x'))).find("line 2: longer") !=
-        std::string::npos);
+  CHECK(
+      read_error(folder.write("a.ply", std::string("ply\n").append(3u << 20, 'x'))).find("line 2: longer") !=
+      std::string::npos);
 }
 
 TEST_CASE("a list with a negative count, or one that leaves the file, is an error", "[io]") {
