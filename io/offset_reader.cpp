@@ -23,6 +23,7 @@ class OffsetReader final : public ScanReader {
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return reader_->expected_rows(); }
   bool is_slow() const override { return reader_->is_slow(); }
+  std::vector<ScannerPose> scanners() const override { return reader_->scanners(); }
   std::vector<Eigen::Vector3d> no_return_places() const override { return reader_->no_return_places(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

@@ -145,7 +145,7 @@ std::string print_stations(const std::vector<StationSummary>& stations, std::str
     rows.push_back({visible(station.name), print_point(station.place), print_count(station.points),
                     degrees(std::asin(station.lowest)) + " to " + degrees(std::asin(station.highest)),
                     degrees(2 * std::numbers::pi * station.turn), degrees(station.step),
-                    print_length(station.farthest, unit), print_area(100 * station.certainty, "") + " %"});
+                    print_length(station.farthest, unit), print_share(station.certainty)});
   }
   return print_table(rows);
 }

@@ -46,6 +46,10 @@ std::string print_area(double area, std::string_view unit) {
   return with_unit(area, unit, "²");
 }
 
+std::string print_share(double share) {
+  return with_unit(100 * share, "%", "");
+}
+
 std::string print_power(double power_of_ten, std::string_view unit) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%g", power_of_ten);

@@ -3,10 +3,13 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
+#include "io/crs/degrees.hpp"
 #include "io/length_unit.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/output_set.hpp"
 #include "io/stations/next_stations.hpp"
+#include "io/stations/place_list.hpp"
+#include "io/vectors.hpp"
 #include "tools/measures_text.hpp"
 #include "tools/summary.hpp"
 #include "tools/value_options.hpp"
@@ -18,6 +21,7 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +35,7 @@ namespace fs = std::filesystem;
 
 struct StationsArguments {
   fs::path folder;
+  std::optional<fs::path> places;  // a file with those of the scanner; none: over the floor
   std::size_t count = 5;
   double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0: chosen
   bool overwrite = false;
@@ -93,27 +98,67 @@ double farthest_of(const Json& stations) {
   return farthest;
 }
 
+std::vector<Eigen::Vector3d> eyes_of(std::span<const NextStation> chosen) {
+  std::vector<Eigen::Vector3d> eyes;
+  for (const NextStation& station : chosen) eyes.push_back(station.eye);
+  return eyes;
+}
+
+// `tried`: the places that `chosen` is from.
 void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
-                  std::span<const NextStation> chosen, double hidden) {
+                  std::span<const NextStation> chosen, std::span<const NamedPlace> tried, double hidden) {
+  const Json& crs = scene.holes.at("crs");
+  const std::vector<Eigen::Vector3d> eyes = eyes_of(chosen);
+  const auto degrees = to_degrees(crs.is_string() ? crs.get<std::string>() : "", eyes, file);
   Json json = {{"type", "FeatureCollection"}, {"name", "lacuna_next_stations"}};
-  json["crs_of_coordinates"] = scene.holes.at("crs");
+  json["crs_of_coordinates"] = degrees ? Json(kDegreesCrs) : crs;
+  json["crs_of_x_y_z"] = crs;
   json["hidden_area"] = hidden;
   json["features"] = Json::array();
   for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Json properties = {{"rank", i + 1}};
+    if (const std::string& name = tried[chosen[i].index].name; !name.empty()) properties["name"] = name;
+    properties["area"] = chosen[i].area;
+    properties["share"] = chosen[i].area / hidden;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      properties[kPositionNames[static_cast<std::size_t>(axis)]] = eyes[i][axis];
     json["features"].push_back(
         {{"type", "Feature"},
-         {"geometry", {{"type", "Point"}, {"coordinates", list(chosen[i].eye)}}},
-         {"properties", {{"rank", i + 1}, {"area", chosen[i].area}, {"share", chosen[i].area / hidden}}}});
+         {"geometry", {{"type", "Point"}, {"coordinates", list(degrees ? (*degrees)[i] : eyes[i])}}},
+         {"properties", properties}});
   }
   OutputSet set(overwrite);
   set.add(file, kNextStationsMark).write(print(json, 2) + "\n");
   set.commit();
 }
 
+void print_places(const Scene& scene, std::span<const NextStation> chosen, std::span<const NamedPlace> tried,
+                  double hidden, const std::string& unit) {
+  const bool has_names =
+      std::any_of(tried.begin(), tried.end(), [](const NamedPlace& place) { return !place.name.empty(); });
+  std::vector<std::vector<std::string>> rows = {
+      {"next station", "place of the scanner", "sees", "of what is hidden", "with those before"}};
+  double sum = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    sum += chosen[i].area;
+    rows.push_back({std::to_string(i + 1), print_place(chosen[i].eye, scene.edge),
+                    print_area(chosen[i].area, unit), print_share(chosen[i].area / hidden),
+                    print_share(sum / hidden)});
+  }
+  if (has_names) {
+    rows[0].insert(rows[0].begin() + 1, "name");
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      rows[i + 1].insert(rows[i + 1].begin() + 1, visible(tried[chosen[i].index].name));
+  }
+  std::cout << "\n" << print_table(rows) << "\n";
+}
+
 void run_stations(const StationsArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const fs::path file = arguments.folder / kNextStationsFile;
   check_output(file, kNextStationsMark, overwrite);
+  std::vector<NamedPlace> places;
+  if (arguments.places) places = read_places(*arguments.places);
   const Scene scene = read_scene(arguments.folder);
   if (scene.points.positions.empty())
     throw Error(
@@ -136,25 +181,21 @@ void run_stations(const StationsArguments& arguments) {
                                     : farthest > 0      ? farthest
                                                         : 30 * metre,
                            .least_cosine = std::sin(arguments.incidence * std::numbers::pi / 180)};
-  const std::vector<Eigen::Vector3d> eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
+  std::vector<Eigen::Vector3d> eyes;
+  if (!arguments.places) {
+    eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
+    for (const Eigen::Vector3d& eye : eyes) places.push_back({.name = "", .place = eye});
+  } else {
+    for (const NamedPlace& place : places) eyes.push_back(place.place);
+  }
   const std::vector<NextStation> chosen =
       choose_stations(scan.hidden, eyes, obstacles, limits, arguments.count);
-  write_places(file, overwrite, scene, chosen, scan.area);
+  write_places(file, overwrite, scene, chosen, places, scan.area);
 
-  std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size())
-            << " places on the floor were tried\n";
-  if (!chosen.empty()) {
-    std::vector<std::vector<std::string>> rows = {
-        {"next station", "place of the scanner", "sees", "of what is hidden", "with those before"}};
-    double sum = 0;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      sum += chosen[i].area;
-      const auto percent = [&](double area) { return print_area(100 * area / scan.area, "") + " %"; };
-      rows.push_back({std::to_string(i + 1), print_place(chosen[i].eye, scene.edge),
-                      print_area(chosen[i].area, unit), percent(chosen[i].area), percent(sum)});
-    }
-    std::cout << "\n" << print_table(rows) << "\n";
-  }
+  std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size()) << " places "
+            << (arguments.places ? "of " + visible(arguments.places->string()) : "on the floor")
+            << " were tried\n";
+  if (!chosen.empty()) print_places(scene, chosen, places, scan.area, unit);
   std::cout << "written: " << visible(file.string()) << "\n";
 }
 
@@ -171,12 +212,23 @@ void add_stations_command(CLI::App& app) {
       ->check(whole_number())
       ->capture_default_str();
   const auto length = [&](const char* name, double& value, const char* help) {
-    command->add_option(name, value, help)->check(real_number())->type_name("LENGTH")->capture_default_str();
+    return command->add_option(name, value, help)
+        ->check(real_number())
+        ->type_name("LENGTH")
+        ->capture_default_str();
   };
-  length("--height", arguments->height,
-         "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
+  CLI::Option* const height = length("--height", arguments->height,
+                                     "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
   length("--range", arguments->range, "How far it measures; 0: as far as the scan's stations, else 30 m");
-  length("--grid", arguments->grid, "Distance of the places that are tried; 0: as many as take seconds");
+  CLI::Option* const grid =
+      length("--grid", arguments->grid, "Distance of the places that are tried; 0: as many as take seconds");
+  command
+      ->add_option("--places", arguments->places,
+                   "File with the places of the scanner to try, instead of those over the floor: x y z or "
+                   "name x y z on each line")
+      ->type_name("FILE")
+      ->excludes(height)
+      ->excludes(grid);
   command->add_option("--incidence", arguments->incidence, "Degrees between a ray and a surface, at least")
       ->check(real_number())
       ->type_name("DEGREES")

@@ -4,7 +4,10 @@
 
 #include "engine/export.hpp"
 
+#include <span>
 #include <string>
+
+#include <Eigen/Core>
 
 namespace lacuna::io {
 
@@ -16,10 +19,15 @@ struct CrsLookup {
 
 using LookUpCrs = void(CrsLookup& lookup);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand
+// As to_degrees() of io/crs/degrees.hpp. False where GDAL does not convert all places; some may be changed
+// then.
+using ConvertToDegrees = bool(const std::string& crs, std::span<Eigen::Vector3d> places);
 
 inline constexpr const char* kLookUpCrs = "lacuna_look_up_crs";
 inline constexpr const char* kIsSameCrs = "lacuna_is_same_crs";
+inline constexpr const char* kConvertToDegrees = "lacuna_convert_to_degrees";
 extern "C" LACUNA_API LookUpCrs lacuna_look_up_crs;
 extern "C" LACUNA_API IsSameCrs lacuna_is_same_crs;
+extern "C" LACUNA_API ConvertToDegrees lacuna_convert_to_degrees;
 
 }  // namespace lacuna::io

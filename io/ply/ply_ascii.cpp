@@ -134,6 +134,14 @@ void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t cou
   pass_rows(in, element, count, element.properties.size(), [](std::span<const std::int64_t>) {});
 }
 
+void skip_ascii_lines(InputFile& in, const PlyElement& element) {
+  if (element.properties.empty()) return;
+  for (std::uint64_t left = element.count; left > 0; --left) {
+    if (!in.next_row()) fail_few_rows(in, element, left);
+    in.next_line();
+  }
+}
+
 void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit) {
   pass_rows(in, element, element.count, list, visit);
 }

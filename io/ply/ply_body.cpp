@@ -39,6 +39,15 @@ bool is_swapped(PlyFormat format) {
   return (format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
 }
 
+void read_rows(InputFile& in, PlyFormat format, const PlyElement& element, std::uint64_t count,
+               std::byte* rows) {
+  if (format == PlyFormat::kAscii) {
+    read_ascii_rows(in, element, count, rows);
+  } else {
+    read_binary_rows(in, element, is_swapped(format), count, rows);
+  }
+}
+
 void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element) {
   if (format == PlyFormat::kAscii) {
     skip_ascii_rows(in, element, element.count);

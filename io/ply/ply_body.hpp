@@ -13,6 +13,10 @@ void require_size(const InputFile& in, const PlyHeader& header);
 // Values have the other byte order than this machine's.
 bool is_swapped(PlyFormat format);
 
+// Reads `count` rows of an element: their scalars packed in `rows` (io/ply/ply_rows.hpp).
+void read_rows(InputFile& in, PlyFormat format, const PlyElement& element, std::uint64_t count,
+               std::byte* rows);
+
 // Passes over all rows of one element.
 void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element);
 

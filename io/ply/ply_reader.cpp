@@ -4,8 +4,8 @@
 #include "io/input_file.hpp"
 #include "io/offset_reader.hpp"
 #include "io/ply/ply_body.hpp"
+#include "io/ply/ply_camera.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/ply/ply_rows.hpp"
 #include "io/scalar.hpp"
 
 #include <algorithm>
@@ -44,12 +44,21 @@ class PlyReader final : public ScanReader {
     element_ = vertex;
     layout_ = header_.elements[vertex].layout();
     left_ = header_.elements[vertex].count;
+    scanner_ = read_ply_camera(file, header_);
     for (std::size_t i = 0; i < vertex; ++i) skip_rows(in_, header_.format, header_.elements[i]);
   }
 
   std::string format() const override { return std::string("PLY, ") + ply_name(header_.format); }
   const RowLayout& layout() const override { return layout_; }
 
+  std::vector<Eigen::Vector3d> no_return_places() const override {
+    std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
+    if (scanner_) places.push_back(*scanner_);
+    return places;
+  }
+  std::vector<ScannerPose> scanners() const override {
+    return scanner_ ? std::vector{ScannerPose{.place = *scanner_}} : std::vector<ScannerPose>{};
+  }
   const LocalOffset& offset() const { return header_.offset; }
 
   std::optional<std::uint64_t> expected_rows() const override { return header_.elements[element_].count; }
@@ -63,12 +72,7 @@ class PlyReader final : public ScanReader {
       finish();
       return false;
     }
-    const PlyElement& vertex = header_.elements[element_];
-    if (header_.format == PlyFormat::kAscii) {
-      read_ascii_rows(in_, vertex, batch.count, batch.bytes.data());
-    } else {
-      read_binary_rows(in_, vertex, is_swapped(header_.format), batch.count, batch.bytes.data());
-    }
+    read_rows(in_, header_.format, header_.elements[element_], batch.count, batch.bytes.data());
     left_ -= batch.count;
     return true;
   }
@@ -87,7 +91,8 @@ class PlyReader final : public ScanReader {
   PlyHeader header_;
   std::size_t element_ = 0;  // of the header, the vertices
   RowLayout layout_;
-  std::uint64_t left_ = 0;  // vertices not yet read
+  std::optional<Eigen::Vector3d> scanner_;  // of its camera
+  std::uint64_t left_ = 0;                  // vertices not yet read
   bool finished_ = false;
 };
 

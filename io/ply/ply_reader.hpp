@@ -13,7 +13,8 @@ bool looks_like_ply(const FileStart& start);
 
 // Coordinates are those of the scan: an offset in the header is added. Any scalar types; lists and other
 // elements are passed over, but must be complete, and nothing may follow the last one. A file too short for
-// what its header declares is an `Error` at once.
+// what its header declares is an `Error` at once. Its camera (io/ply/ply_camera.hpp) is a scanner, and a
+// place of rays without return.
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna::io

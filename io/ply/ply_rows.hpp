@@ -22,6 +22,9 @@ void read_binary_rows(InputFile& in, const PlyElement& element, bool swapped, st
 void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count);
 void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count);
 
+// Passes over all rows of an element without lists, by lines: values are not counted.
+void skip_ascii_lines(InputFile& in, const PlyElement& element);
+
 using ListVisitor = std::function<void(std::span<const std::int64_t> values)>;
 
 // Hands on the values of one list of each row, an index into the element's properties; its type is one of

@@ -265,12 +265,12 @@ Json read_next_stations(const fs::path& folder) {
   try {
     for (const Json& feature : collection.at("features")) {
       const Json& properties = feature.at("properties");
-      const Json& place = feature.at("geometry").at("coordinates");
-      stations.push_back(
-          {{"rank", properties.at("rank").get<std::uint64_t>()},
-           {"place", {place.at(0).get<double>(), place.at(1).get<double>(), place.at(2).get<double>()}},
-           {"area", properties.at("area").get<double>()},
-           {"share", properties.at("share").get<double>()}});
+      stations.push_back({{"rank", properties.at("rank").get<std::uint64_t>()},
+                          {"place",
+                           {properties.at("x").get<double>(), properties.at("y").get<double>(),
+                            properties.at("z").get<double>()}},
+                          {"area", properties.at("area").get<double>()},
+                          {"share", properties.at("share").get<double>()}});
     }
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is not as lacuna stations writes it: " + error.what());

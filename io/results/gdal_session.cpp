@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gdal_session.hpp"
 
+#include <cmath>
+
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
@@ -28,6 +30,21 @@ bool read_crs(const std::string& text, OGRSpatialReference& crs) {
   const bool is_read = crs.SetFromUserInput(text.c_str(), within_text) == OGRERR_NONE;
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return is_read;
+}
+
+std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs) {
+  OGRSpatialReference target;
+  const bool is_geocentric = crs.IsGeocentric() != 0;
+  constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, with z as it is or with the height
+  if (target.importFromEPSG(is_geocentric ? kSolid : kFlat) != OGRERR_NONE) return nullptr;
+  target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!is_geocentric) crs.StripVertical();
+  return std::unique_ptr<OGRCoordinateTransformation>(OGRCreateCoordinateTransformation(&crs, &target));
+}
+
+bool convert_to_degrees(OGRCoordinateTransformation& conversion, Eigen::Vector3d& position) {
+  double &x = position.x(), &y = position.y(), &z = position.z();
+  return conversion.Transform(1, &x, &y, &z) && std::abs(x) <= 180 && std::abs(y) <= 90;
 }
 
 GdalSetting::GdalSetting(const char* key, const char* value) : key_(key) {

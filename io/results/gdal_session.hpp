@@ -6,9 +6,13 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include <Eigen/Core>
+
+class OGRCoordinateTransformation;
 class OGRSpatialReference;
 
 namespace lacuna::io {
@@ -20,6 +24,12 @@ void register_gdal_drivers();
 // database of PROJ alone, no network and no file that the text names. False where GDAL does not understand
 // it.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
+
+// Converts positions of a system to longitude and latitude of WGS 84. z stays as it is. Geocentric positions
+// get the height above the ellipsoid. Null where GDAL has no way. Takes the vertical part off `crs`.
+std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs);
+// False where the position has no longitude and latitude.
+bool convert_to_degrees(OGRCoordinateTransformation& conversion, Eigen::Vector3d& position);
 
 // A setting of GDAL, for this thread alone.
 class GdalSetting {

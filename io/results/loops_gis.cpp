@@ -101,13 +101,7 @@ class LoopsWriter {
 
   // To longitude and latitude, where GDAL has a way that holds for all loops.
   bool convert() {
-    OGRSpatialReference target;
-    const bool is_geocentric = crs_.IsGeocentric() != 0;
-    constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, with z as it is or with the height
-    require(target.importFromEPSG(is_geocentric ? kSolid : kFlat) == OGRERR_NONE);
-    target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    if (!is_geocentric) crs_.StripVertical();
-    conversion_.reset(OGRCreateCoordinateTransformation(&crs_, &target));
+    conversion_ = conversion_to_degrees(crs_);
     if (!converts_all()) conversion_.reset();
     failures_.forget();
     has_crs_ = false;  // a GeoJSON names none
@@ -216,11 +210,9 @@ class LoopsWriter {
     const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
-      const Eigen::Vector3d& at = loop.points[static_cast<std::size_t>(i % count)].position;
-      double x = at.x(), y = at.y(), z = at.z();
-      if (conversion_ && !(conversion_->Transform(1, &x, &y, &z) && std::abs(x) <= 180 && std::abs(y) <= 90))
-        return nullptr;
-      line->setPoint(i, x, y, z);
+      Eigen::Vector3d at = loop.points[static_cast<std::size_t>(i % count)].position;
+      if (conversion_ && !convert_to_degrees(*conversion_, at)) return nullptr;
+      line->setPoint(i, at.x(), at.y(), at.z());
     }
     return line;
   }

@@ -99,7 +99,7 @@ std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
       if (area > most_area) best = eye, most_area = area;
     }
     if (!(most_area > kLeastShare * all)) break;
-    chosen.push_back({eyes[best], most_area});
+    chosen.push_back({best, eyes[best], most_area});
     for (std::size_t i = 0; i < hidden.size(); ++i)
       if (seen[best][i]) left[i] = 0;
   }

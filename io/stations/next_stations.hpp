@@ -29,6 +29,7 @@ struct SightLimits {
 };
 
 struct NextStation {
+  std::size_t index = 0;  // of the eye
   Eigen::Vector3d eye;
   double area = 0;  // that it sees, and that none before it does
 };

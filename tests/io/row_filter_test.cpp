@@ -111,6 +111,16 @@ TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD names,
   CHECK(read_filtered({{scan, pose}}, {.drop_origin = true}).kept == std::vector{2, 3});
 }
 
+TEST_CASE("rays without return are at the camera of a PLY, too") {
+  const ScratchFolder folder;
+  const auto scan = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\n"
+      "property float view_pz\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n0 0 0\n1 2 3\n1 2 4\n");
+  CHECK(read_filtered({scan}, {.drop_origin = true}).kept == std::vector{2});
+}
+
 TEST_CASE("a file without the property that a filter needs is an error that names both") {
   const ScratchFolder folder;
   const auto bare = folder.write("a.xyz", "1 2 3\n");

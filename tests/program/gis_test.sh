@@ -158,6 +158,20 @@ for run in again nonsense; do
   [[ ! -e $run/loops.prj ]] || { echo "$run: a .prj without a coordinate reference system"; exit 1; }
 done
 
+# Places to stand next: GDAL converts them back to those of the scan.
+"$program" stations heights --height 20 --range 1000 >/dev/null
+ogr2ogr -f GeoJSON next.json heights/next_stations.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
+python3 - <<'END'
+import json
+from pathlib import Path
+
+features = json.loads(Path("next.json").read_text(encoding="utf-8"))["features"]
+assert features
+for feature in features:
+    place = [feature["properties"][axis] for axis in "xyz"]
+    assert place[1] > 5e6 and max(abs(a - b) for a, b in zip(place, feature["geometry"]["coordinates"], strict=True)) < 1e-6
+END
+
 # Polygons: a second layer of the GeoPackage, in place of lines in the others.
 "$program" detect utm.las --out areas "${formats[@]}" --polygons --quiet
 ogr2ogr -f GeoJSON areas.lines.json areas/loops.gpkg lacuna_loops -lco SIGNIFICANT_FIGURES=17

@@ -299,12 +299,18 @@ TEST_CASE("a report has the places to stand next, until another run has other re
   REQUIRE(!written.empty());
   REQUIRE(places.size() == written.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    CHECK(places[i].at("place") == written[i].at("geometry").at("coordinates"));
+    const json& properties = written[i].at("properties");
+    CHECK(places[i].at("place") == json{properties.at("x"), properties.at("y"), properties.at("z")});
     for (const char* const key : {"rank", "area", "share"})
       CHECK(places[i].at(key) == written[i].at("properties").at(key));
   }
 
+  json moved = json::parse(read_file(file));
+  for (json& feature : moved.at("features")) feature.at("geometry").at("coordinates") = {9, 48, 300};
   const std::string text = read_file(file);
+  std::ofstream(file) << moved;
+  REQUIRE(run_program({"report", out}).exit_code == 0);
+  CHECK(json::parse(element(made.page(), "report")).at("next_stations") == places);
   for (std::size_t size = 0; size < text.size() - 2; size += 97) {
     std::ofstream(file) << text.substr(0, size);
     const auto run = run_program({"report", out});

@@ -23,6 +23,12 @@ TEST_CASE("lengths have three digits, and the unit where there is one") {
   CHECK(print_area(3.974, "") == "3.97");
 }
 
+TEST_CASE("a share is a percentage of three digits") {
+  CHECK(print_share(0.8734) == "87.3 %");
+  CHECK(print_share(1) == "100 %");
+  CHECK(print_share(0) == "0.00 %");
+}
+
 TEST_CASE("places of one scan have as many decimals, by its extent") {
   CHECK(print_place({1.23456, -0.001, 2}, 9.5) == "1.23 0.00 2.00");
   CHECK(print_place({500123.456, 12.3, 2}, 900) == "500123 12 2");

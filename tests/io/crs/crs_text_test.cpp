@@ -53,6 +53,18 @@ TEST_CASE("the horizontal part of a compound system is a node of its own, also w
     CHECK(horizontal_system(flat.substr(0, length)) == (length < 7 ? "" : flat.substr(0, length)));
 }
 
+TEST_CASE("a unit has its length in metres, and the length its unit") {
+  CHECK(metres_of_unit("m") == 1);
+  CHECK(metres_of_unit("mm") == 0.001);
+  CHECK(metres_of_unit("ft") == 0.3048);
+  CHECK(metres_of_unit("us-ft") == Approx(0.3048006096).epsilon(1e-10));
+  for (const std::string unit : {"m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"}) {
+    REQUIRE(metres_of_unit(unit));
+    CHECK(unit_of_metres(*metres_of_unit(unit)) == unit);
+  }
+  for (const char* const none : {"", "M", "metre", "ft ", "fathom"}) CHECK_FALSE(metres_of_unit(none));
+}
+
 TEST_CASE("the unit of a system is that of its lengths, by its size") {
   CHECK(length_unit(projcs("metre\",1")) == "m");
   CHECK(length_unit(projcs("foot\",0.3048")) == "ft");

@@ -52,6 +52,25 @@ const std::string kCrowdedAscii = header("ascii", kCrowded) +
 
 const Rows kCrowdedRows = {{-300, 0.5, 1e300}, {301, -0.25, 2}};
 
+// A camera at 2.5 -3 0.5, of several types.
+const std::string kCamera =
+    "element camera 1\nproperty uchar id\nproperty float view_px\nproperty float view_py\n"
+    "property double view_pz\n";
+const std::string kPoints = "element vertex 2\n" + kXyz;
+const std::string kFaces = "element face 1\nproperty list uchar int vertex_indices\n";
+
+std::string camera_bytes(std::endian order) {
+  return (Bytes(order) << std::uint8_t{1} << 2.5f << -3.f << 0.5).str();
+}
+
+std::string points_bytes(std::endian order) {
+  return (Bytes(order) << 1.f << 2.f << 3.f << 4.f << 5.f << 6.f).str();
+}
+
+std::string face_bytes(std::endian order) {
+  return (Bytes(order) << std::uint8_t{3} << 0 << 1 << 0).str();
+}
+
 // Without its last line's end the text is complete.
 std::vector<WholeFile> whole_files() {
   const std::string little = crowded_binary(std::endian::little), big = crowded_binary(std::endian::big);
@@ -59,8 +78,14 @@ std::vector<WholeFile> whole_files() {
   const std::string without_lists =
       header("binary_big_endian", "element camera 1\nproperty int id\nelement vertex 1\n" + kXyz) +
       std::string(4 + 12, '\1');
+  const std::string camera_first = header("binary_little_endian", kCamera + kPoints) +
+                                   camera_bytes(std::endian::little) + points_bytes(std::endian::little);
+  const std::string camera_last =
+      header("ascii", kPoints + kFaces + kCamera) + "1 2 3\n4 5 6\n3 0 1 0\n1 2.5 -3 7\n";
   return {{.name = "plain.ply", .bytes = plain, .complete_from = plain.size() - 1},
           {.name = "without_lists.ply", .bytes = without_lists, .complete_from = without_lists.size()},
+          {.name = "camera_first.ply", .bytes = camera_first, .complete_from = camera_first.size()},
+          {.name = "camera_last.ply", .bytes = camera_last, .complete_from = camera_last.size() - 1},
           {.name = "ascii.ply", .bytes = kCrowdedAscii, .complete_from = kCrowdedAscii.size() - 1},
           {.name = "little.ply", .bytes = little, .complete_from = little.size()},
           {.name = "big.ply", .bytes = big, .complete_from = big.size()}};
@@ -76,6 +101,85 @@ TEST_CASE("lists and other elements are passed over in every encoding", "[io]") 
     CHECK(table.names == std::vector<std::string>{"x", "y", "z"});
     CHECK(table.rows == kCrowdedRows);
   }
+}
+
+TEST_CASE("a camera before or after the vertices, in every encoding, is the scanner", "[io]") {
+  const ScratchFolder folder;
+  std::vector<std::string> contents = {
+      header("ascii", kCamera + kFaces + kPoints) + "1 2.5 -3 0.5\n3 0 1 0\n1 2 3\n4 5 6\n",
+      header("ascii", kPoints + kCamera) + "\n1 2 3\n\n \n4 5 6\n1 2.5 -3 0.5",
+      header("ascii", kPoints + kFaces + kCamera) + "1 2 3\n4 5 6\n3 0 1 0\n1 2.5 -3 0.5\n"};
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const std::string points = points_bytes(order), faces = face_bytes(order), camera = camera_bytes(order);
+    contents.push_back(header(format_of(order), kCamera + kPoints) + camera + points);
+    contents.push_back(header(format_of(order), kPoints + kCamera) + points + camera);
+    contents.push_back(header(format_of(order), kPoints + kFaces + kCamera) + points + faces + camera);
+  }
+  for (const std::string& content : contents) {
+    const auto file = folder.write("a.ply", content);
+    const auto scanners = open_scan(file, {})->scanners();
+    REQUIRE(scanners.size() == 1);
+    CHECK(scanners[0].place == Eigen::Vector3d(2.5, -3, 0.5));
+    CHECK(scanners[0].axis == Eigen::Vector3d(0, 0, 1));
+    CHECK_FALSE(scanners[0].source);
+    CHECK(read_table(file).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  }
+}
+
+TEST_CASE("a camera at 0 0 0, two of them, or one without a viewpoint states no scanner", "[io]") {
+  const ScratchFolder folder;
+  const auto scanners_of = [&](const std::string& body, const std::string& rows) {
+    return open_scan(folder.write("a.ply", header("ascii", body + kPoints) + rows + "1 2 3\n4 5 6\n"), {})
+        ->scanners()
+        .size();
+  };
+  CHECK(scanners_of(kCamera, "1 0 0 1e-9\n") == 1);
+  CHECK(scanners_of(kCamera, "1 0 -0 0\n") == 0);
+  std::string two = kCamera;
+  two.replace(two.find("camera 1"), 8, "camera 2");
+  CHECK(scanners_of(two, "1 2 3 4\n1 2 3 4\n") == 0);
+  std::string none = kCamera;
+  none.replace(none.find("view_py"), 7, "view_qy");
+  CHECK(scanners_of(none, "1 2 3 4\n") == 0);
+  const std::string list =
+      "element camera 1\nproperty float view_px\nproperty float view_py\n"
+      "property list uchar float view_pz\n";
+  CHECK(scanners_of(list, "1 2 1 4\n") == 0);
+}
+
+TEST_CASE("the camera of a file with local coordinates is local, too", "[io]") {
+  const ScratchFolder folder;
+  const std::string body = "comment lacuna offset 500000 0 10\n" + kCamera + kPoints;
+  const auto reader =
+      open_scan(folder.write("a.ply", header("ascii", body) + "1 2.5 -3 0.5\n1 2 3\n4 5 6\n"), {});
+  REQUIRE(reader->scanners().size() == 1);
+  CHECK(reader->scanners()[0].place == Eigen::Vector3d(500'002.5, -3, 10.5));
+}
+
+TEST_CASE("a camera that is cut, or not at a place, is an error of one line that names where", "[io]") {
+  const ScratchFolder folder;
+  const auto error_of_file = [&](const std::string& content) {
+    return error_of([&] { open_scan(folder.write("a.ply", content), {}); });
+  };
+  const auto is_named = [](const std::string& error, const std::string& reason) {
+    INFO(error);
+    return error.find("a.ply: " + reason) != std::string::npos && error.find('\n') == std::string::npos;
+  };
+  const std::string ascii = header("ascii", kPoints + kCamera) + "1 2 3\n4 5 6\n";
+  CHECK(is_named(error_of_file(ascii + "1 2.5 nan 0.5\n"), "line 15: the camera is at no place"));
+  CHECK(is_named(error_of_file(ascii + "1 2.5 1e99 0.5\n"), "line 15: the camera is at no place"));
+  CHECK(is_named(error_of_file(ascii + "1 2.5 x 0.5\n"), "line 15: 'x' for property 'view_py'"));
+  CHECK(is_named(error_of_file(ascii + "111112222 2.5\n"), "line 15: '111112222' for property 'id'"));
+  CHECK(is_named(error_of_file(ascii + "11 2.55555\n"), "line 15: fewer values than element 'camera'"));
+  const std::string blank = header("ascii", kPoints + kCamera) + "1 2 3\n" + std::string(20, '\n');
+  CHECK(is_named(error_of_file(blank),
+                 "line 34: the file ends here, but 1 more of the 2 rows of element 'ver"));
+  const std::string head = header("binary_big_endian", kPoints + kCamera);
+  const std::string points = points_bytes(std::endian::big), camera = camera_bytes(std::endian::big);
+  CHECK(is_named(error_of_file(head + points + camera.substr(0, 16)), "byte"));
+  const std::string infinite = (Bytes(std::endian::big) << std::uint8_t{1} << HUGE_VALF << 1.f << 2.0).str();
+  CHECK(is_named(error_of_file(head + points + infinite),
+                 "byte " + std::to_string(head.size() + points.size()) + ": the camera is at no place"));
 }
 
 TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]") {
@@ -306,8 +410,9 @@ TEST_CASE("a header without an end is given up", "[io]") {
   std::string lines = "ply\nformat ascii 1.0\n";
   while (lines.size() < (2u << 20)) lines += "comment and so on and on and on\n";
   CHECK(read_error(folder.write("a.ply", lines)).find("no 'end_header'") != std::string::npos);
-  CHECK(read_error(folder.write("a.ply", "ply\n" + std::string(3u << 20, 'x'))).find("line 2: longer") !=
-        std::string::npos);
+  CHECK(
+      read_error(folder.write("a.ply", std::string("ply\n").append(3u << 20, 'x'))).find("line 2: longer") !=
+      std::string::npos);
 }
 
 TEST_CASE("a list with a negative count, or one that leaves the file, is an error", "[io]") {

@@ -201,6 +201,8 @@ TEST_CASE("an offset in a header is added to the positions, and to nothing else"
       "F\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 1\nDATA ascii\n9 0.5 1 2\n";
   const auto reader = open_scan(folder.write("a.pcd", pcd), {});
   CHECK(reader->no_return_places() == Points{Point(0, 0, 0), Point(500'001, -0.5, 1003)});
+  REQUIRE(reader->scanners().size() == 1);
+  CHECK(reader->scanners()[0].place == Point(500'001, -0.5, 1003));
   std::string unknown = pcd;
   unknown.replace(unknown.find("VIEWPOINT 1 2 3"), 15, "VIEWPOINT 0 0 0");
   CHECK(open_scan(folder.write("unknown.pcd", unknown), {})->no_return_places() == Points{Point(0, 0, 0)});

@@ -56,8 +56,10 @@ TEST_CASE("next stations are chosen by what each adds, within range and angle") 
   const SightLimits limits{.range = 6, .least_cosine = 0.1};
   const auto chosen = choose_stations(hidden, eyes, obstacles, limits, 5);
   REQUIRE(chosen.size() == 2);  // the third sees what the first does
+  CHECK(chosen[0].index == 1);
   CHECK(chosen[0].eye == eyes[1]);
   CHECK(chosen[0].area == Approx(4));
+  CHECK(chosen[1].index == 0);
   CHECK(chosen[1].eye == eyes[0]);
   CHECK(chosen[1].area == Approx(3.01));
   CHECK(choose_stations(hidden, eyes, obstacles, limits, 1).size() == 1);

@@ -48,18 +48,29 @@ TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each"
   CHECK(stations[1].farthest == Approx(2 * std::sqrt(3)));
 }
 
-TEST_CASE("a PCD file with a viewpoint, and a scan with a pose, are stations") {
+TEST_CASE("a PCD file with a viewpoint, a PLY file with a camera, and a scan with a pose, are stations") {
   const ScratchFolder folder;
   const std::string pcd =
       folder.write("a.pcd",
                    "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
                    "VIEWPOINT 5 6 7 1 0 0 0\nPOINTS 2\nDATA ascii\n1 2 3\n4 5 6\n");
   const std::string text = folder.write("b.xyz", "1 2 3\n");
-  const auto stations = stations_of({pcd, ScanInput(text, parse_pose("10 20 30 0 0 0 1"))});
-  REQUIRE(stations.size() == 2);
+  const std::string ply = folder.write(
+      "c.ply",
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\n"
+      "end_header\n1 2 3\n4 5 6\n7 8 9\n");
+  const auto stations =
+      stations_of({pcd, ScanInput(text, parse_pose("10 20 30 0 0 0 1")), ply,
+                   ScanInput(folder.write("d.ply", test::read_file(ply)), parse_pose("10 20 30 0 0 0 1"))});
+  REQUIRE(stations.size() == 4);
   CHECK(stations[0].place == Eigen::Vector3d(5, 6, 7));
   CHECK(stations[0].points == 2);
   CHECK(stations[1].place == Eigen::Vector3d(10, 20, 30));
+  CHECK(stations[2].name == "c");
+  CHECK(stations[2].place == Eigen::Vector3d(7, 8, 9));
+  CHECK(stations[2].points == 2);
+  CHECK(stations[3].place == Eigen::Vector3d(17, 28, 39));
   CHECK(stations_of({text}).empty());
 }
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/list_lines.hpp"
+
+#include "io/number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  constexpr std::string_view kDivisors = " \t\r,;";
+  for (std::size_t begin; (begin = line.find_first_not_of(kDivisors)) != line.npos;) {
+    line.remove_prefix(begin);
+    const std::size_t end = std::min(line.find_first_of(kDivisors), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+bool is_header(Fields fields) {
+  double number = 0;
+  return std::none_of(fields.begin(), fields.end(),
+                      [&](std::string_view field) { return parse_number(field, number); });
+}
+
+}  // namespace
+
+std::optional<Fields> ListLines::next() {
+  while (const auto line = in_.next_line()) {
+    split(*line, fields_);
+    if (fields_.empty() || fields_[0].starts_with('#')) continue;
+    const bool is_skipped = std::exchange(is_first_, false) && is_header(fields_);
+    if (!is_skipped) return fields_;
+  }
+  return std::nullopt;
+}
+
+Eigen::Vector3d ListLines::parse_place(Fields xyz) const {
+  Eigen::Vector3d place;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& number = place[static_cast<Eigen::Index>(i)];
+    if (!parse_number(xyz[i], number) || !std::isfinite(number)) fail(in_quotes(xyz[i]) + " is not a number");
+  }
+  return place;
+}
+
+void ListLines::fail(std::string reason) const {
+  if (!reason.empty()) reason += "; ";
+  in_.fail_at_line(in_.line(), reason + std::string(needed_));
+}
+
+void ListLines::fail_empty(const std::string& reason) const {
+  in_.fail(reason + "; on each line, " + std::string(needed_));
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a list of stations or places. Blanks, commas or semicolons divide the fields. Lines that begin
+// with # are comments. A first line without numbers is a header.
+#pragma once
+
+#include "io/input_file.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+using Fields = std::span<const std::string_view>;
+
+class ListLines {
+ public:
+  // `needed`: what a line must have, for errors. Throws `Error` as InputFile does.
+  ListLines(const std::filesystem::path& list, std::string_view needed) : in_(list), needed_(needed) {}
+
+  // The fields of the next line that is neither blank nor a comment nor a header; valid until the next call.
+  // None at the end.
+  std::optional<Fields> next();
+
+  // Three finite numbers. Throws `Error` with the line.
+  Eigen::Vector3d parse_place(Fields xyz) const;
+
+  // Throws `Error` with the last line, the reason and what is needed; without a reason, this alone.
+  [[noreturn]] void fail(std::string reason = {}) const;
+  // Throws `Error` with the file alone.
+  [[noreturn]] void fail_empty(const std::string& reason) const;
+  const InputFile& in() const { return in_; }
+
+ private:
+  InputFile in_;
+  std::string_view needed_;
+  bool is_first_ = true;
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace lacuna::io

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/place_list.hpp"
+
+#include "engine/run/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+using Catch::Matchers::Contains;
+
+}  // namespace
+
+TEST_CASE("a list of places has x y z on each line, and maybe a name before them") {
+  const test::ScratchFolder folder;
+  const auto places = read_places(folder.write("places.txt",
+                                               "name;x;y;z\n"
+                                               "# a comment\n"
+                                               "\n"
+                                               "door; 1; -2.5; 3e2\n"
+                                               "4 5\t6\r\n"
+                                               "17,7,8,9"));
+  REQUIRE(places.size() == 3);
+  CHECK(places[0].name == "door");
+  CHECK(places[0].place == Eigen::Vector3d(1, -2.5, 300));
+  CHECK(places[1].name.empty());
+  CHECK(places[1].place == Eigen::Vector3d(4, 5, 6));
+  CHECK(places[2].name == "17");
+  CHECK(places[2].place == Eigen::Vector3d(7, 8, 9));
+}
+
+TEST_CASE("an error in a list of places names the file, the line and what is needed") {
+  const test::ScratchFolder folder;
+  const auto fails = [&](const std::string& text, const std::string& reason) {
+    INFO(text);
+    CHECK_THROWS_WITH(read_places(folder.write("places.txt", text)),
+                      Contains("places.txt: " + reason) && Contains("x y z are needed, or a name and x y z"));
+  };
+  fails("", "names no place");
+  fails("# 1 2 3\nx y z\n", "names no place");
+  fails("1 2\n", "line 1: ");
+  fails("1 2 3\na 4 5 6 7\n", "line 2: ");
+  fails("1 2 3\n\n4 5 six\n", "line 3: 'six' is not a number");
+  fails("1 2 3\nx y z\n", "line 2: 'x' is not a number");
+  fails("door 1 inf 3\n", "line 1: 'inf' is not a number");
+  fails("1 2 nan\n", "line 1: 'nan' is not a number");
+  CHECK_THROWS_WITH(read_places(folder / "none.txt"), Contains("none.txt: cannot be opened"));
+}
+
+}  // namespace lacuna::io
