@@ -112,7 +112,8 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   run.estimate = estimate(scan, config, workspace.path(), silence);
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-    for (const StationView& view : stations->complete(scan, arena)) run.stations.push_back(summary_of(view));
+    stations->complete(scan, arena);
+    run.stations = stations->summaries();
   }
   const Summary& summary = run.estimate.summary;
   const Counts& counts = summary.counts;

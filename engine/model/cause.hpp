@@ -35,6 +35,7 @@ struct LoopCause {
   Eigen::Vector3d hidden_by = Eigen::Vector3d::Constant(kUnknown);
   double hidden_by_extent = kUnknown;
   std::int32_t hidden_from = -1;  // number of the station that most of it is hidden from; -1: none
+  Eigen::Vector3d hidden_from_place = Eigen::Vector3d::Constant(kUnknown);  // of its scanner, at that time
 
   double share(Cause cause) const { return shares[static_cast<std::size_t>(cause)]; }
   // The cause with the largest share, the first of equal ones; none where no station is known.
@@ -54,7 +55,8 @@ struct LoopCause {
 // Where a scanner stood, and what it saw.
 struct StationSummary {
   std::string name;
-  Eigen::Vector3d place{0, 0, 0};
+  Eigen::Vector3d place{0, 0, 0};  // of a path: halfway
+  double path = 0;                 // length of the path of a moving scanner; 0: it stood there
   std::uint64_t points = 0;
   double certainty = 0;            // share of its points that can have been seen from there, [0, 1]
   double lowest = 0, highest = 0;  // sines of the elevations of its points

@@ -144,6 +144,9 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   add("hidden_by", [](const LoopMeasures& loop) {
     return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_by);
   });
+  add("hidden_from_place", [](const LoopMeasures& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_from_place);
+  });
   add("hidden_from", [](const LoopMeasures& loop) { return Json(loop.cause.hidden_from); });
   json["first"] = loops.first;
   return json;

@@ -41,6 +41,7 @@ LoopCause cause_of(const Json& record) {
     cause.hidden_by = vector(hidden_by.at("place"));
     cause.hidden_by_extent = number(hidden_by.at("extent"));
     cause.hidden_from = hidden_by.at("station").get<std::int32_t>();
+    cause.hidden_from_place = vector(hidden_by.at("from"));
   }
   return cause;
 }

@@ -71,6 +71,7 @@ Json stations_json(const std::vector<StationSummary>& stations) {
   for (const StationSummary& station : stations) {
     list_of_all.push_back({{"name", station.name},
                            {"place", list(station.place)},
+                           {"path", station.path},
                            {"points", station.points},
                            {"certainty", station.certainty},
                            {"lowest_sine", station.lowest},

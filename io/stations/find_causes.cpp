@@ -34,57 +34,94 @@ struct Sight {
   Finding finding = Finding::kOutOfView;
   double range = 0;                   // of the place
   Eigen::Vector3d measured{0, 0, 0};  // the point in its direction
-  bool is_downward = false;
+  Eigen::Vector3d eye{0, 0, 0};
+  bool is_floor = false;  // the place is on a level surface below the scanner
+  std::int32_t station = 0;
 };
+
+// Of a scanner that measures as far as `farthest`, with this angle between rays. `axis`: upwards.
+// `may_return`: it sends rays in this direction.
+struct Scanner {
+  double angle, farthest;
+  Eigen::Vector3d axis;
+  bool may_return;
+};
+
+Sight look(const Aim& aim, const Scanner& scanner, const InsidePlace& place, double tolerance) {
+  const double range = aim.range, measured = aim.measured;
+  if (!(range > 0)) return {};
+  const double cosine = std::fabs(aim.direction.dot(place.normal));
+  // Ranges of an inclined surface differ more: between rays, and where the place lies off the surface.
+  const double near = (tolerance + 1.5 * scanner.angle * range) / std::max(cosine, kLeastIncidence);
+  const auto is_near = [&](double other) { return other > 0 && std::fabs(other - range) <= near; };
+  const auto finding = [&] {
+    if (is_near(measured)) return Finding::kSurface;
+    if (is_near(aim.left_out)) return Finding::kLeftOut;
+    if (measured > 0 && measured < range) return Finding::kNearer;
+    if (cosine < kLeastIncidence || range > kFarther * scanner.farthest || !scanner.may_return)
+      return Finding::kOutOfView;
+    return measured > 0 ? Finding::kFarther : Finding::kNothing;
+  }();
+  return {
+      .finding = finding,
+      .range = range,
+      .measured = aim.eye + measured * aim.direction,
+      .eye = aim.eye,
+      .is_floor = std::fabs(place.normal.dot(scanner.axis)) > kLevel && aim.direction.dot(scanner.axis) < 0};
+}
 
 Sight look(const StationView& view, const InsidePlace& place, double tolerance) {
   const Eigen::Vector3d arm = place.position - view.station.place;
   const double range = arm.norm();
   if (!(range > 0)) return {};
   const Eigen::Vector3d direction = arm / range;
-  const double cosine = std::fabs(direction.dot(place.normal));
-  // Ranges of an inclined surface differ more: between rays, and where the place lies off the surface.
-  const double angle = std::max(RangeImage::kCellAngle, view.step);
-  const double near = (tolerance + 1.5 * angle * range) / std::max(cosine, kLeastIncidence);
-  const double measured = view.ranges.at(direction);
-  const auto is_near = [&](double other) { return other > 0 && std::fabs(other - range) <= near; };
-  const auto finding = [&] {
-    if (is_near(measured)) return Finding::kSurface;
-    if (view.left_out && is_near(view.left_out->at(direction))) return Finding::kLeftOut;
-    if (measured > 0 && measured < range) return Finding::kNearer;
-    if (cosine < kLeastIncidence || range > kFarther * view.farthest || !view.field.contains(direction))
-      return Finding::kOutOfView;
-    return measured > 0 ? Finding::kFarther : Finding::kNothing;
-  }();
-  return {finding, range, view.station.place + measured * direction, direction.dot(view.station.axis) < 0};
+  const Aim aim{.eye = view.station.place,
+                .direction = direction,
+                .range = range,
+                .measured = view.ranges.at(direction),
+                .left_out = view.left_out ? view.left_out->at(direction) : 0};
+  const Scanner scanner{.angle = std::max(cell_angle(RangeImage::kEdge), view.step),
+                        .farthest = view.farthest,
+                        .axis = view.station.axis,
+                        .may_return = view.field.contains(direction)};
+  return look(aim, scanner, place, tolerance);
 }
 
-struct Hider {
-  Eigen::Vector3d point;
-  std::int32_t station;
-};
-
-// What the stations find at all places of a hole.
+// What the scanners find at all places of a hole.
 class Findings {
  public:
-  void add(const InsidePlace& place, std::span<const StationView> views, double tolerance) {
-    std::optional<std::size_t> first;
-    Sight found;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (views[i].certainty() < StationView::kLeastCertain) continue;
-      const Sight sight = look(views[i], place, tolerance);
+  Findings(std::span<const StationView> views, const PathView* path, const Eigen::AlignedBox3d& hole)
+      : views_(views), path_(path && is_certain(*path) ? path : nullptr) {
+    if (path_) sections_ = path_->sections_near(hole, kFarther * path_->farthest());
+    has_scanner_ = path_ || std::any_of(views.begin(), views.end(), is_certain<StationView>);
+  }
+
+  void add(const InsidePlace& place, double tolerance) {
+    if (!has_scanner_) return;
+    std::optional<Sight> found;
+    const auto take = [&](const Sight& sight) {
       const auto key = [](const Sight& of) { return std::pair(rank_of(of.finding), of.range); };
-      if (first && key(found) <= key(sight)) continue;
-      first = i;
-      found = sight;
+      if (!found || key(sight) < key(*found)) found = sight;
+    };
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      if (!is_certain(views_[i])) continue;
+      Sight sight = look(views_[i], place, tolerance);
+      sight.station = static_cast<std::int32_t>(i);
+      take(sight);
     }
-    if (!first || found.finding == Finding::kSurface) return;
-    areas_[static_cast<std::size_t>(found.finding)] += place.area;
-    const bool is_level = std::fabs(place.normal.dot(views[*first].station.axis)) > kLevel;
-    if (found.finding == Finding::kNothing && is_level && found.is_downward)
-      floor_without_return_ += place.area;
-    if (found.finding == Finding::kNearer)
-      hiders_.push_back({found.measured, static_cast<std::int32_t>(*first)});
+    for (const Aim& aim : path_ ? path_->aims_at(place.position, sections_) : std::vector<Aim>()) {
+      take(look(aim,
+                {.angle = cell_angle(PathView::kEdge),
+                 .farthest = path_->farthest(),
+                 .axis = Eigen::Vector3d::UnitZ(),
+                 .may_return = true},
+                place, tolerance));
+    }
+    const Sight sight = found.value_or(Sight());
+    if (sight.finding == Finding::kSurface) return;
+    areas_[static_cast<std::size_t>(sight.finding)] += place.area;
+    if (sight.finding == Finding::kNothing && sight.is_floor) floor_without_return_ += place.area;
+    if (sight.finding == Finding::kNearer) hiders_.push_back({sight.measured, sight.eye, sight.station});
   }
 
   LoopCause cause() const {
@@ -109,6 +146,11 @@ class Findings {
  private:
   double area_of(Finding finding) const { return areas_[static_cast<std::size_t>(finding)]; }
 
+  template <class View>
+  static bool is_certain(const View& view) {
+    return view.certainty() >= StationView::kLeastCertain;
+  }
+
   // By the station that has the most of them.
   void describe_hiders(LoopCause& cause) const {
     std::map<std::int32_t, std::size_t> counts;
@@ -131,9 +173,19 @@ class Findings {
       if (hider.station != cause.hidden_from || away >= least) continue;
       least = away;
       cause.hidden_by = hider.point;
+      cause.hidden_from_place = hider.eye;
     }
   }
 
+  struct Hider {
+    Eigen::Vector3d point, eye;
+    std::int32_t station;
+  };
+
+  std::span<const StationView> views_;
+  const PathView* path_;                   // null: no scanner moves
+  std::vector<std::uint32_t> sections_;    // of the path
+  bool has_scanner_ = false;               // that is certain
   std::array<double, kFindings> areas_{};  // by finding
   double floor_without_return_ = 0;
   std::vector<Hider> hiders_;  // of the places that are hidden
@@ -142,9 +194,11 @@ class Findings {
 }  // namespace
 
 LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
-                   double tolerance) {
-  Findings findings;
-  for (const InsidePlace& place : places) findings.add(place, views, tolerance);
+                   const PathView* path, double tolerance) {
+  Eigen::AlignedBox3d hole;
+  for (const InsidePlace& place : places) hole.extend(place.position);
+  Findings findings(views, path, hole);
+  for (const InsidePlace& place : places) findings.add(place, tolerance);
   return findings.cause();
 }
 
@@ -155,14 +209,16 @@ double tolerance_of(const LoopMeasures& loop) {
 void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, Detection& detection) {
   const TaskArena arena(static_cast<std::size_t>(run.threads));
   const std::span<const StationView> views = stations.complete(scan, arena);
-  for (const StationView& view : views) detection.stations.push_back(summary_of(view));
+  const PathView* const path = stations.path();
+  detection.stations = stations.summaries();
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     LoopMeasures& loop = detection.loops[i];
-    if (loop.kind != LoopKind::kHole || views.empty()) return;
+    if (loop.kind != LoopKind::kHole || detection.stations.empty()) return;
     const std::vector<InsidePlace> places = inside_places(detection, i);
-    loop.cause = cause_of(places, views, tolerance_of(loop));
-    stations.note_touched(2 * places.size() * views.size());
-    if (!loop.cause.main()) loop.cause = cause_of(places, views, 0);  // a coarse loop near all of the surface
+    loop.cause = cause_of(places, views, path, tolerance_of(loop));
+    stations.note_touched(2 * places.size() * detection.stations.size());
+    if (!loop.cause.main())
+      loop.cause = cause_of(places, views, path, 0);  // a coarse loop near all of the surface
   });
 }
 

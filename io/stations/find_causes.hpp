@@ -35,7 +35,10 @@ inline constexpr double kLeastIncidence = 0.0523;
 // Holes keep unknown causes where there are no stations, or all places have points. Stations of little
 // certainty do not count. Cost: some 0.3 ms for each hole and station.
 // `tolerance`: a range that differs by less is the same; that of rays is added.
-LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views, double tolerance);
+// `path`: of a moving scanner; null: there is none. Each section of it counts as a station, in the directions
+// in which the scanner sweeps.
+LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
+                   const PathView* path, double tolerance);
 double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 
 // Sets the cause of each hole, and the stations. Throws `Error` where the scan is read, as

@@ -35,17 +35,19 @@ std::optional<Fields> ListLines::next() {
     if (fields_.empty() || fields_[0].starts_with('#')) continue;
     const bool is_skipped = std::exchange(is_first_, false) && is_header(fields_);
     if (!is_skipped) return fields_;
+    header_.assign(fields_.begin(), fields_.end());
   }
   return std::nullopt;
 }
 
 Eigen::Vector3d ListLines::parse_place(Fields xyz) const {
-  Eigen::Vector3d place;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double& number = place[static_cast<Eigen::Index>(i)];
-    if (!parse_number(xyz[i], number) || !std::isfinite(number)) fail(in_quotes(xyz[i]) + " is not a number");
-  }
-  return place;
+  return {parse(xyz[0]), parse(xyz[1]), parse(xyz[2])};
+}
+
+double ListLines::parse(std::string_view field) const {
+  double number = 0;
+  if (!parse_number(field, number) || !std::isfinite(number)) fail(in_quotes(field) + " is not a number");
+  return number;
 }
 
 void ListLines::fail(std::string reason) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of a list of stations or places. Blanks, commas or semicolons divide the fields. Lines that begin
-// with # are comments. A first line without numbers is a header.
+// The lines of a list of stations or places, or of a trajectory. Blanks, commas or semicolons divide the
+// fields. Lines that begin with # are comments. A first line without numbers is a header.
 #pragma once
 
 #include "io/input_file.hpp"
@@ -27,7 +27,11 @@ class ListLines {
   // None at the end.
   std::optional<Fields> next();
 
-  // Three finite numbers. Throws `Error` with the line.
+  // The names in the header, once the first line is read; empty: there is none.
+  const std::vector<std::string>& header() const { return header_; }
+  // A finite number. Throws `Error` with the line.
+  double parse(std::string_view field) const;
+  // Three of them.
   Eigen::Vector3d parse_place(Fields xyz) const;
 
   // Throws `Error` with the last line, the reason and what is needed; without a reason, this alone.
@@ -40,6 +44,7 @@ class ListLines {
   InputFile in_;
   std::string_view needed_;
   bool is_first_ = true;
+  std::vector<std::string> header_;
   std::vector<std::string_view> fields_;
 };
 

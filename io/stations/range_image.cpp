@@ -19,33 +19,8 @@ void RangeImage::Unmap::operator()(float* cells) const {
 RangeImage::RangeImage(const std::filesystem::path& folder)
     : cells_(reinterpret_cast<float*>(StoreFile(folder / "range-image").map(kBytes))) {}
 
-std::size_t RangeImage::cell_of(const Eigen::Vector3d& direction) {
-  const double x = std::fabs(direction.x()), y = std::fabs(direction.y()), z = std::fabs(direction.z());
-  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-  const double half = static_cast<double>(kEdge) / 2;
-  const double along = std::fabs(direction[axis]);
-  const auto place = [&](int other) {
-    return std::min(kEdge - 1, static_cast<std::size_t>((direction[other] / along + 1) * half));
-  };
-  const std::size_t face = static_cast<std::size_t>(2 * axis) + (direction[axis] < 0 ? 1 : 0);
-  return (face * kEdge + place((axis + 1) % 3)) * kEdge + place((axis + 2) % 3);
-}
-
-Eigen::Vector3d RangeImage::direction_of(std::size_t cell) {
-  const std::size_t face = cell / (kEdge * kEdge);
-  const auto place = [&](std::size_t index) {
-    return (2 * static_cast<double>(index) + 1) / static_cast<double>(kEdge) - 1;
-  };
-  const int axis = static_cast<int>(face / 2);
-  Eigen::Vector3d direction;
-  direction[axis] = face % 2 == 0 ? 1 : -1;
-  direction[(axis + 1) % 3] = place(cell / kEdge % kEdge);
-  direction[(axis + 2) % 3] = place(cell % kEdge);
-  return direction.normalized();
-}
-
 double RangeImage::put(const Eigen::Vector3d& direction, double range) {
-  float& cell = cells_[cell_of(direction)];
+  float& cell = cells_[cell_of(direction, kEdge)];
   const float before = cell, rounded = static_cast<float>(range);
   if (before == 0 || rounded < before) cell = rounded;
   return before;

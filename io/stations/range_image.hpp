@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest range that a station measured in each direction: a cube of square cells around it.
+// The nearest range that a station measured in each direction.
 #pragma once
+
+#include "io/stations/direction_cells.hpp"
 
 #include <array>
 #include <cstddef>
@@ -12,15 +14,13 @@
 
 namespace lacuna::io {
 
-// Faces are at right angles to the axes of the scan. So directions need no arithmetic but divisions, and have
-// the same cell on every machine. A cell is 0.11 degrees wide in the middle of a face and 0.06 at its sides.
-// Its cells lie in a file that has no name any more: 25 MiB, of which only touched pages take memory.
+// Its cells (io/stations/direction_cells.hpp) are 0.11 degrees wide in the middle of a face. They lie in a
+// file that has no name any more: 25 MiB, of which only touched pages take memory.
 class RangeImage {
  public:
   static constexpr std::size_t kEdge = 1024;  // cells along an edge of a face
   static constexpr std::size_t kCells = 6 * kEdge * kEdge;
   static constexpr std::size_t kBytes = kCells * sizeof(float);
-  static constexpr double kCellAngle = 2.0 / kEdge;  // radians, at most
 
   // `folder`: for the file; empty: it is in memory. Throws `Error`.
   explicit RangeImage(const std::filesystem::path& folder);
@@ -33,15 +33,12 @@ class RangeImage {
   void fill(std::size_t distance);
 
   // The range in this direction; 0: nothing came back.
-  float at(const Eigen::Vector3d& direction) const { return cells()[cell_of(direction)]; }
+  float at(const Eigen::Vector3d& direction) const { return cells()[cell_of(direction, kEdge)]; }
   std::span<const float> cells() const { return {cells_.get(), kCells}; }
-  static Eigen::Vector3d direction_of(std::size_t cell);  // its middle, of length 1
   // Its pages leave memory, and come back when they are used.
   void leave_memory() const;
 
  private:
-  static std::size_t cell_of(const Eigen::Vector3d& direction);
-
   struct Unmap {
     void operator()(float* cells) const;
   };

@@ -2,6 +2,8 @@
 #include "io/stations/station_views.hpp"
 
 #include "engine/model/points.hpp"
+#include "engine/run/error.hpp"
+#include "io/length_unit.hpp"
 #include "io/vectors.hpp"
 
 #include <algorithm>
@@ -28,6 +30,12 @@ std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
   return sources;
 }
 
+const Property* time_of(const RowLayout& layout) {
+  const auto found = std::find_if(layout.properties.begin(), layout.properties.end(),
+                                  [](const Property& property) { return is_time(property.name); });
+  return found == layout.properties.end() ? nullptr : &*found;
+}
+
 // Fills the directions between rays, as far as rays lie from each other. That is the edge of cells so coarse
 // that almost all quarters of a cell have a range where the cell has one.
 void fill_between_rays(StationView& view) {
@@ -52,42 +60,12 @@ void find_field(StationView& view) {
   for (std::size_t row = 0; row < 6 * kEdge; row += kStep) {
     for (std::size_t cell = row * kEdge; cell < (row + 1) * kEdge; cell += kStep) {
       if (ranges[cell] > 0 || (view.left_out && view.left_out->cells()[cell] > 0))
-        view.field.add(RangeImage::direction_of(cell));
+        view.field.add(direction_of(cell, kEdge));
     }
   }
 }
 
 }  // namespace
-
-FieldOfView::FieldOfView(const Eigen::Vector3d& axis)
-    : axis_(axis), right_(axis.unitOrthogonal()), forward_(axis.cross(right_)) {}
-
-// From the sums of components: no arc tangent, which differs between machines.
-std::size_t FieldOfView::bin_of(const Eigen::Vector3d& direction) const {
-  const double x = direction.dot(right_), y = direction.dot(forward_);
-  const double sum = std::fabs(x) + std::fabs(y);
-  if (sum == 0) return 0;
-  const double quarter = y >= 0 ? 1 - x / sum : 3 + x / sum;  // from 0 to 4
-  const double quarters = static_cast<double>(bins_.size()) / 4;
-  return std::min(static_cast<std::size_t>(quarter * quarters), bins_.size() - 1);
-}
-
-void FieldOfView::add(const Eigen::Vector3d& direction) {
-  const double sine = direction.dot(axis_);
-  lowest_ = std::min(lowest_, sine);
-  highest_ = std::max(highest_, sine);
-  bins_[bin_of(direction)] = true;
-}
-
-bool FieldOfView::contains(const Eigen::Vector3d& direction) const {
-  const double sine = direction.dot(axis_);
-  return sine >= lowest_ && sine <= highest_ && bins_[bin_of(direction)];
-}
-
-double FieldOfView::turn() const {
-  const auto filled = std::count(bins_.begin(), bins_.end(), true);
-  return static_cast<double>(filled) / static_cast<double>(bins_.size());
-}
 
 double StationView::certainty() const {
   return points == 0 ? 0 : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
@@ -109,6 +87,15 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
                            std::filesystem::path folder)
     : folder_(std::move(folder)), memory_(scan.memory()), files_(scan.files()), are_stated_(!stated.empty()) {
   if (!are_stated_) return;
+  if (std::optional<Trajectory> path = read_trajectory(stated)) {
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (!time_of(scan.layouts()[i]))
+        throw Error(files_[i].string() + ": has no column gps_time or time, which a trajectory needs");
+    }
+    const double metre = 1 / metres_of_unit(scan.length_unit()).value_or(1);
+    path_ = std::make_unique<PathView>(std::move(*path), stated, metre, folder_, memory_);
+    return;
+  }
   for (Station& station : read_stations(stated, scan.files())) add(std::move(station));
 }
 
@@ -144,6 +131,7 @@ StationView* StationViews::find(std::size_t file, std::uint64_t source) {
 void StationViews::begin() {
   if (is_complete_) return;
   file_ = SIZE_MAX;
+  if (path_) path_->begin();
   for (StationView& view : views_) view.points = view.conflicts = 0;
 }
 
@@ -162,6 +150,12 @@ void StationViews::put(StationView& view, const Eigen::Vector3d& position, bool 
 void StationViews::take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
                         std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) {
   if (is_complete_) return;
+  if (path_) {
+    std::vector<double> times;
+    load_column(rows, reader.layout().stride, *time_of(reader.layout()), times);
+    for (std::size_t i = 0; i < rows.count; ++i) path_->add(times[i], read[i], !std::isnan(kept[i].x()));
+    return;
+  }
   if (!are_stated_) add_scanners(file, reader);
   if (views_.empty()) return;
   const std::vector<double> sources = sources_of(rows, reader.layout());
@@ -179,10 +173,11 @@ void StationViews::take(std::size_t file, const ScanReader& reader, const RowBat
 
 void StationViews::note_touched(std::uint64_t places) const {
   constexpr std::uint64_t kPage = 4096;
-  const std::uint64_t images = views_.size() * RangeImage::kBytes;
+  const std::uint64_t images = views_.size() * RangeImage::kBytes + (path_ ? path_->bytes() : 0);
   touched_ += places;
   if (std::min(touched_ * kPage, images) <= memory_) return;
   touched_ = 0;
+  if (path_) path_->leave_memory();
   for (const StationView& view : views_) {
     view.ranges.leave_memory();
     if (view.left_out) view.left_out->leave_memory();
@@ -202,6 +197,7 @@ std::span<const StationView> StationViews::complete(FileScan& scan, const TaskAr
     }
   }
   scan.observe(nullptr);
+  if (path_) path_->complete();
   std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
   const std::vector<std::uint64_t> needs(views_.size(), 2 * RangeImage::kBytes);
   arena.for_each_within_budget(needs, memory_, [&](std::size_t i) {
@@ -211,6 +207,13 @@ std::span<const StationView> StationViews::complete(FileScan& scan, const TaskAr
     if (views_[i].left_out) views_[i].left_out->leave_memory();
   });
   return views_;
+}
+
+std::vector<StationSummary> StationViews::summaries() const {
+  std::vector<StationSummary> all;
+  if (path_) all.push_back(path_->summary());
+  for (const StationView& view : views_) all.push_back(summary_of(view));
+  return all;
 }
 
 std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,

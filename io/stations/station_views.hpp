@@ -5,10 +5,11 @@
 #include "engine/model/cause.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/file_scan.hpp"
+#include "io/stations/field_of_view.hpp"
+#include "io/stations/path_view.hpp"
 #include "io/stations/range_image.hpp"
 #include "io/stations/station.hpp"
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -19,25 +20,6 @@
 #include <vector>
 
 namespace lacuna::io {
-
-// The directions in which a station had returns: how far up and down, and how far around.
-class FieldOfView {
- public:
-  explicit FieldOfView(const Eigen::Vector3d& axis);
-  void add(const Eigen::Vector3d& direction);
-  bool contains(const Eigen::Vector3d& direction) const;  // both of length 1
-
-  double lowest() const { return lowest_; }  // sines of the elevation; lowest > highest: nothing was added
-  double highest() const { return highest_; }
-  double turn() const;  // share of a whole turn around the axis
-
- private:
-  std::size_t bin_of(const Eigen::Vector3d& direction) const;
-
-  Eigen::Vector3d axis_, right_, forward_;
-  double lowest_ = 1, highest_ = -1;
-  std::array<bool, 512> bins_{};  // around the axis, with returns
-};
 
 struct StationView {
   Station station;
@@ -57,8 +39,8 @@ struct StationView {
 
 StationSummary summary_of(const StationView& view);
 
-// A file states the stations, or else the scans have them: E57 and PTX, PCD with a viewpoint, and files with
-// a pose. Each image is a file of 25 MiB in the folder.
+// A file states the stations, or the path of a moving scanner, or else the scans have them: E57 and PTX, PCD
+// with a viewpoint, and files with a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
   // `stated`: that file; empty: none. `folder` is empty where files are in memory. Throws `Error`.
@@ -76,6 +58,8 @@ class StationViews final : public RowObserver {
   void note_touched(std::uint64_t places) const;
   std::span<const StationView> views() const { return views_; }  // once complete
   std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
+  const PathView* path() const { return path_.get(); }  // null: no scanner moves
+  std::vector<StationSummary> summaries() const;        // that of a path alone, or of the views
 
  private:
   StationView* find(std::size_t file, std::uint64_t source);
@@ -88,6 +72,7 @@ class StationViews final : public RowObserver {
   mutable std::atomic<std::uint64_t> touched_ = 0;  // places of images, since the pages last left memory
   std::vector<std::filesystem::path> files_;
   bool are_stated_ = false, is_complete_ = false;
+  std::unique_ptr<PathView> path_;
   std::vector<StationView> views_;
   // By file and source, kAny for any of them.
   static constexpr std::uint64_t kAny = UINT64_MAX;

@@ -94,7 +94,7 @@ def add_causes(loops, stations, chance):
     """Each cause in turn, with a smaller second one; one hole of six has none. Outer curves have none."""
     holes = 0
     for loop in loops:
-        loop.update({"cause": None, "hidden_by": None, "hidden_from": -1, **{name: None for name in CAUSES}})
+        loop.update({"cause": None, "hidden_by": None, "hidden_from": -1, "hidden_from_place": None, **{name: None for name in CAUSES}})
         if loop["kind"] == "outer" or not stations:
             continue
         main, holes = holes % 6, holes + 1
@@ -105,7 +105,7 @@ def add_causes(loops, stations, chance):
         loop.update({CAUSES[main]: share, CAUSES[(main + 1) % 5]: round(0.995 - share, 3), CAUSES[(main + 2) % 5]: 0.005})
         if loop["hidden"] > 0.01:
             loop["hidden_from"] = (holes // 6) % len(stations)
-            eye = stations[loop["hidden_from"]]["place"]
+            eye = loop["hidden_from_place"] = stations[loop["hidden_from"]]["place"]
             loop["hidden_by"] = [round(0.6 * c + 0.4 * e, 3) for c, e in zip(loop["centroid"], eye)]
 
 
@@ -245,7 +245,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
         histogram[min(19, value * 20 // 256)] += 1
     has_colours = bool(arguments.colours and colours)
     columns = ["id", "kind", "points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
-               "centroid", "normal", "cause", "hidden_by", "hidden_from", *CAUSES]
+               "centroid", "normal", "cause", "hidden_by", "hidden_from", "hidden_from_place", *CAUSES]
     holes = sum(loop["kind"] == "hole" for loop in loops)
     report = {
         "lacuna": "0.1.0", "title": arguments.ply.name if arguments.ply else "scan.laz",

@@ -111,6 +111,7 @@ function read_loops(loops, has_causes) {
     shares: Object.fromEntries(kCauses.map(({name}) => [name, column(name)])),
     hidden_by: vector_column(loops && loops.hidden_by, count),
     hidden_from: column("hidden_from"),
+    hidden_from_place: vector_column(loops && loops.hidden_from_place, count),
     first: loops && loops.first ? loops.first : [0],
     vertices: unpack_positions(take_bytes("loop_vertices"), 1),
   };

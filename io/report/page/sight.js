@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line from a station to what hides the selected hole, and on to its middle, dashed where the station does not see.
+// The line from a scanner to what hides the selected hole, and on to its middle, dashed where the station does not see.
 
 class SightLine {
   constructor(view, data, marks) {
@@ -12,7 +12,7 @@ class SightLine {
     const {loops, frame, stations} = this.data;
     const station = index >= 0 && loops.cause[index] === "hidden" ? stations[loops.hidden_from[index]] : undefined;
     const vector = (column) => to_scene(frame, Array.from(column.subarray(3 * index, 3 * index + 3)));
-    this.places = station ? [to_scene(frame, station.place), vector(loops.hidden_by), vector(loops.centroid)] : [];
+    this.places = station ? [loops.hidden_from_place, loops.hidden_by, loops.centroid].map(vector) : [];
     if (!this.places.every((place) => place.every(Number.isFinite))) this.places = [];
     this.marks.choose(this.places.length > 0 ? loops.hidden_from[index] : -1);
   }

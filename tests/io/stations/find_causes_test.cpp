@@ -41,7 +41,7 @@ struct Found {
       if (detection->loops[i].kind != LoopKind::kHole) continue;
       std::vector<InsidePlace> places = inside_places(*detection, i);
       std::erase_if(places, [&](const InsidePlace& place) { return !test::is_on_surface(place, scanner); });
-      const LoopCause found = cause_of(places, views->views(), tolerance_of(detection->loops[i]));
+      const LoopCause found = cause_of(places, views->views(), views->path(), tolerance_of(detection->loops[i]));
       const auto truth = test::true_shares(places, scanner);
       if (!found.main() || *std::max_element(truth.begin(), truth.end()) == 0) continue;
       for (const InsidePlace& place : places) {

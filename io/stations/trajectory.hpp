@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The path of a moving scanner, and the directions in which it measures.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+// A path in one part or several, such as the lines of a flight: a new part begins after ten times the median
+// interval of its times.
+class Trajectory {
+ public:
+  // `times` ascend, with a place each; at least two.
+  Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> places);
+
+  double first_time() const { return times_.front(); }
+  double last_time() const { return times_.back(); }
+  double length() const { return lengths_.back(); }  // with the ways between parts
+  // How far along the path the scanner was; none where the path has no part at this time.
+  std::optional<double> length_at(double time) const;
+  Eigen::Vector3d place_at(double length) const;
+  // Axes at a place of the path: forward, to the left and upwards; rows of a rotation. Forward is the
+  // direction between the places of its part that are `reach` before it and after it.
+  Eigen::Matrix3d axes_at(double length, double reach) const;
+
+ private:
+  std::vector<double> times_, lengths_;  // lengths: from the first place
+  std::vector<Eigen::Vector3d> places_;
+  double longest_interval_ = 0;              // within a part
+  std::vector<std::size_t> first_of_parts_;  // and the number of places
+};
+
+// A file whose first line names its columns: `time` or `gps_time`, x, y and z, and others between them. Lines
+// are those of io/stations/list_lines.hpp, in any order. None where it names no time: the file lists
+// stations. Throws `Error`.
+std::optional<Trajectory> read_trajectory(const std::filesystem::path& file);
+bool is_time(std::string_view column);
+
+// The directions from a moving scanner in which it measures, in the axes of its path. A scanner with a
+// turning mirror has a thin band of them.
+class SweptDirections {
+ public:
+  SweptDirections();
+  void add(const Eigen::Vector3d& direction);  // not 0
+  // Those in cells of 1.8 degrees with a hundredth of the directions of the fullest one, or more.
+  void finish();
+  bool contains(const Eigen::Vector3d& direction) const;  // once finished
+
+ private:
+  std::vector<std::uint32_t> counts_;
+  std::vector<bool> is_swept_;
+};
+
+}  // namespace lacuna::io
