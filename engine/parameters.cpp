@@ -193,8 +193,8 @@ std::vector<Parameter> parameters(Config& config) {
        "others.",
        kGis},
       {"output", "stations", &output.stations, 0, 0, "a file name, or nothing",
-       "File of where scanners stood, from which the cause of each hole is found; without it, as the scans "
-       "say.",
+       "File of where scanners stood, or the trajectory of one, from which the cause of each hole is found; "
+       "without it, as the scans say.",
        kNothing},
       {"output", "coverage", &output.coverage, 0, 1e100, "a length of 0 (off) or more",
        "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS.",

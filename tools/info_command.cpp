@@ -143,9 +143,12 @@ std::string print_stations(const std::vector<StationSummary>& stations, std::str
   std::vector<std::vector<std::string>> rows = {
       {"stations", "place", "points", "elevations", "turn", "step", "farthest", "certainty"}};
   for (const StationSummary& station : stations) {
-    rows.push_back({visible(station.name), print_point(station.place), print_count(station.points),
+    const bool moved = station.path > 0;
+    rows.push_back({visible(station.name),
+                    moved ? "moved " + print_length(station.path, unit) : print_point(station.place),
+                    print_count(station.points),
                     degrees(std::asin(station.lowest)) + " to " + degrees(std::asin(station.highest)),
-                    degrees(2 * std::numbers::pi * station.turn), degrees(station.step),
+                    degrees(2 * std::numbers::pi * station.turn), moved ? "" : degrees(station.step),
                     print_length(station.farthest, unit), print_share(station.certainty)});
   }
   return print_table(rows);

@@ -7,6 +7,7 @@
 #include "tools/compare_command.hpp"
 #include "tools/detect_command.hpp"
 #include "tools/evaluate_command.hpp"
+#include "tools/find_stations_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/log_file.hpp"
 #include "tools/parameter_options.hpp"
@@ -183,6 +184,7 @@ int run(int argc, char** argv) {
   add_finish_command(app);
   add_update_command(app);
   add_report_command(app);
+  add_find_stations_command(app);
   add_stations_command(app);
   add_render_command(app);
   add_synth_command(app);

@@ -39,7 +39,7 @@ struct Sight {
   std::int32_t station = 0;
 };
 
-// Of a scanner that measures as far as `farthest`, with this angle between rays. `axis`: upwards.
+// It measures as far as `farthest`, with this angle between rays. `axis`: upwards.
 // `may_return`: it sends rays in this direction.
 struct Scanner {
   double angle, farthest;

@@ -3,6 +3,7 @@
 
 #include "io/number.hpp"
 #include "io/stations/list_lines.hpp"
+#include "io/vectors.hpp"
 
 #include <algorithm>
 
@@ -62,6 +63,17 @@ std::vector<Station> read_stations(const fs::path& list, std::span<const fs::pat
   }
   if (stations.empty()) lines.fail_empty("names no station");
   return stations;
+}
+
+std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
+  std::vector<double> sources;
+  for (const char* const name : {"scan", "point_source_id"}) {
+    if (const Property* property = layout.find(name)) {
+      load_column(rows, layout.stride, *property, sources);
+      break;
+    }
+  }
+  return sources;
 }
 
 }  // namespace lacuna::io

@@ -2,6 +2,8 @@
 // Stations: where scanners stood, and which points each of them measured.
 #pragma once
 
+#include "io/scan_reader.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -30,5 +32,8 @@ struct Station {
 // Throws `Error`.
 std::vector<Station> read_stations(const std::filesystem::path& list,
                                    std::span<const std::filesystem::path> files);
+
+// The value of each row in the column `scan` or `point_source_id`; empty: the layout has neither.
+std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout);
 
 }  // namespace lacuna::io

@@ -18,18 +18,6 @@ constexpr std::size_t kNoted = 1024;   // rows, after which memory is checked
 constexpr double kConflict = 0.1;      // of the range
 constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
 
-// The number of the scanner of each row; empty: the layout has none.
-std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
-  std::vector<double> sources;
-  for (const char* const name : {"scan", "point_source_id"}) {
-    if (const Property* property = layout.find(name)) {
-      load_column(rows, layout.stride, *property, sources);
-      break;
-    }
-  }
-  return sources;
-}
-
 const Property* time_of(const RowLayout& layout) {
   const auto found = std::find_if(layout.properties.begin(), layout.properties.end(),
                                   [](const Property& property) { return is_time(property.name); });

@@ -39,8 +39,8 @@ struct StationView {
 
 StationSummary summary_of(const StationView& view);
 
-// A file states the stations, or the path of a moving scanner, or else the scans have them: E57 and PTX, PCD
-// with a viewpoint, and files with a pose. Each image is a file of 25 MiB in the folder.
+// A file states the stations, or the path of a moving scanner. Else the scans have them: E57 and PTX, PCD
+// with a viewpoint, PLY with a camera, and files with a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
   // `stated`: that file; empty: none. `folder` is empty where files are in memory. Throws `Error`.

@@ -12,7 +12,7 @@
 
 namespace lacuna::io {
 
-// A path in one part or several, such as the lines of a flight: a new part begins after ten times the median
+// A path in one part or several, such as the lines of a flight. A new part begins after ten times the median
 // interval of its times.
 class Trajectory {
  public:

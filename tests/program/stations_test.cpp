@@ -181,4 +181,46 @@ TEST_CASE("without a way to degrees, next_stations.geojson has the coordinates o
   CHECK_THAT(run.err, Contains("lacuna_gis.so is missing"));
 }
 
+TEST_CASE("find-stations lists stations that detect reads, and says which files have none", "[program]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "plant.ply").string(), list = (scratch / "list.txt").string();
+  REQUIRE(run_program({"synth", "scan", scan, "--scene", "plant", "--stations", "2", "--points", "200000"})
+              .exit_code == 0);
+  const std::string flat = scratch.write("flat.xyz", "1 2 3\n2 2 3\n");
+  const ProgramResult found = run_program({"find-stations", scan, flat});
+  CHECK(found.exit_code == 0);
+  CHECK_THAT(found.out, Contains("\nplant_0 ") && Contains(" plant.ply 0\n") && Contains("\nplant_1 "));
+  CHECK_THAT(found.out, Contains("# no station: ") && Contains("flat.xyz: it has too few jumps in range"));
+  std::ofstream(list) << found.out;
+  const std::string out = (scratch / "out").string();
+  REQUIRE(run_program({"detect", scan, "--stations", list, "--out", out, "--quiet"}).exit_code == 0);
+  const json stations = read_json(fs::path(out) / "holes.json").at("stations");
+  REQUIRE(stations.size() == 2);
+  CHECK(stations[0].at("certainty") > 0.99);
+  check_failure(run_program({"find-stations", flat}), 1, "no station was found");
+}
+
+TEST_CASE("a trajectory is one station with the length of its path", "[program]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "street.ply").string(), out = (scratch / "out").string();
+  REQUIRE(run_program({"synth", "scan", scan, "--scene", "street", "--stations", "1", "--drive", "--points",
+                       "200000"})
+              .exit_code == 0);
+  const std::string path = (scratch / "street.trajectory.txt").string();
+  REQUIRE(run_program({"detect", scan, "--stations", path, "--out", out, "--quiet"}).exit_code == 0);
+  const json report = read_json(fs::path(out) / "holes.json");
+  REQUIRE(report.at("stations").size() == 1);
+  CHECK(report.at("stations")[0].at("path") == Approx(42));
+  bool has_hidden = false;
+  for (const json& loop : report.at("loops")) {
+    if (loop.at("cause").is_null() || loop.at("cause").at("hidden_by").is_null()) continue;
+    has_hidden = true;
+    const json from = loop.at("cause").at("hidden_by").at("from");
+    CHECK(from[1] == Approx(8));  // on the path
+    CHECK(from[2] == Approx(1.9));
+  }
+  CHECK(has_hidden);
+  CHECK_THAT(run_program({"info", scan, "--stations", path}).out, Contains("moved 42"));
+}
+
 }  // namespace lacuna

@@ -65,7 +65,7 @@ void write_stations(const Scanner& scanner, const ScanOptions& options, OutputFi
   }
 }
 
-// Likewise: each strip by a place for every metre or more.
+// Each strip has a place for every metre.
 void write_trajectory(const Scanner& scanner, const ScanOptions& options, OutputFile& file) {
   file.write(kTrajectoryMark);
   const double length = scanner.strip_length();

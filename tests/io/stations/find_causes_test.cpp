@@ -17,7 +17,9 @@ namespace {
 
 // Holes of a synthetic scan with their causes, against those of its scene.
 struct Found {
-  Found(synth::SceneKind scene, std::uint32_t stations, std::uint64_t points, InputConfig input = {}) {
+  Found(synth::SceneKind scene, std::uint32_t stations, std::uint64_t points, InputConfig input = {},
+        bool drives = false) {
+    options.drives = drives;
     options.scene = scene;
     options.stations = stations;
     options.points = points;
@@ -25,7 +27,7 @@ struct Found {
     synth::write_scan(options);
     Config config;
     config.input = std::move(input);
-    config.output.stations = (folder / "scan.stations.txt").string();
+    config.output.stations = (folder / (drives ? "scan.trajectory.txt" : "scan.stations.txt")).string();
     FileScan scan({options.out}, config.input);
     views = watch_stations(scan, config.output, folder.path());
     NoProgress silence;
@@ -41,7 +43,8 @@ struct Found {
       if (detection->loops[i].kind != LoopKind::kHole) continue;
       std::vector<InsidePlace> places = inside_places(*detection, i);
       std::erase_if(places, [&](const InsidePlace& place) { return !test::is_on_surface(place, scanner); });
-      const LoopCause found = cause_of(places, views->views(), views->path(), tolerance_of(detection->loops[i]));
+      const LoopCause found =
+          cause_of(places, views->views(), views->path(), tolerance_of(detection->loops[i]));
       const auto truth = test::true_shares(places, scanner);
       if (!found.main() || *std::max_element(truth.begin(), truth.end()) == 0) continue;
       for (const InsidePlace& place : places) {
@@ -106,6 +109,23 @@ TEST_CASE("the points of several stations taken for those of one have little cer
                      [](const LoopMeasures& loop) { return loop.cause.main().has_value(); }));
 }
 
+TEST_CASE("causes of a scan from a moving scanner are those of its scene") {
+  const Found found(synth::SceneKind::kCourt, 2, 200'000, {}, true);
+  CHECK(found.agreement() > 0.85);
+  REQUIRE(found.detection->stations.size() == 1);
+  CHECK(found.detection->stations[0].path > 2 * 20);
+  CHECK(found.detection->stations[0].certainty > 0.98);
+}
+
+TEST_CASE("a trajectory needs times of the points") {
+  const test::ScratchFolder folder;
+  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  OutputConfig config;
+  config.stations = folder.write("path.txt", "time x y z\n0 0 0 0\n1 1 0 0\n");
+  CHECK_THROWS_WITH(watch_stations(scan, config, folder.path()),
+                    Catch::Contains("a.xyz: has no column gps_time"));
+}
+
 // How much of the hidden places on surfaces a scan from the first proposed place samples, over what was
 // promised.
 double kept_promise(const Found& found) {
@@ -145,6 +165,12 @@ TEST_CASE("a scan from the first next station of each scene sees what was promis
        {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall, synth::SceneKind::kPlant})
     for (const std::uint32_t stations : {1, 2})
       CHECK(kept_promise(Found(scene, stations, 500'000)) == Approx(1).epsilon(0.35));
+}
+
+TEST_CASE("causes of holes of moving scanners are those of the scenes", "[.slow]") {
+  for (const auto scene : {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall,
+                           synth::SceneKind::kVault, synth::SceneKind::kStreet, synth::SceneKind::kPlant})
+    for (const std::uint32_t lanes : {1, 2}) CHECK(Found(scene, lanes, 500'000, {}, true).agreement() > 0.5);
 }
 
 TEST_CASE("causes of holes are those of the scenes", "[.slow]") {

@@ -61,7 +61,7 @@ TEST_CASE("a range image keeps the nearest range of each direction, and fills ga
   const test::ScratchFolder folder;
   RangeImage image(folder.path());
   for (std::size_t cell = 0; cell < RangeImage::kCells; cell += 9'973) {
-    const Eigen::Vector3d direction = RangeImage::direction_of(cell);
+    const Eigen::Vector3d direction = direction_of(cell, RangeImage::kEdge);
     CHECK(direction.norm() == Approx(1));
     CHECK(image.at(direction) == 0);
     CHECK(image.put(3 * direction, 5) == 0);
@@ -72,8 +72,8 @@ TEST_CASE("a range image keeps the nearest range of each direction, and fills ga
   }
   RangeImage other(folder.path());
   const std::size_t middle = (2 * RangeImage::kEdge + 500) * RangeImage::kEdge + 500;  // of the third face
-  other.put(RangeImage::direction_of(middle), 2);
-  other.put(RangeImage::direction_of(middle + 10), 3);
+  other.put(direction_of(middle, RangeImage::kEdge), 2);
+  other.put(direction_of(middle + 10, RangeImage::kEdge), 3);
   other.fill(4);
   CHECK(other.cells()[middle + 4] == 2);
   CHECK(other.cells()[middle - 4 * RangeImage::kEdge] == 2);

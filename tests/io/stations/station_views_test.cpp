@@ -18,10 +18,9 @@ std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const Out
   const ScratchFolder folder;
   FileScan scan(std::move(inputs), {});
   const auto views = watch_stations(scan, config, folder.path());
-  std::vector<StationSummary> stations;
-  if (!views) return stations;
-  for (const StationView& view : views->complete(scan, TaskArena(2))) stations.push_back(summary_of(view));
-  return stations;
+  if (!views) return {};
+  views->complete(scan, TaskArena(2));
+  return views->summaries();
 }
 
 }  // namespace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/path_view.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/stations/find_causes.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+using Catch::Matchers::Contains;
+
+// A scanner drives from 0 to 20 along x, 2 over a floor, and turns around its path. A wall stands at y = 5,
+// with a window, and a screen before a part of it.
+double range_of(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction) {
+  double nearest = 0;
+  const auto hit = [&](int axis, double at, const std::function<bool(const Eigen::Vector3d&)>& is_there) {
+    const double range = (at - eye[axis]) / direction[axis];
+    if (!(range > 0) || (nearest > 0 && nearest < range) || !is_there(eye + range * direction)) return;
+    nearest = range;
+  };
+  hit(2, 0, [](const auto& p) { return std::fabs(p.y()) < 20; });
+  hit(1, 5, [](const auto& p) {
+    const bool is_window = p.x() > 4 && p.x() < 6 && p.z() > 1 && p.z() < 3;
+    return p.z() > 0 && p.z() < 6 && !is_window;
+  });
+  hit(1, 9, [](const auto& p) { return p.z() > 0 && p.z() < 4; });  // behind the wall
+  hit(1, 2.5, [](const auto& p) { return p.x() > 12 && p.x() < 15 && p.z() > 0 && p.z() < 1.5; });
+  return nearest;
+}
+
+void measure(PathView& view, bool is_reversed = false) {
+  constexpr int kProfiles = 400, kRays = 720;
+  for (int i = 0; i < kProfiles; ++i) {
+    const int profile = is_reversed ? kProfiles - 1 - i : i;
+    const Eigen::Vector3d eye(20.0 * profile / kProfiles, 0, 2);
+    for (int ray = 0; ray < kRays; ++ray) {
+      const double angle = 2 * std::numbers::pi * (ray + 0.5) / kRays;
+      const Eigen::Vector3d direction(0, std::cos(angle), std::sin(angle));
+      const double range = range_of(eye, direction);
+      if (range > 0 && range < 15) view.add(100 + 2.0 * profile / kProfiles, eye + range * direction, true);
+    }
+  }
+  view.complete();
+}
+
+class Drive {
+ public:
+  Drive() : view({{100, 102}, {{0, 0, 2}, {20, 0, 2}}}, "path.txt", 1, folder_.path(), 1 << 20) {}
+
+  // A square of edge 1 in a plane with this normal.
+  LoopCause cause_at(const Eigen::Vector3d& middle, int normal) const {
+    std::vector<Eigen::Vector3d> loop(4, middle);
+    const int u = (normal + 1) % 3, v = (normal + 2) % 3;
+    loop[0][u] -= 0.5, loop[1][v] -= 0.5, loop[2][u] += 0.5, loop[3][v] += 0.5;
+    return cause_of(inside_places(loop), {}, &view, 0.1);
+  }
+
+ private:
+  test::ScratchFolder folder_;
+
+ public:
+  PathView view;
+};
+
+}  // namespace
+
+TEST_CASE("a moving scanner says why a place has no points") {
+  Drive drive;
+  measure(drive.view);
+  CHECK(drive.view.certainty() == 1);
+  CHECK(drive.cause_at({5, 5, 2}, 1).share(Cause::kOpening) > 0.95);  // the window
+  const LoopCause hidden = drive.cause_at({13.5, 5, 0.6}, 1);         // behind the screen
+  CHECK(hidden.share(Cause::kHidden) > 0.95);
+  CHECK(hidden.hidden_by.y() == Approx(2.5).margin(0.1));
+  CHECK(hidden.hidden_from_place.x() == Approx(13.5).margin(0.3));
+  CHECK(hidden.hidden_from == 0);
+  CHECK(drive.cause_at({21.5, 5, 2}, 1).share(Cause::kOutOfView) == 1);  // past the end of the path
+  CHECK_FALSE(drive.cause_at({9, 5, 4}, 1).main());                      // has points
+}
+
+TEST_CASE("what a moving scanner says does not depend on the order of points") {
+  Drive forward, backward;
+  measure(forward.view);
+  measure(backward.view, true);
+  for (const double x : {5.0, 12.2, 13.5, 14.9})
+    CHECK(forward.cause_at({x, 5, 1.2}, 1).shares == backward.cause_at({x, 5, 1.2}, 1).shares);
+  CHECK(forward.view.farthest() == backward.view.farthest());
+}
+
+TEST_CASE("points without a time of the path make a moving scanner uncertain, and then it gives no cause") {
+  Drive drive;
+  for (int i = 0; i < 20'000; ++i) drive.view.add(99, {1, 2, 3}, true);
+  measure(drive.view);
+  CHECK(drive.view.certainty() < StationView::kLeastCertain);
+  CHECK_FALSE(drive.cause_at({5, 5, 2}, 1).main());
+}
+
+TEST_CASE("a path at other times than all points is an error that names both") {
+  Drive drive;
+  drive.view.add(7, {1, 2, 3}, true);
+  CHECK_THROWS_WITH(drive.view.complete(),
+                    Contains("path.txt") && Contains("7 to 7") && Contains("100 to 102"));
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/stations/trajectory.hpp"
+
+#include "engine/run/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::io {
+namespace {
+
+using Catch::Matchers::Contains;
+
+std::optional<Trajectory> read(const std::string& text) {
+  const test::ScratchFolder folder;
+  return read_trajectory(folder.write("path.txt", text));
+}
+
+}  // namespace
+
+TEST_CASE("a trajectory has its columns by the names of its header, in any order of columns and lines") {
+  const auto path = read(
+      "# a comment\n"
+      "x,y,roll,gps_time,z\n"
+      "3,0,9,12,1\n"
+      "0,0,9,10,1\n"
+      "3,4,9,13,1\n");
+  REQUIRE(path);
+  CHECK(path->first_time() == 10);
+  CHECK(path->last_time() == 13);
+  CHECK(path->length() == 7);
+  CHECK(path->length_at(11) == 1.5);
+  CHECK(path->length_at(13) == 7.0);
+  CHECK(path->place_at(5) == Eigen::Vector3d(3, 2, 1));
+  CHECK_FALSE(path->length_at(9.9));
+  CHECK_FALSE(path->length_at(13.1));
+}
+
+TEST_CASE("a file without a column of times is no trajectory, but a list of stations") {
+  CHECK_FALSE(read("name x y z\nnorth 1 2 3\n"));
+  CHECK_FALSE(read("10 1 2 3\n"));
+}
+
+TEST_CASE("an error in a trajectory names the line or the column") {
+  const auto fails = [](const std::string& text, const std::string& reason) {
+    CHECK_THROWS_WITH(read(text), Contains("path.txt") && Contains(reason));
+  };
+  fails("time x y\n1 2 3\n", "none that is named z");
+  fails("time x y z\n1 2 3 4\n2 2 three 4\n", "line 3: 'three' is not a number");
+  fails("time x y z\n1 2 3 4\n2 2 3\n", "line 3: has 3 columns");
+  fails("time x y z\n1 2 3 inf\n", "is not a number");
+  fails("time x y z\n1 2 3 4\n1 5 6 7\n", "fewer than two times");
+  fails("time x y z\n", "fewer than two times");
+}
+
+TEST_CASE("a pause divides a path: there is no place in it, and axes are those of each part") {
+  const auto path = read(
+      "time x y z\n"
+      "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n"
+      "100 3 50 0\n101 2 50 0\n102 1 50 0\n103 0 50 0\n");
+  REQUIRE(path);
+  CHECK_FALSE(path->length_at(50));
+  CHECK_FALSE(path->length_at(3.5));
+  CHECK(path->length_at(3) == 3.0);
+  CHECK(path->length_at(100) == 53.0);
+  const auto forward = [&](double length) { return Eigen::Vector3d(path->axes_at(length, 2).row(0)); };
+  CHECK(forward(3).isApprox(Eigen::Vector3d(1, 0, 0)));
+  CHECK(forward(53).isApprox(Eigen::Vector3d(-1, 0, 0)));
+  const Eigen::Matrix3d axes = path->axes_at(55, 1);
+  CHECK(axes.row(1).isApprox(Eigen::RowVector3d(0, -1, 0)));
+  CHECK(axes.row(2).isApprox(Eigen::RowVector3d(0, 0, 1)));
+}
+
+TEST_CASE("a scanner measures in directions that have many rays, not in those of a few") {
+  SweptDirections swept;
+  for (int i = 0; i < 1000; ++i) swept.add({0, 1, i % 10 * 0.1});
+  swept.add({1, 0, 0});
+  swept.finish();
+  CHECK(swept.contains({0, 5, 2.5}));
+  CHECK_FALSE(swept.contains({1, 0, 0}));
+  CHECK_FALSE(swept.contains({0, -1, 0}));
+}
+
+}  // namespace lacuna::io
