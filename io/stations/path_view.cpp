@@ -16,10 +16,10 @@
 namespace lacuna::io {
 namespace {
 
-constexpr double kFinest = 0.02;  // metres, of a section
-constexpr double kMostSections = 1 << 20;
-constexpr double kSections = 100;  // in the mean range
-constexpr double kChord = 0.5;     // metres before and after a place, for its axes
+constexpr double kFinest = 0.02;           // metres, of a section
+constexpr double kMostSections = 1 << 18;  // each takes 104 bytes of memory
+constexpr double kSections = 100;          // in the mean range
+constexpr double kChord = 0.5;             // metres before and after a place, for its axes
 constexpr std::uint32_t kCells = 6 * PathView::kEdge * PathView::kEdge;
 constexpr std::uint32_t kGroup = 8;  // sections: profiles lie closer than a 12th of the range
 constexpr std::ptrdiff_t kGap = 2;   // cells between rays
@@ -59,15 +59,19 @@ void PathView::add(double time, const Eigen::Vector3d& position, bool is_kept) {
   const Eigen::Vector3d arm = position - path_.place_at(*length);
   const double range = arm.norm();
   if (!(range > 0)) return;
-  const Eigen::Vector3d in_axes = path_.axes_at(*length, chord_) * arm;
+  const auto section = static_cast<std::uint32_t>(*length / finest_);
+  if (section != last_section_) {
+    last_section_ = section;
+    last_axes_ = path_.axes_at((section + 0.5) * finest_, chord_);
+  }
+  const Eigen::Vector3d in_axes = last_axes_ * arm;
   swept_.add(in_axes);
   field_.add(arm / range);
   farthest_ = std::max(farthest_, range);
   range_sum_ += static_cast<std::uint64_t>(std::min(range / finest_, 1e9));
   ++placed_;
   const auto cell = static_cast<std::uint32_t>(cell_of(in_axes, kEdge));
-  rays_->add({static_cast<std::uint32_t>(*length / finest_), is_kept ? cell : kCells + cell,
-              static_cast<float>(range)});
+  rays_->add({section, is_kept ? cell : kCells + cell, static_cast<float>(range)});
 }
 
 void PathView::complete() {

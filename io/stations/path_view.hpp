@@ -82,6 +82,8 @@ class PathView {
   std::uint64_t memory_;
   double finest_, section_;  // lengths of a section: while points come, and of those that are kept
   double chord_;             // half of that between which the axes are taken
+  std::uint32_t last_section_ = UINT32_MAX;  // of a point, with its axes
+  Eigen::Matrix3d last_axes_;
   std::optional<Rays> rays_;
   SweptDirections swept_;
   FieldOfView field_{Eigen::Vector3d::UnitZ()};

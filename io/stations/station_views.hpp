@@ -52,14 +52,14 @@ class StationViews final : public RowObserver {
   void end() override;
 
   // In the order of the file, or of the scans. Stations without points are left out. Reads the scan where no
-  // pass over it has ended yet.
+  // pass over it has ended yet. To be called once.
+  std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
+  std::span<const StationView> views() const { return views_; }  // once complete
+  const PathView* path() const { return path_.get(); }           // null: no scanner moves
   // Notes that so many places of images were touched. Their pages leave memory where they may be more than
   // the scan's reader may hold.
   void note_touched(std::uint64_t places) const;
-  std::span<const StationView> views() const { return views_; }  // once complete
-  std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
-  const PathView* path() const { return path_.get(); }  // null: no scanner moves
-  std::vector<StationSummary> summaries() const;        // that of a path alone, or of the views
+  std::vector<StationSummary> summaries() const;  // that of a path alone, or of the views
 
  private:
   StationView* find(std::size_t file, std::uint64_t source);
