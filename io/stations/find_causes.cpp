@@ -93,20 +93,20 @@ class Findings {
   Findings(std::span<const StationView> views, const PathView* path, const Eigen::AlignedBox3d& hole)
       : views_(views), path_(path && is_certain(*path) ? path : nullptr) {
     if (path_) sections_ = path_->sections_near(hole, kFarther * path_->farthest());
-    has_scanner_ = path_ || std::any_of(views.begin(), views.end(), is_certain<StationView>);
+    for (std::size_t i = 0; i < views.size(); ++i)
+      if (is_certain(views[i])) stations_.push_back(static_cast<std::int32_t>(i));
   }
 
   void add(const InsidePlace& place, double tolerance) {
-    if (!has_scanner_) return;
+    if (stations_.empty() && !path_) return;
     std::optional<Sight> found;
     const auto take = [&](const Sight& sight) {
       const auto key = [](const Sight& of) { return std::pair(rank_of(of.finding), of.range); };
       if (!found || key(sight) < key(*found)) found = sight;
     };
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      if (!is_certain(views_[i])) continue;
-      Sight sight = look(views_[i], place, tolerance);
-      sight.station = static_cast<std::int32_t>(i);
+    for (const std::int32_t station : stations_) {
+      Sight sight = look(views_[static_cast<std::size_t>(station)], place, tolerance);
+      sight.station = station;
       take(sight);
     }
     for (const Aim& aim : path_ ? path_->aims_at(place.position, sections_) : std::vector<Aim>()) {
@@ -185,7 +185,7 @@ class Findings {
   std::span<const StationView> views_;
   const PathView* path_;                   // null: no scanner moves
   std::vector<std::uint32_t> sections_;    // of the path
-  bool has_scanner_ = false;               // that is certain
+  std::vector<std::int32_t> stations_;     // views that are certain
   std::array<double, kFindings> areas_{};  // by finding
   double floor_without_return_ = 0;
   std::vector<Hider> hiders_;  // of the places that are hidden
