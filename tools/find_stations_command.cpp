@@ -5,7 +5,9 @@
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/stations/find_station.hpp"
+#include "io/stations/list_lines.hpp"
 #include "io/stations/station_views.hpp"
+#include "tools/folders.hpp"
 #include "tools/input_files.hpp"
 #include "tools/own_process.hpp"
 #include "tools/parameter_options.hpp"
@@ -49,11 +51,13 @@ std::string with_decimals(double value, int decimals) {
   return out.str();
 }
 
-constexpr std::string_view kDivisors = " \t\r\n,;#";  // of a list's fields
+// Not in a field of a list: what ends a field or a line, or begins a comment.
+bool divides(char c) {
+  return kFieldDivisors.find(c) != kFieldDivisors.npos || c == '\n' || c == '#';
+}
 
 std::string without_divisors(std::string name) {
-  for (char& c : name)
-    if (kDivisors.find(c) != kDivisors.npos) c = '_';
+  std::replace_if(name.begin(), name.end(), divides, '_');
   return name;
 }
 
@@ -85,8 +89,8 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& sca
 
 // Shares of points that can have been seen from the stations, by their lines.
 void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
-  const TemporaryFolder folder(run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch),
-                               "lacuna-");
+  const MadeFolder parent(scratch_folder(run));
+  const TemporaryFolder folder(parent.path(), "lacuna-");
   const fs::path list = folder.path() / "stations.txt";
   std::ofstream out(list);
   for (const Listed& station : stations) out << station.line << "\n";
@@ -111,7 +115,7 @@ void run_find_stations(const FindArguments& arguments) {
       others.push_back(subject_of(sweep, scan) + ": it has too few jumps in range");
     } else if (found->share < FoundStation::kLeastShare) {
       others.push_back(subject_of(sweep, scan) + ": its points are not in the order of one sweep");
-    } else if (name_in_list(sweep.file, scan).find_first_of(kDivisors) != std::string::npos) {
+    } else if (std::ranges::any_of(name_in_list(sweep.file, scan), divides)) {
       others.push_back(subject_of(sweep, scan) + ": a list cannot have this name, which is not one word");
     } else {
       stations.push_back(listed(sweep, *found, scan));

@@ -72,6 +72,10 @@ void MadeFolder::remove_empty() const {
   }
 }
 
+fs::path scratch_folder(const RunConfig& run) {
+  return run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch);
+}
+
 void remove_made_folders() {
   mutex.lock();  // and never unlocked
   for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();

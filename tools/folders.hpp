@@ -2,6 +2,8 @@
 // The folders that the user names: made if missing, and locked.
 #pragma once
 
+#include "engine/config.hpp"
+
 #include <filesystem>
 #include <vector>
 
@@ -26,6 +28,9 @@ class MadeFolder {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  // innermost first
 };
+
+// For temporary files of commands without a folder of results: as the config says, else the system's.
+std::filesystem::path scratch_folder(const RunConfig& run);
 
 // For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
 // folder can be made afterwards: a thread that tries stops there, as the process is about to end.

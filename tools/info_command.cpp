@@ -105,8 +105,7 @@ std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConf
 RunInfo estimate_run(FileScan& scan, const Config& config) {
   RunInfo run;
   NoProgress silence;
-  const MadeFolder parent(config.run.scratch.empty() ? fs::temp_directory_path()
-                                                     : fs::path(config.run.scratch));
+  const MadeFolder parent(scratch_folder(config.run));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   const auto stations = watch_stations(scan, config.output, workspace.path());
   run.estimate = estimate(scan, config, workspace.path(), silence);

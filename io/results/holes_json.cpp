@@ -74,8 +74,10 @@ Json cause_json(const LoopCause& cause) {
   Json json = {{"main", cause.name()}, {"shares", Json::object()}, {"hidden_by", Json()}};
   for (std::size_t i = 0; i < kCauses; ++i) json["shares"][std::string(kCauseNames[i])] = cause.shares[i];
   if (cause.hidden_from >= 0) {
-    json["hidden_by"] = {
-        {"place", list(cause.hidden_by)}, {"extent", cause.hidden_by_extent}, {"station", cause.hidden_from}, {"from", list(cause.hidden_from_place)}};
+    json["hidden_by"] = {{"place", list(cause.hidden_by)},
+                         {"extent", cause.hidden_by_extent},
+                         {"station", cause.hidden_from},
+                         {"from", list(cause.hidden_from_place)}};
   }
   return json;
 }

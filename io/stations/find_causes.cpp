@@ -109,13 +109,13 @@ class Findings {
       sight.station = station;
       take(sight);
     }
-    for (const Aim& aim : path_ ? path_->aims_at(place.position, sections_) : std::vector<Aim>()) {
-      take(look(aim,
-                {.angle = cell_angle(PathView::kEdge),
-                 .farthest = path_->farthest(),
-                 .axis = Eigen::Vector3d::UnitZ(),
-                 .may_return = true},
-                place, tolerance));
+    if (path_) {
+      const Scanner scanner{.angle = cell_angle(PathView::kEdge),
+                            .farthest = path_->farthest(),
+                            .axis = Eigen::Vector3d::UnitZ(),
+                            .may_return = true};
+      for (const Aim& aim : path_->aims_at(place.position, sections_))
+        take(look(aim, scanner, place, tolerance));
     }
     const Sight sight = found.value_or(Sight());
     if (sight.finding == Finding::kSurface) return;

@@ -12,10 +12,9 @@ namespace {
 
 void split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
-  constexpr std::string_view kDivisors = " \t\r,;";
-  for (std::size_t begin; (begin = line.find_first_not_of(kDivisors)) != line.npos;) {
+  for (std::size_t begin; (begin = line.find_first_not_of(kFieldDivisors)) != line.npos;) {
     line.remove_prefix(begin);
-    const std::size_t end = std::min(line.find_first_of(kDivisors), line.size());
+    const std::size_t end = std::min(line.find_first_of(kFieldDivisors), line.size());
     fields.push_back(line.substr(0, end));
     line.remove_prefix(end);
   }

@@ -16,6 +16,8 @@
 
 namespace lacuna::io {
 
+inline constexpr std::string_view kFieldDivisors = " \t\r,;";
+
 using Fields = std::span<const std::string_view>;
 
 class ListLines {

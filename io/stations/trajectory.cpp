@@ -17,13 +17,14 @@ constexpr std::size_t kSweptEdge = 64;  // cells of 1.8 degrees
 constexpr double kPause = 10;           // median intervals
 constexpr double kLeastShare = 0.02;  // of the largest count of a cell: others are of turns and rough ground
 
-// The value at `key`, between the two around it.
+// How many of the keys, in order, are `key` or less.
+std::size_t count_up_to(const std::vector<double>& keys, double key) {
+  return static_cast<std::size_t>(std::upper_bound(keys.begin(), keys.end(), key) - keys.begin());
+}
+
+// The value at `key`, between those of i - 1 and i.
 template <class Value>
-Value between(const std::vector<double>& keys, const std::vector<Value>& values, double key) {
-  const auto after = std::upper_bound(keys.begin(), keys.end(), key);
-  if (after == keys.begin()) return values.front();
-  if (after == keys.end()) return values.back();
-  const auto i = static_cast<std::size_t>(after - keys.begin());
+Value between(const std::vector<double>& keys, const std::vector<Value>& values, std::size_t i, double key) {
   const double share = (key - keys[i - 1]) / (keys[i] - keys[i - 1]);
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
@@ -45,15 +46,19 @@ Trajectory::Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> p
 }
 
 std::optional<double> Trajectory::length_at(double time) const {
-  const auto after = std::lower_bound(times_.begin(), times_.end(), time);
-  if (after == times_.end() || !(time >= first_time())) return std::nullopt;
-  if (after != times_.begin() && *after - *(after - 1) > longest_interval_ && *after > time)
-    return std::nullopt;
-  return between(times_, lengths_, time);
+  if (time == last_time()) return length();
+  const std::size_t next = count_up_to(times_, time);
+  if (next == 0 || next == times_.size()) return std::nullopt;
+  const bool is_pause = times_[next] - times_[next - 1] > longest_interval_ && time > times_[next - 1];
+  if (is_pause) return std::nullopt;
+  return between(times_, lengths_, next, time);
 }
 
 Eigen::Vector3d Trajectory::place_at(double length) const {
-  return between(lengths_, places_, length);
+  const std::size_t next = count_up_to(lengths_, length);
+  if (next == 0) return places_.front();
+  if (next == places_.size()) return places_.back();
+  return between(lengths_, places_, next, length);
 }
 
 bool is_time(std::string_view column) {

@@ -48,7 +48,7 @@ class SweptDirections {
  public:
   SweptDirections();
   void add(const Eigen::Vector3d& direction);  // not 0
-  // Those in cells of 1.8 degrees with a hundredth of the directions of the fullest one, or more.
+  // Those in cells of 1.8 degrees with more than a fiftieth of the directions of the fullest one.
   void finish();
   bool contains(const Eigen::Vector3d& direction) const;  // once finished
 
