@@ -128,7 +128,7 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
       REQUIRE(has_workspace());
       run.send(signal);
-      CHECK(run.wait(std::chrono::seconds(10)) == 128 + signal);
+      CHECK(run.wait(std::chrono::seconds(100)) == 128 + signal);
       CHECK_FALSE(fs::exists(out));
     }
   }

@@ -195,9 +195,9 @@ TEST_CASE("LAS with the longest points: batches are bounded in bytes, and column
   const ScratchFolder folder;
   constexpr std::size_t kPoints = 600;
   const LasFile las{.points = std::vector<std::string>(kPoints, las_point(65'535, 1, 2, 3))};
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of the processor: other work does not count
   const auto reader = open_scan(folder.write("a.las", las.bytes()), {});
-  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(3));
+  CHECK(std::clock() - begin < 3 * CLOCKS_PER_SEC);
   CHECK(reader->layout().properties.back().name == "extra_65514");
   RowBatch batch;
   std::size_t rows = 0;
