@@ -143,6 +143,15 @@ bool FileScan::next(PointBatch& batch) {
   return false;
 }
 
+void FileScan::read_all(RowObserver& observer) {
+  observe(&observer);
+  rewind();
+  PointBatch batch;
+  while (next(batch)) {
+  }
+  observe(nullptr);
+}
+
 std::optional<std::uint64_t> FileScan::expected_points() const {
   return expected_points_;
 }

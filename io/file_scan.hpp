@@ -42,11 +42,11 @@ LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 class RowObserver {
  public:
   virtual ~RowObserver() = default;
-  virtual void begin() = 0;  // at the first row, or at the first again
+  virtual void begin() {}  // at the first row, or at the first again
   // `read`: where the rows lie; `kept`: likewise, NaN where a filter has left a row out.
   virtual void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
                     std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) = 0;
-  virtual void end() = 0;  // every row was there
+  virtual void end() {}  // every row was there
 };
 
 // Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
@@ -107,6 +107,7 @@ class LACUNA_API FileScan : public PointSource {
   // an earlier one.
   void check_unchanged() const;
   void observe(RowObserver* observer) { observer_ = observer; }  // null: nobody
+  void read_all(RowObserver& observer);                          // for this observer alone, once
   bool has_scanners() const { return has_scanners_; }            // a file says where one stood
   bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
 

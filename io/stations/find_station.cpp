@@ -73,6 +73,26 @@ Eigen::Vector3d refine(std::span<const Jump> jumps, Eigen::Vector3d eye, double 
   return eye;
 }
 
+struct SweepReader final : RowObserver {
+  std::map<std::pair<std::size_t, std::optional<std::uint32_t>>, Sweep> sweeps;  // by file and scanner
+
+  void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
+            std::span<const Eigen::Vector3d>, std::span<const Eigen::Vector3d> kept) override {
+    const std::vector<double> sources = sources_of(rows, reader.layout());
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      std::optional<std::uint32_t> source;
+      if (!sources.empty() && sources[i] >= 0 && sources[i] < 0x1p32)
+        source = static_cast<std::uint32_t>(sources[i]);
+      Sweep& sweep = sweeps.try_emplace({file, source}, Sweep{file, source, {}}).first->second;
+      if (sweeps.size() > kMostSweeps)
+        throw Error("the scans have more than " + std::to_string(kMostSweeps) +
+                    " numbers of scanners, so they are not single sweeps");
+      sweep.jumps.add(kept[i]);
+      ++sweep.points;
+    }
+  }
+};
+
 }  // namespace
 
 void Jumps::add(const Eigen::Vector3d& position) {
@@ -123,36 +143,10 @@ std::optional<FoundStation> find_station(std::span<const Jump> jumps) {
 }
 
 std::vector<Sweep> read_sweeps(FileScan& scan) {
-  class Reader final : public RowObserver {
-   public:
-    void begin() override {}
-    void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
-              std::span<const Eigen::Vector3d>, std::span<const Eigen::Vector3d> kept) override {
-      const std::vector<double> sources = sources_of(rows, reader.layout());
-      for (std::size_t i = 0; i < rows.count; ++i) {
-        std::optional<std::uint32_t> source;
-        if (!sources.empty() && sources[i] >= 0 && sources[i] < 0x1p32)
-          source = static_cast<std::uint32_t>(sources[i]);
-        Sweep& sweep = sweeps_.try_emplace({file, source}, Sweep{file, source, {}}).first->second;
-        if (sweeps_.size() > kMostSweeps)
-          throw Error("the scans have more than " + std::to_string(kMostSweeps) +
-                      " numbers of scanners, so they are not single sweeps");
-        sweep.jumps.add(kept[i]);
-        ++sweep.points;
-      }
-    }
-    void end() override {}
-    std::map<std::pair<std::size_t, std::optional<std::uint32_t>>, Sweep> sweeps_;
-  };
-  Reader reader;
-  scan.observe(&reader);
-  scan.rewind();
-  PointBatch batch;
-  while (scan.next(batch)) {
-  }
-  scan.observe(nullptr);
+  SweepReader reader;
+  scan.read_all(reader);
   std::vector<Sweep> sweeps;
-  for (auto& [key, sweep] : reader.sweeps_) sweeps.push_back(std::move(sweep));
+  for (auto& [key, sweep] : reader.sweeps) sweeps.push_back(std::move(sweep));
   return sweeps;
 }
 

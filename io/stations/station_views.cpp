@@ -177,13 +177,7 @@ void StationViews::end() {
 }
 
 std::span<const StationView> StationViews::complete(FileScan& scan, const TaskArena& arena) {
-  if (!is_complete_) {
-    scan.observe(this);
-    scan.rewind();
-    PointBatch batch;
-    while (scan.next(batch)) {
-    }
-  }
+  if (!is_complete_) scan.read_all(*this);
   scan.observe(nullptr);
   if (path_) path_->complete();
   std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
