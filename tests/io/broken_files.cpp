@@ -4,8 +4,8 @@
 #include "tests/io/mutation.hpp"
 #include "tests/support/draws.hpp"
 
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <optional>
 #include <set>
 #include <stdexcept>

@@ -6,8 +6,8 @@
 #include "tests/io/las/las_file.hpp"
 
 #include <array>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <string>
 #include <vector>
 
