@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <tuple>
 
 namespace lacuna {
 namespace {
@@ -143,7 +144,7 @@ std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& fi
     if (flags != 0) marks.push_back({tile.local(row), kNotReported, c.probability, flags, c.point});
   }
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
-    return a.owned != b.owned ? a.owned < b.owned : a.loop < b.loop;
+    return std::tie(a.owned, a.loop, a.probability) < std::tie(b.owned, b.loop, b.probability);
   });
   std::size_t kept = 0;
   for (const Mark& mark : marks) {

@@ -91,8 +91,8 @@ std::optional<PartReader> open_run(const fs::path& folder) {
 
 bool is_workspace_name(const std::string& name) {
   static const std::regex parts(
-      "(run|tasks|results|level-[0-9]+|tiles-[0-9]+-[0-9a-f]{16})(\\.[0-9a-f]{16}\\.partial)?"
-      "|level-[0-9]+-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
+      "(run|tasks|results|level-[0-9]{1,3}|tiles-[0-9]{1,3}-[0-9a-f]{16})(\\.[0-9a-f]{16}\\.partial)?"
+      "|level-[0-9]{1,3}-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
   return std::regex_match(name, parts);
 }
 
