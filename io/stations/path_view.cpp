@@ -107,7 +107,8 @@ void PathView::store(Rays& rays) {
       if (std::exchange(last, std::pair(ray.section, ray.cell)) != last) visit(ray);
     });
   };
-  first_.assign(static_cast<std::size_t>(path_.length() / section_) + 2, 0);
+  // One more than whole sections: the quotients of a length are rounded.
+  first_.assign(static_cast<std::size_t>(path_.length() / section_) + 3, 0);
   for_each_nearest([&](const Ray& ray) { ++first_[ray.section + 1]; });
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   const std::uint64_t bytes = first_.back() * sizeof(Entry);
