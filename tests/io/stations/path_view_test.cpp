@@ -6,8 +6,10 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -100,6 +102,16 @@ TEST_CASE("points without a time of the path make a moving scanner uncertain, an
   measure(drive.view);
   CHECK(drive.view.certainty() < StationView::kLeastCertain);
   CHECK_FALSE(drive.cause_at({5, 5, 2}, 1).main());
+}
+
+// 7 / (7 * 0.02) is less than 50 in floating point, 7 / 0.02 is 350.
+TEST_CASE("a point at the very end of a path is measured from a section of it") {
+  const test::ScratchFolder folder;
+  PathView view({{100, 102}, {{0, 0, 0}, {7, 0, 0}}}, "path.txt", 1, folder.path(), 1 << 20);
+  const Eigen::Vector3d point(7, 14.5, 0);
+  view.add(102, point, true);
+  view.complete();
+  CHECK(view.sections_near({point, point}, 20) == std::vector<std::uint32_t>{50});
 }
 
 TEST_CASE("a path at other times than all points is an error that names both") {
