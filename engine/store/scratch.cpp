@@ -22,7 +22,7 @@ std::string unique_name() {
 }  // namespace
 
 Scratch::Scratch(std::filesystem::path folder, std::uint64_t budget)
-    : folder_(std::move(folder)), budget_(budget), between_looks_(std::max(budget / 8, std::uint64_t{1})) {}
+    : folder_(std::move(folder)), budget_(budget), between_looks_(std::max(budget / 8, 16 * kWindow)) {}
 
 Scratch::~Scratch() {
   for (const Mapping& mapping : mappings_) ::munmap(mapping.address, mapping.bytes);

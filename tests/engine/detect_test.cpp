@@ -223,7 +223,7 @@ void check_tangles(std::uint64_t first, std::uint64_t last) {
 }
 
 TEST_CASE("tiling never shows in a tangle of short loops across many tiles") {
-  check_tangles(1, 5);
+  check_tangles(1, draws(5));
 }
 
 TEST_CASE("tiling never shows in many more tangles of short loops across many tiles", "[.slow]") {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // detect --workspace: a run that is stopped, however, goes on to the results of an undisturbed one.
 #include "tests/support/clouds.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -30,13 +32,23 @@ using test::ScratchFolder;
 
 struct Run {
   ScratchFolder folder;
-  std::string scan = folder.write("scan.txt", test::sheet(300));
+  int side = static_cast<int>(std::sqrt(static_cast<double>(draws(90'000))));
+  int points = side * side;
+  std::string scan = folder.write("scan.txt", test::sheet(side));
   fs::path workspace = folder / "workspace";
 
   std::vector<std::string> arguments(const fs::path& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"detect",        scan,        "--out",    out.string(),
-                                    "--tile-points", "600",       "--points", "--quiet",
-                                    "--overwrite",   "--threads", "2"};
+    std::vector<std::string> all = {"detect",
+                                    scan,
+                                    "--out",
+                                    out.string(),
+                                    "--tile-points",
+                                    std::to_string(points / 150),
+                                    "--points",
+                                    "--quiet",
+                                    "--overwrite",
+                                    "--threads",
+                                    "2"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -87,13 +99,13 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
   const fs::path without = run.folder / "without";
   REQUIRE(run_program(run.arguments(without)).exit_code == 0);
   std::size_t failed = 0;
-  for (const char* size : {"64k", "1m", "3m", "6m", "9m", "12m", "15m", "20m", "25m", "30m"}) {
-    const test::SmallDisk disk(run.folder / "disk", size);
+  for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
+    const test::SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
     if (!disk.mounted()) {
       test::skip("cannot mount a small disk");
       return;
     }
-    INFO(size);
+    INFO(bytes_a_point << " bytes a point");
     const fs::path small = disk.path() / "workspace";
     const std::vector<std::string> arguments = run.arguments(
         run.folder / "out", {"--workspace", small.string(), "--scratch", run.folder.path().string()});
@@ -115,7 +127,7 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
 TEST_CASE("another input is refused, and --restart begins anew") {
   const Run run;
   REQUIRE(run_program(run.kept()).exit_code == 0);
-  run.folder.write("scan.txt", test::sheet(299));
+  run.folder.write("scan.txt", test::sheet(run.side - 1));
   check_failure(run_program(run.kept()), 1, "the workspace of another run: \"input: ");
   REQUIRE(run_program(run.kept({"--restart"})).exit_code == 0);
   const fs::path without = run.folder / "without";
