@@ -61,6 +61,11 @@ Config with_min_hole(Config config) {
 }
 
 void check_config(const Config& config) {
+  const std::vector<double>& weights = config.criteria.weights;
+  if (weights.size() != criteria().size()) {
+    throw Error(std::to_string(weights.size()) +
+                " weights of criteria; allowed: " + std::to_string(criteria().size()));
+  }
   Config checked = config;
   for (const Parameter& parameter : parameters(checked)) {
     std::visit(
@@ -77,7 +82,6 @@ void check_config(const Config& config) {
   if (neighbourhood.eps > 0 && neighbourhood.eps_fraction > 0) {
     throw Error("eps and eps_fraction are both set; allowed: at most one of them above 0");
   }
-  const std::vector<double>& weights = config.criteria.weights;
   if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
     std::string names;
     for (std::size_t i = 0; i < weights.size(); ++i) {

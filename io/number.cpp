@@ -4,14 +4,26 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <locale.h>
+
 namespace lacuna::io {
 
+namespace {
+
+// Of a decimal point, whatever the host has set.
+locale_t plain_locale() {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  return plain;
+}
+
+}  // namespace
+
 float parse_extreme(std::string_view text, float) {
-  return std::strtof(std::string(text).c_str(), nullptr);
+  return ::strtof_l(std::string(text).c_str(), nullptr, plain_locale());
 }
 
 double parse_extreme(std::string_view text, double) {
-  return std::strtod(std::string(text).c_str(), nullptr);
+  return ::strtod_l(std::string(text).c_str(), nullptr, plain_locale());
 }
 
 bool parse_foreign_number(std::string_view text, double& value) {

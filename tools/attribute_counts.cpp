@@ -5,6 +5,8 @@
 #include "tools/summary.hpp"
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -51,7 +53,9 @@ AttributeCounts count_attributes(ScanReader& reader, std::size_t rows_at_a_time)
     counts.rows += rows.count;
     if (class_of != nullptr) {
       load_column(rows, layout.stride, *class_of, values);
-      for (const double value : values) ++counts.classes[static_cast<int>(value)];
+      for (const double value : values) {
+        if (std::abs(value) <= std::numeric_limits<int>::max()) ++counts.classes[static_cast<int>(value)];
+      }
     }
     if (!counts.has_returns) continue;
     load_column(rows, layout.stride, *number, values);

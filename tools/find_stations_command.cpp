@@ -95,6 +95,7 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
   std::ofstream out(list);
   for (const Listed& station : stations) out << station.line << "\n";
   out.close();
+  if (!out) throw Error(list.string() + ": cannot be written");
   StationViews views(scan, list, folder.path());
   views.complete(scan, TaskArena(static_cast<std::size_t>(run.threads)));
   const std::vector<StationSummary> summaries = views.summaries();

@@ -103,8 +103,10 @@ void keep_results(const fs::path& results, const fs::path& kept) {
   if (results.empty() || !fs::exists(results / "holes.json") || fs::exists(kept / "holes.json")) return;
   fs::create_directories(kept);
   for (const char* name : kComparedFiles) {  // holes.json comes last
-    if (fs::exists(results / name))
-      fs::copy_file(results / name, kept / name, fs::copy_options::overwrite_existing);
+    if (!fs::exists(results / name)) continue;
+    const fs::path partial = kept / (std::string(name) + ".partial");
+    fs::copy_file(results / name, partial, fs::copy_options::overwrite_existing);
+    fs::rename(partial, kept / name);
   }
 }
 

@@ -129,6 +129,7 @@ RowSet OrientationGraph::opposed_normals(Job& job) {
     forests_.drop(t);
     add_crossings(crossings_.read(t), normals_, store_, t, edges);
     crossings_.drop(t);
+    phase.advance(tiling.tiles[t].points);
   }
 
   Scratch scratch(job.workspace, job.memory.global / 2);
@@ -158,7 +159,6 @@ RowSet OrientationGraph::opposed_normals(Job& job) {
     Top& top = tops[root];
     const bool higher = point.z != top.z ? point.z > top.z : value(point.id) < top.id;
     if (!top.is_set || higher) top = {point.z, value(point.id), 1, opposed != points_down(normal)};
-    phase.advance(1);
   });
   RowSet turned(rows);
   for_each_normal([&](std::uint64_t row, const StoredPoint&, const StoredNormal&) {

@@ -58,15 +58,14 @@ ScanSample::ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileS
       ids_(ids),
       candidates_(job.file("sample-keys"), store.tiling().tiles.size(), job.memory.spills / 8) {}
 
+// Keys of all points: an update may keep this output, and draw its sample from fewer points.
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
   std::vector<Candidate> samples;
-  const std::uint32_t last = last_bin_;
+  samples.reserve(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const Evaluation& e = tile.evaluations[p];
-    const double key = key_of(tile.points.ids[p], e);
-    if (bin_of(key) > last) continue;
     const Eigen::Vector3f normal = e.normal.cast<float>();
-    samples.push_back({key, tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
+    samples.push_back({key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
   }
   output.add("sample", std::move(samples));
 }

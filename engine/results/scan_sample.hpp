@@ -10,7 +10,6 @@
 #include "engine/store/tile_store.hpp"
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -55,7 +54,7 @@ class ScanSample final : public TileConsumer {
   const TileStore& store_;
   const std::uint64_t most_points_, ids_;
   std::mutex mutex_;
-  std::atomic<std::uint32_t> last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
+  std::uint32_t last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
   std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin
   std::uint64_t binned_ = 0;                     // in all bins
   AppendLists<Candidate> candidates_;            // of each tile: points of the sample, and others

@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -100,20 +100,16 @@ Json run_of(const Json& run) {
 }
 
 // The number of the shortest digits: 0.1 + 0.2 rounded by arithmetic would be 0.30000000000000004.
-std::string printed(const char* format, int digits, double value) {
+double reread(double value, std::chars_format format, int digits) {
   std::array<char, 800> text;
-  std::snprintf(text.data(), text.size(), format, digits, value);
-  return text.data();
-}
-double parse(const std::string& text) {
-  double value = 0;
-  parse_number(text, value);
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
+  parse_number({text.data(), end}, value);
   return value;
 }
 
 // Six digits are more than a reader wants, and keep the page small.
 double rounded(double value) {
-  return std::isfinite(value) ? parse(printed("%.*g", 6, value)) : value;
+  return std::isfinite(value) ? reread(value, std::chars_format::general, 6) : value;
 }
 
 // Decimals of places, down to a thousandth of the distance of neighbours.
@@ -135,7 +131,7 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
     });
   add("centroid", [decimals](const LoopMeasures& loop) {
     return list(loop.centroid.unaryExpr([decimals](double value) {
-      return std::isfinite(value) ? parse(printed("%.*f", decimals, value)) : value;
+      return std::isfinite(value) ? reread(value, std::chars_format::fixed, decimals) : value;
     }));
   });
   add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });

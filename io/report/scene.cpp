@@ -183,11 +183,11 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
     load_vectors(batch, layout, kPositionNames, positions);
     load_column(batch, layout.stride, loop_property, loop_of);
     for (std::size_t i = 0; i < batch.count; ++i) {
-      const auto loop = static_cast<std::size_t>(loop_of[i]);
-      if (!(loop_of[i] >= 0) || loop >= is_shown.size()) {
+      if (!(loop_of[i] >= 0 && loop_of[i] < static_cast<double>(is_shown.size()))) {
         throw Error(file.string() + ": a vertex is of loop " + std::to_string(loop_of[i]) +
                     ", of which holes.json has none; both must be of one run");
       }
+      const auto loop = static_cast<std::size_t>(loop_of[i]);
       if (!is_shown[loop]) continue;
       ++lengths[loop];
       if (is_stray(scene, positions[i])) has_stray[loop] = true;

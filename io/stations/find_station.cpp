@@ -22,10 +22,11 @@ constexpr std::size_t kLeast = 100;  // jumps
 constexpr std::size_t kDrawn = 1000, kCompared = 512;
 constexpr double kSame = 0.5;  // relative difference of equal steps
 
-// Sine of the angle between two points, as seen from a place.
+// Sine of the angle between two points, as seen from a place; 0 where the place is one of them.
 double step_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& eye) {
   const Eigen::Vector3d to_a = a - eye, to_b = b - eye;
-  return to_a.cross(to_b).norm() / (to_a.norm() * to_b.norm());
+  const double lengths = to_a.norm() * to_b.norm();
+  return lengths > 0 ? to_a.cross(to_b).norm() / lengths : 0;
 }
 
 // How much the steps before, across and after the jump differ: 0 to 1.

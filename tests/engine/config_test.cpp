@@ -325,6 +325,8 @@ TEST_CASE("values that contradict each other are refused") {
   config.criteria.weights = {0, 0, 0};
   REQUIRE_THROWS_WITH(check_config(config),
                       Contains("weight_angle, weight_halfdisc and weight_shape are all 0"));
+  config.criteria.weights = {1, 1};
+  REQUIRE_THROWS_WITH(check_config(config), Contains("2 weights of criteria; allowed: 3"));
   config = {};
   config.selection = {.min_perimeter = 2, .max_perimeter = 1};
   REQUIRE_THROWS_WITH(check_config(config), Contains("max_perimeter"));

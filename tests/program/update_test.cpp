@@ -104,6 +104,13 @@ TEST_CASE("an update of a thinned scan has the bytes of a run from nothing") {
   scan.is_as({scan.first, scan.patch, "--min-hole", "6"});
 }
 
+TEST_CASE("the sample of an update with fewer points is that of a run from nothing") {
+  const Updated scan({"--sample-points", "300"});
+  const std::string half = "-1,-1,-1,60,130,1";
+  REQUIRE(scan.run(scan.update({"--leave-out", half})).exit_code == 0);
+  scan.is_as({scan.first, "--sample-points", "300", "--leave-out", half});
+}
+
 TEST_CASE("an update that is killed goes on with the same command") {
   const Updated scan;
   const std::vector<std::string> arguments = scan.update({"--add", scan.patch, "--quiet"});
