@@ -10,8 +10,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 stations=()
 case $1 in
-  room) made=(scan --stations 1 --points 60000 --seed 2) stations=(--stations "$scratch/scan.stations.txt") ;;
-  flat) made=(surface --points 40000 --holes 6 --hole-radius 5 12) ;;
+  room) made=(scan --stations 1 --points 60000 --seed 2) mock_size=400x800 stations=(--stations "$scratch/scan.stations.txt") ;;
+  flat) made=(surface --points 40000 --holes 6 --hole-radius 5 12) mock_size=1280x800 ;;
 esac
 "$LACUNA_PROGRAM" synth "${made[@]}" "$scratch/scan.ply" > "$scratch/log"
 "$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/out" --quiet --report "${stations[@]}"
@@ -19,12 +19,10 @@ if [ "$1" = room ]; then
   "$LACUNA_PROGRAM" stations "$scratch/out" > "$scratch/log"
   "$LACUNA_PROGRAM" report "$scratch/out" > "$scratch/log"
   /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --dark --causes
-  # All causes, and so many stations that their names would overlap.
-  /usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000 --stations 9
-  for size in 400x800 1280x800; do
-    /usr/bin/python3 report_page.py "$scratch/mock.html" --size $size --causes
-  done
 fi
+# All causes, and so many stations that their names would overlap.
+/usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000 --stations 9
+/usr/bin/python3 report_page.py "$scratch/mock.html" --size "$mock_size" --causes
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --save-marks "$scratch/marks.json"
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --no-webgl
 
