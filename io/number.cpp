@@ -10,7 +10,7 @@ namespace lacuna::io {
 
 namespace {
 
-// Of a decimal point, whatever the host has set.
+// Has the decimal point, whatever the host has set.
 locale_t plain_locale() {
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   return plain;
