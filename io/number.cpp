@@ -26,6 +26,10 @@ double parse_extreme(std::string_view text, double) {
   return ::strtod_l(std::string(text).c_str(), nullptr, plain_locale());
 }
 
+std::string describe_whole_number(std::int64_t least, std::uint64_t most) {
+  return "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+}
+
 bool parse_foreign_number(std::string_view text, double& value) {
   constexpr std::size_t kLongest = 100;
   if (text.size() > kLongest) return false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -35,11 +36,14 @@ bool parse_number(std::string_view text, T& value) {
 bool parse_foreign_number(std::string_view text, double& value);
 
 // What `parse_number<T>` takes, for error messages.
+std::string describe_whole_number(std::int64_t least, std::uint64_t most);
 template <class T>
 std::string describe_number() {
-  if constexpr (std::is_floating_point_v<T>) return "a number";
-  return "a whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
-         std::to_string(std::numeric_limits<T>::max());
+  if constexpr (std::is_floating_point_v<T>) {
+    return "a number";
+  } else {
+    return describe_whole_number(std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
+  }
 }
 
 // Takes the next field off `rest`. With the separator ' ', any run of blanks divides fields. Any other

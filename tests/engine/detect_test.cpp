@@ -199,7 +199,7 @@ TEST_CASE("tiling and threads never show, on a cloud made to be hard") {
   const std::string one_tile = run_engine(cloud, tiled(config, 1'000'000, 1)).bytes();
   for (const std::int64_t tile_points : {1, 50, 500, 5'000}) {
     for (const std::int64_t threads : {1, 2, 8}) {
-      if (tile_points == 1 && threads == 2) continue;  // the slowest
+      if (tile_points == 1 && threads != 8) continue;  // the slowest
       INFO(tile_points << " points a tile, " << threads << " threads");
       CHECK(run_engine(cloud, tiled(config, tile_points, threads)).bytes() == one_tile);
     }
