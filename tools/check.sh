@@ -9,7 +9,8 @@ usage() {
   cat <<'TEXT'
 usage: tools/check.sh [--all | --sanitize | --threads | --odr]
   --all        the slow tests too, and the check of --odr: more than an hour
-  --sanitize   the fast tests, built in build-sanitize to check memory accesses and undefined behaviour
+  --sanitize   the fast tests but those that measure, built in build-sanitize to check memory accesses and undefined
+               behaviour
   --threads    the fast tests but a few, built in build-threads to find data races, with oneTBB from Debian's source
                built in the same way: about an hour
   --odr        no test: builds the program without precompiled headers, which hide what is not included. Links it
@@ -85,8 +86,8 @@ cmake --build "$build" --parallel "$(nproc)"
 report=$PWD/$build/tests.xml
 rm -f "$report"
 status=0
-ctest --test-dir "$build" --label-regex "$labels" --exclude-regex "$excluded" --parallel "$(nproc)" --timeout 600 --no-tests=error \
-  --output-on-failure --output-junit "$report" || status=$?
+ctest --test-dir "$build" --label-regex "$labels" --exclude-regex "$excluded" --parallel "$(nproc)" --no-tests=error --output-on-failure \
+  --output-junit "$report" || status=$?
 
 count() { grep --max-count=1 --only-matching --perl-regexp "^\s*$1=\"\K[0-9]+" "$report"; }
 failed=$(count failures)

@@ -65,7 +65,8 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const Evaluation& e = tile.evaluations[p];
     const Eigen::Vector3f normal = e.normal.cast<float>();
-    samples.push_back({key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
+    samples.push_back(
+        {key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
   }
   output.add("sample", std::move(samples));
 }

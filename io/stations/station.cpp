@@ -23,8 +23,8 @@ bool names(const fs::path& name, const fs::path& file) {
 }
 
 std::size_t file_named(const fs::path& name, std::span<const fs::path> files, const InputFile& in) {
-  if (const auto whole = std::ranges::find(files, name); whole != files.end())
-    return static_cast<std::size_t>(whole - files.begin());
+  if (std::ranges::count(files, name) == 1)
+    return static_cast<std::size_t>(std::ranges::find(files, name) - files.begin());
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!names(name, files[i])) continue;

@@ -38,6 +38,11 @@ TEST_CASE("a file of stations has names, places and what each has measured") {
   CHECK_FALSE(stations[2].file);
   CHECK(stations[2].source == std::optional<std::uint32_t>(12));
   CHECK(read(folder, "only 1 2 3\n").size() == 1);
+  // A whole name, though another file's ends in it.
+  const std::vector<std::filesystem::path> files = {"old/a.laz", "a.laz"};
+  const auto whole = read_stations(folder.write("stations.txt", "south 4 5 6 a.laz\n"), files);
+  REQUIRE(whole.size() == 1);
+  CHECK(whole[0].file == std::optional<std::size_t>(1));
 }
 
 TEST_CASE("an error in a file of stations names the line and what is needed") {
