@@ -3,10 +3,12 @@
 
 #include "engine/halo/eps_balls.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/pipeline_steps.hpp"
 #include "engine/points_in_memory.hpp"
 #include "engine/run/machine_memory.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "engine/summarise.hpp"
+#include "engine/thin/thin.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -114,7 +116,7 @@ Estimate estimate(PointSource& scan, const Config& given, const std::filesystem:
   const Config config = with_min_hole(given);
   Job job(config, workspace, progress);
   const Clock::time_point start = Clock::now();
-  const Level level = first_level(scan, job);
+  const Level level = first_level(scan, {}, job);
 
   const Tiling& tiling = level.store.tiling();
   Estimate estimate{.summary = summarise(level, job), .seconds = seconds_since(start)};

@@ -2,7 +2,7 @@
 #include "engine/run_needs.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "engine/levels/level.hpp"
+#include "engine/thin/thin.hpp"
 #include "engine/model/orientation.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
@@ -62,7 +62,7 @@ std::uint64_t sample_keys(const RunSize& size, const Job& job) {
   const double sample = static_cast<double>(sampled_points(size, job));
   if (sample == 0) return 0;
   return static_cast<std::uint64_t>(sample * (1 + std::log(static_cast<double>(size.points) / sample))) *
-         sizeof(ScanSample::Candidate);
+         ScanSample::kBytesOfPoint;
 }
 
 std::uint64_t result_bytes() {

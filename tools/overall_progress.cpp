@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/overall_progress.hpp"
 
-#include "engine/levels/level.hpp"
+#include "engine/thin/thin.hpp"
 
 #include <algorithm>
 #include <array>

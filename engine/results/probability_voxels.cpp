@@ -6,6 +6,7 @@
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
+#include <map>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -101,52 +102,62 @@ void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
   if (last) visit(*last);
 }
 
-}  // namespace
+// An exponent of mean distances to the neighbours, and how many points of a tile have it.
+struct DistanceExponent {
+  std::int64_t exponent;
+  std::uint64_t points;
+};
 
-void ProbabilityVoxels::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  std::vector<float> probabilities(tile.points.owned);
-  for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
-  output.add("probabilities", std::move(probabilities));
-
-  std::map<std::int64_t, std::uint64_t> exponents;
-  for (const Evaluation& e : tile.evaluations) {
-    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
-  }
-  output.add("exponents", std::vector<DistanceExponent>(exponents.begin(), exponents.end()));
-}
-
-void ProbabilityVoxels::absorb(TileIndex tile, const TileOutput& output) {
-  probabilities_.write(value(tiling_.tiles[tile].first_row), output.read<float>("probabilities"));
-  const std::span<const DistanceExponent> exponents = output.read<DistanceExponent>("exponents");
-  const std::lock_guard lock(mutex_);
-  for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
-}
+constexpr RecordStream<float> kProbabilities{"probabilities"};
+constexpr RecordStream<DistanceExponent> kExponents{"exponents"};
 
 // Returns the exponent of the median; 0 without any.
-int ProbabilityVoxels::typical_exponent() const {
+int typical_exponent(const TileOutputs& outputs, std::size_t tiles) {
+  std::map<std::int64_t, std::uint64_t> exponents;
   std::uint64_t all = 0, before = 0;
-  for (const auto& [exponent, points] : exponents_) all += points;
-  for (const auto& [exponent, points] : exponents_) {
+  for (std::size_t t = 0; t < tiles; ++t) {
+    for (const auto& [exponent, points] : outputs.read(kExponents, static_cast<TileIndex>(t))) {
+      exponents[exponent] += points;
+      all += points;
+    }
+  }
+  for (const auto& [exponent, points] : exponents) {
     before += points;
     if (2 * before >= all) return static_cast<int>(exponent);
   }
   return 0;
 }
 
-ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle,
-                                          Job& job) const {
+}  // namespace
+
+void emit_probabilities(const EvaluatedTile& tile, TileOutput& output) {
+  std::vector<float> probabilities(tile.points.owned);
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
+  output.add(kProbabilities, probabilities);
+
+  std::map<std::int64_t, std::uint64_t> exponents;
+  for (const Evaluation& e : tile.evaluations) {
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
+  }
+  std::vector<DistanceExponent> counts;
+  for (const auto& [exponent, points] : exponents) counts.push_back({exponent, points});
+  output.add(kExponents, counts);
+}
+
+ProbabilityGrid probability_voxels(const TileOutputs& outputs, const TileStore& store,
+                                   const Eigen::Vector3d& middle, Job& job) {
   const Tiling& tiling = store.tiling();
   Phase phase(job, "voxels", tiling.points());
-  const CellGrid finest = finest_lattice(typical_exponent(), middle);
+  const CellGrid finest = finest_lattice(typical_exponent(outputs, tiling.tiles.size()), middle);
   VoxelSort sort(job.file("voxel-sort"), job.memory.global / 3);
   std::mutex mutex;
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * 64);
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
     const Tile& tile = tiling.tiles[t];
     const std::vector<TileVoxel> voxels =
-        voxels_of(store.points(static_cast<TileIndex>(t)),
-                  probabilities_.read(value(tile.first_row), tile.points), finest);
+        voxels_of(store.points(t), outputs.read(kProbabilities, t), finest);
     const std::lock_guard lock(mutex);
     sort.add(voxels);
     phase.advance(tile.points);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/workspace/workspace_state.hpp"
 
-#include "engine/levels/level.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/store/sealed_part.hpp"
+#include "engine/thin/thin.hpp"
 #include "engine/workspace/workspace.hpp"
 
 #include <algorithm>

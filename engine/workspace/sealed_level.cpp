@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/levels/sealed_level.hpp"
+#include "engine/workspace/sealed_level.hpp"
 
 #include "engine/store/sealed_part.hpp"
-#include "engine/workspace/workspace.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -142,9 +141,9 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, co
 }
 
 // The level of the run before an update.
-std::optional<PartReader> open_earlier(std::size_t number, const Job& job) {
-  if (job.earlier.empty()) return std::nullopt;
-  return PartReader::open(level_path(job.earlier, number), std::nullopt);
+std::optional<PartReader> open_earlier(std::size_t number, const Workspace& workspace) {
+  if (workspace.earlier.empty()) return std::nullopt;
+  return PartReader::open(level_path(workspace.earlier, number), std::nullopt);
 }
 
 std::optional<StoredLevel> record_of(const PartReader& part) {
@@ -159,16 +158,17 @@ bool fits(const Tiling& tiling, const Job& job) {
 }
 
 // Columns have the names of their content: two processes that make the same level do each other no harm.
-fs::path column_of(std::size_t number, const Digest& digest, const char* extension, const Job& job) {
+fs::path column_of(std::size_t number, const Digest& digest, const char* extension,
+                   const Workspace& workspace) {
   std::ostringstream name;
-  name << level_path(job.kept, number).string() << "-" << std::hex << std::setfill('0') << std::setw(16)
+  name << level_path(workspace.folder, number).string() << "-" << std::hex << std::setfill('0') << std::setw(16)
        << digest[0] << extension;
   return name.str();
 }
 
-void remove_other_columns(std::size_t number, Level& level, const Job& job) {
-  const std::string prefix = level_path(job.kept, number).string() + "-";
-  for (const fs::path& file : workspace_files(job.kept)) {
+void remove_other_columns(std::size_t number, Level& level, const Workspace& workspace) {
+  const std::string prefix = level_path(workspace.folder, number).string() + "-";
+  for (const fs::path& file : workspace_files(workspace.folder)) {
     if (file.string().starts_with(prefix) && file != level.store.points_file().path() &&
         file != level.store.normals_file().path())
       remove_part(file);
@@ -176,17 +176,17 @@ void remove_other_columns(std::size_t number, Level& level, const Job& job) {
 }
 
 // What the tiles of a level are evaluated from, but for the outputs that a user wants of them.
-std::string evaluation_of(const Digest& checksum, const Job& job) {
+std::string evaluation_of(const Digest& checksum, const Config& config) {
   return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n" +
-         evaluation_parameters(job.config);
+         evaluation_parameters(config);
 }
 
 }  // namespace
 
-StoreFiles level_files(std::size_t number, const Job& job) {
-  if (job.kept.empty()) return temporary_files(job);
+StoreFiles level_files(std::size_t number, const Workspace& workspace, const Job& job) {
+  if (!workspace.is_kept()) return temporary_files(job);
   const auto create = [&](const char* extension) {
-    return StoreFile(level_path(job.kept, number).string() + "-" + random_digits() + extension + kUnsealed,
+    return StoreFile(level_path(workspace.folder, number).string() + "-" + random_digits() + extension + kUnsealed,
                      StoreFile::Name::kKept);
   };
   return {create(kPoints), create(kNormals), job.file("duplicates")};
@@ -196,8 +196,8 @@ StoreFiles temporary_files(const Job& job) {
   return {StoreFile(job.file("points")), StoreFile(job.file("normals")), job.file("duplicates")};
 }
 
-void seal_level(Level& level, const std::string& made_from, const Job& job) {
-  if (job.kept.empty()) return;
+void seal_level(Level& level, const std::string& made_from, const Workspace& workspace, const Job& job) {
+  if (!workspace.is_kept()) return;
   StoredLevel record = stored(level);
   StoreFile &points = level.store.points_file(), &normals = level.store.normals_file();
   points.start_sync();
@@ -206,10 +206,10 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
   record.normals_bytes = normals.size();
   record.points_digest = digest_of(points);
   record.normals_digest = digest_of(normals);
-  points.seal(column_of(level.number, record.points_digest, kPoints, job));
-  normals.seal(column_of(level.number, record.normals_digest, kNormals, job));
+  points.seal(column_of(level.number, record.points_digest, kPoints, workspace));
+  normals.seal(column_of(level.number, record.normals_digest, kNormals, workspace));
 
-  PartWriter part(level_path(job.kept, level.number));
+  PartWriter part(level_path(workspace.folder, level.number));
   part.add("level", 0, std::span<const StoredLevel>(&record, 1));
   const Tiling& tiling = level.store.tiling();
   part.add("tiles", 0, std::span<const Tile>(tiling.tiles));
@@ -228,22 +228,23 @@ void seal_level(Level& level, const std::string& made_from, const Job& job) {
     add_in_blocks<Represented>(part, "represented", list,
                                [&](auto&& visit) { level.represented->for_each(list, visit); });
   }
-  level.evaluation = evaluation_of(part.seal(digest_of(made_from)), job);
-  if (!job.is_unit) remove_other_columns(level.number, level, job);
+  level.evaluation = evaluation_of(part.seal(digest_of(made_from)), job.config);
+  if (!workspace.is_unit) remove_other_columns(level.number, level, workspace);
 }
 
-std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Job& job) {
-  if (job.kept.empty()) return std::nullopt;
-  const std::optional<PartReader> part = PartReader::open(level_path(job.kept, number), digest_of(made_from));
+std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Workspace& workspace,
+                                const Job& job) {
+  if (!workspace.is_kept()) return std::nullopt;
+  const std::optional<PartReader> part = PartReader::open(level_path(workspace.folder, number), digest_of(made_from));
   if (!part) return std::nullopt;
   const std::optional<StoredLevel> stored = record_of(*part);
   if (!stored) return std::nullopt;
   const StoredLevel& record = *stored;
   Tiling tiling = tiling_of(*part);
   if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
-  std::optional<StoreFile> points = open_file(column_of(number, record.points_digest, kPoints, job),
+  std::optional<StoreFile> points = open_file(column_of(number, record.points_digest, kPoints, workspace),
                                               record.points_bytes, record.points_digest);
-  std::optional<StoreFile> normals = open_file(column_of(number, record.normals_digest, kNormals, job),
+  std::optional<StoreFile> normals = open_file(column_of(number, record.normals_digest, kNormals, workspace),
                                                record.normals_bytes, record.normals_digest);
   if (!points || !normals) return std::nullopt;
   TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
@@ -258,45 +259,48 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
                .guide = guide_of(record, *part),
                .join = join_of(record, *part),
                .store = std::move(store),
-               .evaluation = evaluation_of(part->checksum(), job),
+               .evaluation = evaluation_of(part->checksum(), job.config),
                .input = part->records<std::uint64_t>("input", 0),
                .represented = represented_of(record, *part, job)};
 }
 
-std::optional<Level> find_level(std::size_t number, const Job& job) {
-  std::string made_from = job.made_from;
+std::optional<Level> find_level(std::size_t number, const Workspace& workspace, const Job& job) {
+  std::string made_from = workspace.made_from;
   for (std::size_t below = 0; below < number; ++below) {
     const std::optional<PartReader> part =
-        PartReader::open(level_path(job.kept, below), digest_of(made_from));
+        PartReader::open(level_path(workspace.folder, below), digest_of(made_from));
     if (!part) return std::nullopt;
-    made_from = evaluation_of(part->checksum(), job);
+    made_from = evaluation_of(part->checksum(), job.config);
   }
-  return open_level(number, made_from, job);
+  return open_level(number, made_from, workspace, job);
 }
 
-std::optional<TileGuide> find_guide(const Job& job) {
-  const std::optional<PartReader> part = open_earlier(0, job);
+std::optional<TileGuide> find_guide(const Workspace& workspace, const Job& job) {
+  const std::optional<PartReader> part = open_earlier(0, workspace);
   if (!part) return std::nullopt;
   const std::optional<StoredLevel> record = record_of(*part);
-  if (!record) return std::nullopt;
+  if (!record || job.tile_bytes(2 * record->tile_points) > job.memory.tiles) return std::nullopt;
   return guide_of(*record, *part);
 }
 
-std::optional<TileJoin> find_join(std::size_t number, const Job& job) {
-  const std::optional<PartReader> part = open_earlier(number, job);
+std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace) {
+  const std::optional<PartReader> part = open_earlier(number, workspace);
   if (!part) return std::nullopt;
   const std::optional<StoredLevel> record = record_of(*part);
   if (!record) return std::nullopt;
   return join_of(*record, *part);
 }
 
-KeptOutputs find_outputs(const Level& level, PartReader::Check check, const Job& job) {
+std::optional<KeptOutputs> find_outputs(const Level& level, PartReader::Check check,
+                                        const Workspace& workspace, const Config& config) {
+  if (!workspace.is_kept()) return std::nullopt;
   // Levels above the first one have no outputs but those of their loops.
-  const std::string wanted = level.number == 0 ? output_parameters(job.config) : "";
+  const std::string wanted = level.number == 0 ? output_parameters(config) : "";
   std::string earlier;
-  if (const std::optional<PartReader> part = open_earlier(level.number, job))
-    earlier = evaluation_of(part->checksum(), job) + wanted;
-  return KeptOutputs(level.number, level.store.tiling(), level.evaluation + wanted, earlier, check, job);
+  if (const std::optional<PartReader> part = open_earlier(level.number, workspace))
+    earlier = evaluation_of(part->checksum(), config) + wanted;
+  return std::optional<KeptOutputs>(std::in_place, level.number, level.store.tiling().tiles.size(),
+                                    level.evaluation + wanted, earlier, check, workspace);
 }
 
 }  // namespace lacuna

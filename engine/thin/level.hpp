@@ -6,11 +6,10 @@
 #pragma once
 
 #include "engine/bucket/split.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/model/points.hpp"
-#include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
+#include "engine/thin/choose_points.hpp"
 #include "engine/thin/store_chosen.hpp"
 
 #include <cstddef>
@@ -37,25 +36,7 @@ struct Level {
   std::uint64_t tile_points() const { return edge > 0 ? join.tile_points : guide.tile_points; }
 };
 
-// Survey and bucket: all points. Where the config has a resolution, they are thinned to one for each cell of
-// its lattice. Reads the input twice. An input that reads slowly is read once, and kept in the workspace
-// meanwhile (engine/store/kept_scan.hpp). Where a kept workspace has the level, nothing is read.
-// Throws `Error`.
-Level first_level(PointSource& input, Job& job);
-
-// The level above: made from the points of the one below, without the input. Edges are powers of sqrt 2, so
-// that lattices do not depend on the scan. The edge is the first one that leaves about six in ten points.
-// None where too few are left for a hole. `totals`: of the level below.
-std::optional<Level> level_above(const Level& below, const Totals& totals, Job& job);
-
 // So many levels at most: a level of 2^64 points has few left after so many.
 inline constexpr std::size_t kMostLevels = 128;
-
-// Whether a run with this config has levels above the first one: unless the config names one level, or the
-// method is the paper's.
-bool has_levels(const Config& config);
-
-// So many points all levels above a first one have together, on a surface that is sampled evenly.
-std::uint64_t points_above(const Level& first);
 
 }  // namespace lacuna
