@@ -121,8 +121,8 @@ Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
     return *std::move(kept);
   }
   const bool is_thinned = first_edge(job.config.scale) > 0;
-  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job),
-                            workspace, job);
+  Level all =
+      bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), workspace, job);
   Level level = is_thinned ? thin_to_first(all, place_of(0, workspace, job), job) : std::move(all);
   level.input = scan.pass_counts();
   seal_level(level, workspace.made_from, workspace, job);
@@ -133,8 +133,8 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, const
                                  Job& job) {
   const std::size_t number = below.number + 1;
   if (std::optional<Level> kept = open_level(number, below.evaluation, workspace, job)) return kept;
-  std::optional<Level> level =
-      thin_above(below, totals.distances, [&] { return place_of(number, workspace, job); }, job);
+  std::optional<Level> level = thin_above(
+      below, totals.distances, [&] { return place_of(number, workspace, job); }, job);
   if (level) seal_level(*level, below.evaluation, workspace, job);
   return level;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a run that other processes may do, too (unit.hpp). Each takes from the workspace what is there.
+// The steps of a run that other processes may do, too (unit.hpp). Each takes from the workspace what is
+// there.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"

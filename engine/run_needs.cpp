@@ -2,12 +2,12 @@
 #include "engine/run_needs.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "engine/thin/thin.hpp"
 #include "engine/model/orientation.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/thin/choose_points.hpp"
+#include "engine/thin/thin.hpp"
 
 #include <algorithm>
 #include <bit>

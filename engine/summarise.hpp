@@ -4,9 +4,9 @@
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/evaluate/totals.hpp"
-#include "engine/thin/level.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
+#include "engine/thin/level.hpp"
 #include "engine/track/level_loops.hpp"
 
 #include <span>

@@ -7,7 +7,8 @@
 namespace lacuna {
 
 std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job) {
-  if (job.config.loops.method == LoopMethod::kPaper) return std::make_unique<paper::PaperBoundary>(tiling, job);
+  if (job.config.loops.method == LoopMethod::kPaper)
+    return std::make_unique<paper::PaperBoundary>(tiling, job);
   return std::make_unique<tangential::TangentialBoundary>(tiling, job);
 }
 

@@ -4,8 +4,8 @@
 #include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/evaluate/totals.hpp"
-#include "engine/halo/distance_bound.hpp"
 #include "engine/halo/eps_balls.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/simd/vectorised.hpp"
 
@@ -103,8 +103,8 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
 
 // All that the output of a tile depends on, save for the config: its points and those around it.
 // Rows are in their sealed form, which does not depend on other tiles.
-Digest content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals,
-                       const Tiling& tiling, double eps, double unit) {
+Digest content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals, const Tiling& tiling,
+                  double eps, double unit) {
   std::vector<Row> foreign(points.rows.begin() + points.owned, points.rows.end());
   for (Row& row : foreign) row = to_stored_row(row, tiling);
   const std::array<double, 2> lengths = {eps, unit};

@@ -73,9 +73,7 @@ std::size_t TileOutputs::make_list(std::string_view stream, TileIndex tile) {
 std::uint64_t TileOutputs::record_count(std::string_view stream, TileIndex tile,
                                         std::size_t record_bytes) const {
   const std::size_t list = list_of(stream, tile);
-  const std::uint64_t bytes = kept_              ? kept_->size(stream, tile)
-                              : list == kUnknown ? 0
-                                                 : lists_.size(list);
+  const std::uint64_t bytes = kept_ ? kept_->size(stream, tile) : list == kUnknown ? 0 : lists_.size(list);
   if (bytes % record_bytes != 0)
     fail_inconsistent("the stream " + std::string(stream) + " of a tile is not of whole records");
   return bytes / record_bytes;

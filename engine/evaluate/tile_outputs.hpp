@@ -2,8 +2,9 @@
 // What the steps behind the evaluation need of the tiles: named streams of plain records.
 //
 // It is all that is left of an evaluated tile: the neighbour graph never touches the disk. The global steps
-// read the streams tile by tile. A run whose workspace is kept seals the outputs, so that no tile is evaluated
-// twice. Any other run buffers them in memory, and spills what does not fit to one file without a name.
+// read the streams tile by tile. A run whose workspace is kept seals the outputs, so that no tile is
+// evaluated twice. Any other run buffers them in memory, and spills what does not fit to one file without a
+// name.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -93,9 +94,11 @@ class TileOutputs {
   // Tiles whose outputs are not there yet, ascending.
   std::vector<TileIndex> missing() const;
   bool is_kept() const { return kept_.has_value(); }
-  // Adds the output that the run before an update has sealed for a tile. `content`: the fingerprint of all that
-  // the tile's output depends on. Returns false if there is no such output.
-  bool add_earlier(TileIndex tile, const Digest& content) { return kept_ && kept_->add_earlier(tile, content); }
+  // Adds the output that the run before an update has sealed for a tile. `content`: the fingerprint of all
+  // that the tile's output depends on. Returns false if there is no such output.
+  bool add_earlier(TileIndex tile, const Digest& content) {
+    return kept_ && kept_->add_earlier(tile, content);
+  }
   // `content`: as above, where the outputs are kept.
   void add(TileIndex tile, TileOutput output, const Digest& content);
   void finish();

@@ -4,8 +4,8 @@
 
 #include "engine/criteria/evaluation.hpp"
 #include "engine/evaluate/tile_outputs.hpp"
-#include "engine/model/length_bins.hpp"
 #include "engine/model/detection.hpp"
+#include "engine/model/length_bins.hpp"
 #include "engine/model/neighbourhoods.hpp"
 
 #include <cstddef>

@@ -66,8 +66,8 @@ class Loops {
   // In the order of the loop, in blocks.
   void for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const;
 
-  // Compares the points of two loops by (first id, length, ids): less than 0 where a comes first, 0 where they
-  // have the same points.
+  // Compares the points of two loops by (first id, length, ids): less than 0 where a comes first, 0 where
+  // they have the same points.
   friend int compare_points(const Loops& a, std::size_t i, const Loops& b, std::size_t j);
 
  private:
@@ -106,8 +106,8 @@ struct ChosenLoops {
   }
 };
 
-// visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a share of
-// the limit, whatever the length of a loop.
+// visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a share
+// of the limit, whatever the length of a loop.
 template <class LoopSet, class Visit>
 void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
   std::vector<std::uint64_t> needs;

@@ -20,7 +20,8 @@ struct MeasuredLoops {
 };
 
 // `tracks`: of each loop. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
-MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length, Job& job);
+MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
+                            Job& job);
 
 // The loops that the selection reports.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);

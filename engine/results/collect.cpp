@@ -164,8 +164,8 @@ StoredBoundary stored(const Mark& mark) {
 
 }  // namespace
 
-std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs, const TileStore& store,
-                                           Job& job) {
+std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
+                                           const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
   Column<StoredBoundary> boundary_points(job.file("boundary"));

@@ -9,7 +9,8 @@
 namespace lacuna {
 namespace {
 
-constexpr RecordStream<std::byte> kResults{"results"};  // a result and its criteria, for one point after the other
+constexpr RecordStream<std::byte> kResults{
+    "results"};  // a result and its criteria, for one point after the other
 
 }  // namespace
 

@@ -6,9 +6,9 @@
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
-#include <map>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -156,8 +156,7 @@ ProbabilityGrid probability_voxels(const TileOutputs& outputs, const TileStore& 
   job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     const Tile& tile = tiling.tiles[t];
-    const std::vector<TileVoxel> voxels =
-        voxels_of(store.points(t), outputs.read(kProbabilities, t), finest);
+    const std::vector<TileVoxel> voxels = voxels_of(store.points(t), outputs.read(kProbabilities, t), finest);
     const std::lock_guard lock(mutex);
     sort.add(voxels);
     phase.advance(tile.points);

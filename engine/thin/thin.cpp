@@ -98,7 +98,8 @@ std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
   // Edges are rounded powers.
-  for (double edge = edge_above(distances, below.edge * 1.0001); edge > 0; edge = power_above(edge * 1.0001)) {
+  for (double edge = edge_above(distances, below.edge * 1.0001); edge > 0;
+       edge = power_above(edge * 1.0001)) {
     ChosenPoints chosen = choose_points(below.store, edge, 0, job);
     if (chosen.count < kFewest) break;
     if (static_cast<double>(chosen.count) <= kMostLeft * static_cast<double>(points))

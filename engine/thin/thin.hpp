@@ -26,8 +26,8 @@ Level thin_to_first(const Level& all, LevelPlace place, Job& job);
 
 // The level above: one point for each cell of a lattice. Edges are powers of sqrt 2, so that lattices do not
 // depend on the scan. The edge is the first one that leaves about six in ten points. None where too few are
-// left for a hole. `distances`: mean distances to the neighbours, of all points of the level below. `place` is
-// called once the points are chosen.
+// left for a hole. `distances`: mean distances to the neighbours, of all points of the level below. `place`
+// is called once the points are chosen.
 std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
                                 const std::function<LevelPlace()>& place, Job& job);
 

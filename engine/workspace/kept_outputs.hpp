@@ -33,8 +33,8 @@ class KeptOutputs {
   };
 
   // Finds the sealed outputs of a level that are whole and made from this. `earlier`: what the outputs of the
-  // run before an update were made from; empty: there are none. `check`: the table suffices where no output is
-  // read.
+  // run before an update were made from; empty: there are none. `check`: the table suffices where no output
+  // is read.
   KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const std::string& earlier,
               PartReader::Check check, const Workspace& workspace);
 
@@ -68,10 +68,10 @@ class KeptOutputs {
   PartReader::Check check_;
   PartOfTile part_of_, earlier_part_of_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of the open part
-  std::filesystem::path open_path_;  // of the open part
+  std::filesystem::path open_path_;                                     // of the open part
   std::optional<PartWriter> open_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point begun_;          // when the open part was
+  Clock::time_point begun_;    // when the open part was
   Clock::duration least_age_;  // of a part, unless it is large
 };
 

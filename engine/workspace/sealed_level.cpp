@@ -161,8 +161,8 @@ bool fits(const Tiling& tiling, const Job& job) {
 fs::path column_of(std::size_t number, const Digest& digest, const char* extension,
                    const Workspace& workspace) {
   std::ostringstream name;
-  name << level_path(workspace.folder, number).string() << "-" << std::hex << std::setfill('0') << std::setw(16)
-       << digest[0] << extension;
+  name << level_path(workspace.folder, number).string() << "-" << std::hex << std::setfill('0')
+       << std::setw(16) << digest[0] << extension;
   return name.str();
 }
 
@@ -186,8 +186,9 @@ std::string evaluation_of(const Digest& checksum, const Config& config) {
 StoreFiles level_files(std::size_t number, const Workspace& workspace, const Job& job) {
   if (!workspace.is_kept()) return temporary_files(job);
   const auto create = [&](const char* extension) {
-    return StoreFile(level_path(workspace.folder, number).string() + "-" + random_digits() + extension + kUnsealed,
-                     StoreFile::Name::kKept);
+    return StoreFile(
+        level_path(workspace.folder, number).string() + "-" + random_digits() + extension + kUnsealed,
+        StoreFile::Name::kKept);
   };
   return {create(kPoints), create(kNormals), job.file("duplicates")};
 }
@@ -235,7 +236,8 @@ void seal_level(Level& level, const std::string& made_from, const Workspace& wor
 std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Workspace& workspace,
                                 const Job& job) {
   if (!workspace.is_kept()) return std::nullopt;
-  const std::optional<PartReader> part = PartReader::open(level_path(workspace.folder, number), digest_of(made_from));
+  const std::optional<PartReader> part =
+      PartReader::open(level_path(workspace.folder, number), digest_of(made_from));
   if (!part) return std::nullopt;
   const std::optional<StoredLevel> stored = record_of(*part);
   if (!stored) return std::nullopt;

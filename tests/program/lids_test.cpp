@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 namespace lacuna {

@@ -60,7 +60,8 @@ Loops RawLoops::with_points(const TileOutputs& outputs, const Tiling& tiling, Jo
   const WantedPoints wanted = wanted_points(vertices_, tiling, job);
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
-    if (wanted.count(t) > 0) place_points(wanted.read(t), outputs.read(kVertices, t), tiling.tiles[t], points);
+    if (wanted.count(t) > 0)
+      place_points(wanted.read(t), outputs.read(kVertices, t), tiling.tiles[t], points);
   });
   Loops loops(job.file("loops"));
   ColumnReader<StoredLoopPoint> reader(points);

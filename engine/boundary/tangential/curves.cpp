@@ -57,8 +57,7 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   std::vector<WedgePartners> partners;
   partners.reserve(wedges.size());
   for (const Wedge& wedge : wedges)
-    partners.push_back(
-        {find(wedge.from, wedge.row, wedge.scale), find(wedge.to, wedge.row, wedge.scale)});
+    partners.push_back({find(wedge.from, wedge.row, wedge.scale), find(wedge.to, wedge.row, wedge.scale)});
   return partners;
 }
 
@@ -135,9 +134,8 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
     const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id());
-    return at != repeated.end() && *at == p.id()
-               ? &places[static_cast<std::size_t>(at - repeated.begin())]
-               : nullptr;
+    return at != repeated.end() && *at == p.id() ? &places[static_cast<std::size_t>(at - repeated.begin())]
+                                                 : nullptr;
   };
   const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
                               turned = scratch.array<CurvePoint>(curve.size());

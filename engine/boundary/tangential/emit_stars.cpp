@@ -94,7 +94,8 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
     const auto consistencies = found.stars.consistencies_of(p);
     const auto end = [&](std::size_t i) {
       const LocalIndex q = star.link[i].point;
-      return LinkEnd{rows[q], std::sqrt(squared_distance(tile.points.positions[q], tile.points.positions[p]))};
+      return LinkEnd{rows[q],
+                     std::sqrt(squared_distance(tile.points.positions[q], tile.points.positions[p]))};
     };
     const double distance = found.samplings[p].distance;
     if (state == PointState::kMaybeActive || is_any_undecided(consistencies)) {
@@ -103,9 +104,11 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
         open.add_vertex({.end = end(i), .radius = star.link[i].radius, .consistency = consistencies[i]});
     } else if (is_any_inconsistent(consistencies)) {
       const auto around = [&](Scale scale) {
-        return StarSurroundings{radii.around(p).within(star.bound.at(scale) * distance), radii.surface_around(p)};
+        return StarSurroundings{radii.around(p).within(star.bound.at(scale) * distance),
+                                radii.surface_around(p)};
       };
-      add_wedges({loop_point_of(tile, p), rows[p], distance}, star, consistencies, around, end, config, wedges);
+      add_wedges({loop_point_of(tile, p), rows[p], distance}, star, consistencies, around, end, config,
+                 wedges);
     }
   }
   output.add(kActive, active);

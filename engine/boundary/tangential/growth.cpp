@@ -76,8 +76,9 @@ std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
     const auto around = [&](Scale scale) {
       return StarSurroundings{open.sampling_radius[static_cast<std::size_t>(scale)], open.surface};
     };
-    add_wedges({open.point, row(s), open.distance}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
-               around, [&](std::size_t i) { return link[i].end; }, config, wedges);
+    add_wedges(
+        {open.point, row(s), open.distance}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
+        around, [&](std::size_t i) { return link[i].end; }, config, wedges);
   }
   return wedges;
 }
@@ -98,9 +99,9 @@ Scale Growth::scale_of(std::size_t s, std::size_t i) {
   return consistency.scale;
 }
 
-// The scale of the triangle with the point of star s and a third one, in the star of another point. A point that
-// is not active has every triangle. A star that might have an undecided triangle is among the open ones, or its tile has sent the
-// triangle.
+// The scale of the triangle with the point of star s and a third one, in the star of another point. A point
+// that is not active has every triangle. A star that might have an undecided triangle is among the open ones,
+// or its tile has sent the triangle.
 Scale Growth::scale_in(Row point, std::size_t s, Row third) const {
   if (!active_.contains(point)) return Scale::kFine;
   if (!tile_.owns(point)) {

@@ -74,7 +74,7 @@ struct StarSample {
 };
 
 inline constexpr RecordStream<LocalIndex> kActive{"active"};  // owned points, ascending
-inline constexpr RecordStream<Wedge> kWedges{"wedges"};       // those that the tile is sure of, in ascending row
+inline constexpr RecordStream<Wedge> kWedges{"wedges"};  // those that the tile is sure of, in ascending row
 inline constexpr RecordStream<OpenStar> kOpenStars{"open stars"};  // in ascending owned index
 inline constexpr RecordStream<OpenLinkVertex> kOpenVertices{"open vertices"};
 inline constexpr RecordStream<BeltPoint> kBelt{"belt"};     // in ascending owned index

@@ -32,7 +32,8 @@ class TangentialBoundary final : public BoundaryMethod {
   FoundLoops find_loops(const TileOutputs& outputs) override;
   // Candidates between neighbours on a loop lie on the boundary, next to the points that the curve passes
   // through.
-  RowSet boundary_candidates(const TileOutputs& outputs, const RowSet&, const RowSet& on_loop) const override {
+  RowSet boundary_candidates(const TileOutputs& outputs, const RowSet&,
+                             const RowSet& on_loop) const override {
     return candidates_between(on_loop, outputs, tiling_, job_);
   }
 

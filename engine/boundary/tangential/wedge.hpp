@@ -72,16 +72,17 @@ void add_wedges(const StarPoint& point, const Star<Name>& star, std::span<const 
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
       if (!here) here = around(scale);
       const LinkEnd from = end(first), to = end(last);
-      wedges.push_back({.point = point.point,
-                        .row = point.row,
-                        .from = from.row,
-                        .to = to.row,
-                        .evidence = {.length = (from.length + to.length) / 2,
-                                     .sampling_radius = here->sampling_radius,
-                                     .distance = point.distance,
-                                     .clearness = clearness(radius * point.distance, here->sampling_radius, config),
-                                     .surface = here->surface},
-                        .scale = scale});
+      wedges.push_back(
+          {.point = point.point,
+           .row = point.row,
+           .from = from.row,
+           .to = to.row,
+           .evidence = {.length = (from.length + to.length) / 2,
+                        .sampling_radius = here->sampling_radius,
+                        .distance = point.distance,
+                        .clearness = clearness(radius * point.distance, here->sampling_radius, config),
+                        .surface = here->surface},
+           .scale = scale});
     });
   }
 }

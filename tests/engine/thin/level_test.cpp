@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The levels of a scan: which lattices, and which points.
-#include "engine/levels/level.hpp"
+#include "engine/thin/level.hpp"
 
-#include "engine/levels/evaluate_level.hpp"
+#include "engine/pipeline_steps.hpp"
+#include "engine/thin/thin.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tiled_scan.hpp"
@@ -24,7 +25,7 @@ struct AtLevel {
 };
 
 Totals totals_of(const Level& level, Job& job) {
-  return evaluate_level(level, {}, job, [](TileIndex, const TileOutput&) {});
+  return read_totals(evaluate_level(level, {}, {}, job), level.store.tiling(), level.extent);
 }
 
 AtLevel seen(const Level& level) {
@@ -41,11 +42,11 @@ std::vector<AtLevel> levels_of(const Cloud& cloud, const Config& config) {
   NoProgress quiet;
   Job job(config, folder.path(), quiet);
   MemoryScan scan(cloud);
-  const Level first = first_level(scan, job);
+  const Level first = first_level(scan, {}, job);
   std::vector<AtLevel> levels = {seen(first)};
   std::optional<Level> below;
   while (std::optional<Level> level =
-             level_above(below ? *below : first, totals_of(below ? *below : first, job), job)) {
+             level_above(below ? *below : first, totals_of(below ? *below : first, job), {}, job)) {
     levels.push_back(seen(*level));
     below.emplace(*std::move(level));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 
 #include "engine/model/least_first.hpp"
 
