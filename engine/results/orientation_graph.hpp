@@ -27,7 +27,7 @@ void emit_orientation(const EvaluatedTile& tile, TileOutput& output);
 
 // Returns the rows whose normal has to be turned round. The minimum spanning tree of G is built from the
 // tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries the sign. In
-// every component, the normal of the topmost point (largest z, then lowest id) points up: its first
+// every component, the normal of the topmost point (largest z, then lowest id) points up. Its first
 // coordinate of z, y, x that is not 0 is positive. Memory: the global budget.
 RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job);
 

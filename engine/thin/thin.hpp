@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// What a level in the making needs of the workspace: empty files for its store, and how its tiles were put
-// together before an update; without an update: nothing.
+// What a new level takes from the workspace: empty files for its store and, in an update, how the run before
+// has put its tiles together.
 struct LevelPlace {
   StoreFiles files;
   std::optional<TileJoin> join;

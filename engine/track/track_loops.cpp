@@ -92,7 +92,7 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
-  // Of loops with the same points, at most one stands.
+  // At most one of several loops with the same points stands.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
     return compare_points(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
                           loops[y].loop) < 0;

@@ -43,7 +43,7 @@ std::vector<fs::path> KeptOutputs::files_of(const fs::path& folder) const {
   return files;
 }
 
-// Parts that are damaged or made from something else make room. A unit removes none.
+// Removes parts that are damaged or made from something else. A unit removes none.
 void KeptOutputs::find_parts(bool is_unit) {
   for (const fs::path& file : files_of(folder_)) {
     std::optional<PartReader> part = PartReader::open(file, made_from_, check_);

@@ -30,9 +30,10 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
 // The level of a workspace, whatever the levels below it were made from. Otherwise as `open_level`.
 std::optional<Level> find_level(std::size_t number, const Workspace& workspace, const Job& job);
 
-// How the run before an update has cut the scan into tiles, if such tiles fit in memory, and how it has put
-// tiles together for a level. Nothing without an update.
+// How the run before an update has cut the scan into tiles. Nothing without an update, or where such tiles do
+// not fit in memory.
 std::optional<TileGuide> find_guide(const Workspace& workspace, const Job& job);
+// How the run before an update has put tiles together for a level.
 std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace);
 
 // The outputs of the level's tiles that are sealed already, and those of the run before an update. Nothing

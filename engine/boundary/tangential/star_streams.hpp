@@ -79,7 +79,7 @@ inline constexpr RecordStream<OpenStar> kOpenStars{"open stars"};  // in ascendi
 inline constexpr RecordStream<OpenLinkVertex> kOpenVertices{"open vertices"};
 inline constexpr RecordStream<BeltPoint> kBelt{"belt"};     // in ascending owned index
 inline constexpr RecordStream<Row> kBeltRows{"belt rows"};  // of these points and their neighbours, ascending
-// Of one belt point after the other, in neighbour order: places of rows.
+// The neighbours of one belt point after the other, in neighbour order: places of rows.
 inline constexpr RecordStream<LocalIndex> kBeltNeighbours{"belt neighbours"};
 // Owned points among the rows of the belt, ascending; their sites and samples.
 inline constexpr RecordStream<LocalIndex> kSampled{"sampled"};

@@ -18,6 +18,10 @@ PointId id_of(std::uint64_t row) {
   return PointId{1000 - row};
 }
 
+std::uint64_t row_of(const CurvePoint& p) {
+  return 1000 - value(p.id());
+}
+
 StoredLoopPoint point(PointId id) {
   return {{0, 0, 0, id}, {0, 0, 0}, 0};
 }
@@ -95,8 +99,8 @@ TEST_CASE("wedges chain to one closed curve, through a point that it passes twic
   REQUIRE(one.size() == 1);
   std::vector<std::uint64_t> found;
   for (const CurvePoint& p : one[0]) {
-    found.push_back(1000 - value(p.id()));
-    CHECK(p.evidence.length == double(1000 - value(p.id())));
+    found.push_back(row_of(p));
+    CHECK(p.evidence.length == double(row_of(p)));
   }
   std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
   if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
@@ -266,8 +270,8 @@ TEST_CASE("wedges of both scales at the same points chain apart") {
   const auto next_of_2 = [&](const std::vector<CurvePoint>& curve) {
     std::set<std::uint64_t> next;
     for (std::size_t i = 0; i < 5; ++i) {
-      if (value(curve[i].id()) != 2) continue;
-      next = {value(curve[(i + 1) % 5].id()), value(curve[(i + 4) % 5].id())};
+      if (row_of(curve[i]) != 2) continue;
+      next = {row_of(curve[(i + 1) % 5]), row_of(curve[(i + 4) % 5])};
     }
     return next;
   };
