@@ -89,7 +89,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   RowSet coherent = candidates->coherent(job);
   RowSet boundary_candidates = boundary->boundary_candidates(*candidates, coherent, on_loops.rows, job);
   std::optional<ProbabilityGrid> probabilities;
-  if (voxels) probabilities.emplace(voxels->finish(store, first.survey.middle, job));
+  if (voxels) probabilities.emplace(voxels->finish(store, summary.strays.rest, job));
   std::optional<Column<StoredSample>> sample;
   if (sampler) sample.emplace(sampler->finish(job));
   std::optional<RowSet> opposed_normals;

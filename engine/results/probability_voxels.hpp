@@ -30,9 +30,9 @@ class ProbabilityVoxels final : public TileConsumer {
   // Once every tile was taken. The edge of a voxel is the largest power of two that does not exceed the
   // typical neighbour distance. That is the median, over the points, of the mean distance to the neighbours.
   // Outliers hardly change it. It doubles until OpenVDB's tree takes no more than 128 MiB and the job's
-  // memory for the global stage. The grid does not depend on that memory if it is at least 128 MiB. `middle`:
-  // a place near the points. Voxels are sorted on disk.
-  ProbabilityGrid finish(const TileStore& store, const Eigen::Vector3d& middle, Job& job) const;
+  // memory for the global stage. The grid does not depend on that memory if it is at least 128 MiB. Points
+  // outside of `box`, which are strays, are left out. Cost: one pass over the tiles.
+  ProbabilityGrid finish(const TileStore& store, const Eigen::AlignedBox3d& box, Job& job) const;
 
  private:
   // An exponent of mean distances to the neighbours, and how many points of a tile have it.
