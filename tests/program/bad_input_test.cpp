@@ -312,7 +312,7 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
       more.insert(more.end(), options.begin(), options.end());
       const fs::path out = scratch / "out";
       {
-        const SmallDisk disk(scratch / "disk", std::to_string(bytes + bytes / 3));
+        const SmallDisk disk(scratch / "disk", std::to_string(bytes + bytes / 2));
         if (!disk.mounted()) {
           test::skip("cannot mount a small disk");
           return;
