@@ -18,23 +18,27 @@ struct Rate {
   double microseconds = 0;
 };
 
-// Measured on 2026-11-26 with two threads on a two-core machine, from /proc while the program ran.
-// Bytes and microseconds of default runs with a limit of 12 GiB:
+// Measured on 2026-11-26 with two threads on a two-core machine with other programs at work: files of the
+// process under /proc every 30 ms, and its processor time. Default runs with a limit of 12 GiB took so many
+// bytes and microseconds a point:
 //   bun_zipper 36,000 points: 122, 3.3; autzen 0.4 M: 68, 3.5; vol_total 0.5 M: 72, 2.3; dragon 0.8 M:
 //   76, 3.1; balm 1.7 M, which is rough all over: 148, 5.8.
-// With a limit of 256 MiB: vol_total 157, dragon 239, balm 414 bytes.
+// With a limit of 256 MiB: vol_total 157, dragon 239, balm 414 bytes. The sums of the next two rates are in
+// the middle of these; --method paper on vol_total, 57 and 0.9, parts them.
 constexpr Rate kEachPoint = {.bytes = 60, .spilled = 100, .microseconds = 1.2};
-constexpr Rate kLevelsAbove = {.bytes = 40, .spilled = 100, .microseconds = 2.4};  // less by --method paper
-// Measured on vol_total, 2026-11-26, over a default run.
+constexpr Rate kLevelsAbove = {.bytes = 40, .spilled = 100, .microseconds = 2.4};
+// Measured on the same day, as the difference to a default run of vol_total.
+constexpr Rate kOrientedNormals = {.bytes = 26, .spilled = 24, .microseconds = 1.2};
+constexpr Rate kVdb = {.bytes = 4, .microseconds = 0.7};  // bytes of the probability: the rest is no peak
+constexpr Rate kKeptWorkspace = {.bytes = 100, .microseconds = 0.1};
+// Not measured alone: the sizes of records, in all files that hold them at a time.
 constexpr Rate kDoublePrecision = {.bytes = 30};  // coordinates that floats cannot hold
 constexpr Rate kGivenNormals = {.bytes = 40};
-constexpr Rate kOrientedNormals = {.bytes = 26, .spilled = 24, .microseconds = 1.2};
-constexpr Rate kVdb = {.bytes = 20, .microseconds = 0.5};
-constexpr Rate kKeptWorkspace = {.bytes = 100, .microseconds = 0.3};
-// For each row of the input.
-constexpr Rate kAnnotatedScan = {.spilled = 44, .microseconds = 0.5};
-constexpr Rate kThinnedRow = {.bytes = 16, .spilled = 24, .microseconds = 0.3};
-constexpr Rate kDecodedOnce = {.bytes = 24, .microseconds = 0.3};  // rows of LAZ, until they are in tiles
+// For each row of the input. The bytes are sizes of records; the microseconds are measured on vol_total with
+// --points, and with --resolution 1, which leaves out two of three points.
+constexpr Rate kAnnotatedScan = {.spilled = 44, .microseconds = 0.2};
+constexpr Rate kThinnedRow = {.bytes = 16, .spilled = 24};
+constexpr Rate kDecodedOnce = {.bytes = 24, .microseconds = 0.8};  // autzen_trim.laz over .las
 
 constexpr double kStartSeconds = 0.06;  // a process without a scan
 constexpr double kListsInMemory = 1.0 / 8;

@@ -286,7 +286,9 @@ TEST_CASE("a disk that cannot hold the points is said once they are counted, bef
     return;
   }
   const fs::path out = scratch / "out";
-  const ProgramResult result = detect_quietly(scan, out, {"--scratch", disk.path().string()});
+  // A filter may leave points out, so the headers alone do not say how many there are.
+  const ProgramResult result =
+      detect_quietly(scan, out, {"--scratch", disk.path().string(), "--drop-origin"});
   check_failure(without_warnings(result), 1,
                 "the run needs at least 1.4 MiB; --scratch names a folder on another one");
   CHECK_THAT(result.err, Catch::Matchers::Contains("the run needs about "));
