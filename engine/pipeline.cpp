@@ -191,7 +191,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
                     .boundary_candidates = std::move(boundary_candidates)};
   if (config.output.points) findings.points.emplace(outputs, first.survey.points, store, job);
   if (config.output.vdb)
-    findings.probabilities.emplace(probability_voxels(outputs, store, first.survey.middle, job));
+    findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
+                                                      findings.summary.strays.rest, store, job));
   if (consumers.sample)
     findings.sample.emplace(consumers.sample->draw(outputs, first.survey.ids, store, job));
   if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);

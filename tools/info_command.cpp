@@ -2,7 +2,7 @@
 #include "tools/info_command.hpp"
 
 #include "engine/config.hpp"
-#include "engine/estimate.hpp"
+#include "engine/inspect.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
@@ -17,6 +17,7 @@
 #include "tools/measures_text.hpp"
 #include "tools/own_process.hpp"
 #include "tools/parameter_options.hpp"
+#include "tools/run_costs.hpp"
 #include "tools/scan_warnings.hpp"
 #include "tools/summary.hpp"
 #include "tools/terminal.hpp"
@@ -42,10 +43,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Measured: rows per second of sample.ply, of the annotated scan and of the report.
-constexpr double kRowsPerSecond = 4'000'000;
-constexpr double kStartSeconds = 0.06;  // measured: a process without a scan
-
 struct InfoArguments {
   explicit InfoArguments(CLI::App& command) : parameters(command) {}
 
@@ -64,11 +61,11 @@ struct FileInfo {
 };
 
 struct RunInfo {
-  Estimate estimate;
+  Inspection inspection;
+  RunCosts costs;
   std::string points_file;
   std::optional<std::uint64_t> points_bytes;  // with --points; none: they cannot be written
   ResultBytes results;
-  double seconds = 0;
   std::vector<StationSummary> stations;
 };
 
@@ -102,31 +99,26 @@ std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConf
   }
 }
 
-RunInfo estimate_run(FileScan& scan, const Config& config) {
+RunInfo inspect_run(FileScan& scan, const Config& config) {
   RunInfo run;
   NoProgress silence;
   const MadeFolder parent(scratch_folder(config.run));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   const auto stations = watch_stations(scan, config.output, workspace.path());
-  run.estimate = estimate(scan, config, workspace.path(), silence);
+  run.inspection = inspect(scan, config, workspace.path(), silence);
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);
     run.stations = stations->summaries();
   }
-  const Summary& summary = run.estimate.summary;
+  const Summary& summary = run.inspection.summary;
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
   run.points_file = points_file(scan, config.output);
   run.points_bytes = points_bytes(scan, config.output);
   if (run.points_bytes) *run.points_bytes *= counts.points;
   run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
-
-  const std::uint64_t sampled = std::min(points, static_cast<std::uint64_t>(config.output.sample_points));
-  const std::uint64_t rows =
-      sampled + (config.output.report ? sampled : 0) + (config.output.points ? counts.points : 0);
-  run.seconds = run.estimate.seconds +
-                run.estimate.slowdown * (kStartSeconds + static_cast<double>(rows) / kRowsPerSecond);
+  run.costs = run_costs(scan, config, counts.points, points);
   return run;
 }
 
@@ -169,7 +161,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
     std::cout << "\n";
   }
   if (!run.stations.empty()) std::cout << "\n" << print_stations(run.stations, scan.length_unit());
-  const Summary& summary = run.estimate.summary;
+  const Summary& summary = run.inspection.summary;
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
   std::cout << print_left_out(summary.counts, scan.filtered_out());
   if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
@@ -185,25 +177,19 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   } else {
     std::cout << print_point(summary.bounds.min()) << " to " << print_point(summary.bounds.max());
   }
-  if (run.estimate.density > 0) {
-    const std::string unit = scan.length_unit();
-    std::cout << "\n  density       about " << print_area(run.estimate.density, "") << " points per "
-              << (unit.empty() ? "square unit" : unit + "²") << " of surface";
-  }
   std::cout << "\n  tiles         " << print_count(summary.tiles) << ", of at most "
             << print_count(summary.tile_points) << " points"
-            << "\n  cells         " << print_count(run.estimate.cells) << ", of size "
-            << run.estimate.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
-            << "\n  threads       " << summary.threads << "\n  memory        about "
-            << print_size(run.estimate.memory) << " at the peak\n  workspace     about "
-            << print_size(run.estimate.disk.most) << " on disk\n  results       about "
+            << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
+            << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
+            << "\n  threads       " << summary.threads << "\n  workspace     about "
+            << print_size(run.costs.disk) << " on disk\n  results       about "
             << print_size(run.results.all()) << " on disk, and more with more holes\n  " << run.points_file
             << "    "
             << (run.points_bytes ? print_size(*run.points_bytes) +
                                        (run.results.points > 0 ? ", in these results" : ", with --points")
                                  : "cannot hold all columns; --points-format ply can")
-            << "\n  time          about " << print_duration(run.seconds)
-            << ", with what else this machine does now\n";
+            << "\n  time          about " << print_duration(run.costs.seconds)
+            << " on a machine that does nothing else\n";
 }
 
 Json returns_of(const AttributeCounts& counts) {
@@ -230,7 +216,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
                              {"unit", file.is_geographic ? "degree" : file.unit},
                              {"properties", std::move(properties)}});
   }
-  const Summary& summary = run.estimate.summary;
+  const Summary& summary = run.inspection.summary;
   put_crs(scan, root);
   root["points"] = summary.counts.points;
   root["dropped"] = summary.counts.dropped - scan.filtered_out().total();
@@ -242,17 +228,15 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["stations"] = stations_json(run.stations);
   root["tiles"] = summary.tiles;
   root["tile_points"] = summary.tile_points;
-  root["density"] = run.estimate.density;
-  root["cells"] = run.estimate.cells;
-  root["cell_size"] = run.estimate.cell_size;
+  root["cells"] = run.inspection.cells;
+  root["cell_size"] = run.inspection.cell_size;
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
-  root["memory_bytes"] = run.estimate.memory;
-  root["workspace_bytes"] = run.estimate.disk.most;
+  root["workspace_bytes"] = run.costs.disk;
   root["results_bytes"] = run.results.all();
   root["points_file"] = run.points_file;
   root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
-  root["estimated_seconds"] = run.seconds;
+  root["estimated_seconds"] = run.costs.seconds;
   std::cout << print(root, 2) << "\n";
 }
 
@@ -264,13 +248,13 @@ void run_info(const InfoArguments& arguments) {
   FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
   std::vector<FileInfo> files;
   for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
-  const RunInfo run = estimate_run(scan, config);
+  const RunInfo run = inspect_run(scan, config);
   if (arguments.json) {
     print_json(files, scan, run);
   } else {
     print_text(files, scan, run);
   }
-  const Summary& summary = run.estimate.summary;
+  const Summary& summary = run.inspection.summary;
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
 }

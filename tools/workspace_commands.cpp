@@ -39,11 +39,10 @@ void print_status(const fs::path& folder) {
       std::cout << "its points are not stored yet\n";
     } else {
       std::cout << print_count(level.points) << " points, " << level.evaluated << " of " << level.tiles
-                << " tiles evaluated\n";
+                << " tiles evaluated, " << level.tiles - level.evaluated << " left\n";
     }
   }
   if (state.is_update) std::cout << "  an update was stopped: parts of the run before are kept\n";
-  if (state.seconds_left) std::cout << "  left: about " << print_duration(*state.seconds_left) << "\n";
   std::cout << "The same command goes on from here; lacuna finish does, too.\n";
 }
 

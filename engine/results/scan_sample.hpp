@@ -30,7 +30,6 @@ struct StoredSample {
 // depends on the points alone, not on tiles or threads.
 class ScanSample {
  public:
-  static constexpr std::uint64_t kBytesOfPoint = 32;  // on disk, until the sample is drawn
   // `is_kept`: outputs are kept. Then they have the keys of all points, since an update may draw its sample
   // from fewer points.
   ScanSample(std::uint64_t most_points, bool is_kept) : most_points_(most_points), is_kept_(is_kept) {}

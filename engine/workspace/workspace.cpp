@@ -174,10 +174,6 @@ std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
   return split(part->records<char>("made from", 0), '\n');
 }
 
-bool is_of_this_program(const std::vector<std::string>& made_from) {
-  return !made_from.empty() && made_from.front() == kProgram;
-}
-
 StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)

@@ -52,7 +52,6 @@ StoredRun read_run(const std::filesystem::path& folder);
 // What the parts are made from, a line each. None where the part of the run is damaged: the run makes it
 // again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
-bool is_of_this_program(const std::vector<std::string>& made_from);  // so that it can read the run
 
 // A line of text as a part of its own; none where there is no such part.
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);

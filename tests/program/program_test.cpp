@@ -31,18 +31,6 @@ using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
 
-TEST_CASE("info has the density of the points on the surface", "[program]") {
-  const ScratchFolder folder;
-  const std::string scan = (folder / "s.ply").string();
-  REQUIRE(run_program({"synth", "surface", scan, "--kind", "sphere", "--holes", "0", "--points", "20000",
-                       "--spacing", "0.05"})
-              .exit_code == 0);
-  const auto json = nlohmann::json::parse(run_program({"info", "--json", scan}).out);
-  CHECK(json["density"].get<double>() == Approx(1 / (0.05 * 0.05)).epsilon(0.03));
-  CHECK_THAT(run_program({"info", scan}).out, Contains("points per square unit of surface"));
-  CHECK_THAT(run_program({"info", folder.write("b.xyz", "1 2 3\n")}).out, !Contains("density"));
-}
-
 TEST_CASE("a folder of Entwine's point tiles is the scan in its files", "[program]") {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "ept" / "ept-data");

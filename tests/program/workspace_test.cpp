@@ -91,7 +91,7 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
   CHECK(fs::exists(run.workspace / "level-0"));
   CHECK_FALSE(fs::exists(run.folder / "out"));
   CHECK_THAT(run_program({"status", run.workspace.string()}).out,
-             Contains("level 0: ") && Contains(" tiles evaluated"));
+             Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left"));
 }
 
 TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {
