@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/disk_check.hpp"
+#include "tools/run/disk_check.hpp"
 
 #include "engine/run/error.hpp"
 #include "engine/run_needs.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/scan_warnings.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/io/las/las_file.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/terminal.hpp"
+#include "tools/console/terminal.hpp"
 
-#include "tools/parameter_options.hpp"
-#include "tools/summary.hpp"
+#include "engine/run/disk_space.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/run/parameter_options.hpp"
 
 #include <catch2/catch.hpp>
 
