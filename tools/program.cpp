@@ -10,7 +10,6 @@
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/evaluate_command.hpp"
-#include "tools/run/parameter_options.hpp"
 #include "tools/synth_command.hpp"
 
 #include <cerrno>
@@ -110,7 +109,7 @@ int run(int argc, char** argv) {
   try {
     prepare_process();
     remember_command_line("lacuna " LACUNA_VERSION, argc, argv);
-    line.run(join_columns({argv + 1, argv + argc}));
+    line.run({argv + 1, argv + argc});
     warn_of_remaining_folders();
     return flush_output();
   } catch (const UsageError& error) {

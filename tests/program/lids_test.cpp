@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 namespace lacuna {

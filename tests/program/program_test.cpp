@@ -216,7 +216,7 @@ TEST_CASE("a printed config read again prints the same") {
   const ScratchFolder scratch;
   const ProgramResult first =
       run_program({"detect", "--print-config", "--k", "20", "--eps", "0.25", "--points", "--memory-limit",
-                   "512MiB", "--columns", "x", "y", "z", "--workspace", "/a b/c"});
+                   "512MiB", "--columns", "x,y,z", "--workspace", "/a b/c"});
   REQUIRE(first.exit_code == 0);
   CHECK_THAT(first.out, Contains("\nk = 20\n") && Contains("\npoints = true\n") &&
                             Contains("columns = \"x y z\"") && Contains("memory_limit = \"512MiB\""));
@@ -487,7 +487,7 @@ TEST_CASE("a signal while a scan is made leaves nothing") {
 TEST_CASE("names of columns are divided by blanks or commas, and end where a file is named") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  CHECK(run_program({"info", "--columns", "z", "y", "x", scan}).exit_code == 0);
+  CHECK(run_program({"info", "--columns", "z y x", scan}).exit_code == 0);
   CHECK(run_program({"info", "--columns", "z,y,x", scan}).exit_code == 0);
   check_failure(run_program({"info", "--columns", "a,b,c", scan}), 1, "no columns named x, y and z");
 }

@@ -55,7 +55,6 @@ struct DetectArguments {
 
   std::vector<fs::path> scans;
   bool print_config = false;
-  bool restart = false;
   ResultArguments run;
 };
 
@@ -80,11 +79,6 @@ std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::
   for (const fs::path& left : find_folders(used->folder.path(), "lacuna-"))
     fs::remove(left, error);  // if it is empty
   return used;
-}
-
-void restart(const fs::path& workspace) {
-  end_update(workspace);
-  for (const fs::path& file : workspace_files(workspace)) remove_part(file);
 }
 
 fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
@@ -219,13 +213,7 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
   const ReadOptions options{.columns = config.input.columns,
                             .memory = Memory::share(config.run.memory_limit).reading};
-  WorkspaceSteps steps;
-  if (arguments.restart) {
-    if (config.run.workspace.empty()) throw UsageError("--restart needs --workspace");
-    steps.begin = [&] { restart(config.run.workspace); };
-  }
-  const std::string summary =
-      detect_to(expand_inputs(arguments.scans, options), config, arguments.run, steps);
+  const std::string summary = detect_to(expand_inputs(arguments.scans, options), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 
@@ -243,10 +231,6 @@ void add_detect_command(const Command& program) {
   command
       .add_flag("--print-config", arguments->print_config,
                 "Print the parameters in effect as a config file, and end")
-      .rare();
-  command
-      .add_flag("--restart", arguments->restart,
-                "Begin anew, and remove the parts of an earlier run from the workspace")
       .rare();
   command.runs([command, arguments] { run_detect(command, *arguments); });
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <variant>
 
 namespace lacuna::tools {
@@ -84,7 +83,9 @@ EffectiveConfig ParameterOptions::read(Config config) const {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!given_[i].option->is_given()) continue;
     try {
-      all[i].set(given_[i].text);
+      std::string text = given_[i].text;
+      if (all[i].key == "columns") std::ranges::replace(text, ',', ' ');
+      all[i].set(text);
     } catch (const Error& error) {
       throw WrongOption(all[i].option(), error.what());
     }
@@ -115,31 +116,6 @@ std::vector<std::string> ParameterOptions::idle_warnings(Config config,
     }
   }
   return warnings;
-}
-
-std::vector<std::string> join_columns(std::vector<std::string> arguments) {
-  std::vector<std::string> joined;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--") {
-      joined.insert(joined.end(), arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.end());
-      break;
-    }
-    const auto is_name = [&](std::size_t at) {
-      return at < arguments.size() && !arguments[at].starts_with('-') &&
-             !std::filesystem::exists(arguments[at]);
-    };
-    if (arguments[i] != "--columns" || !is_name(i + 1)) {
-      joined.push_back(arguments[i]);
-      continue;
-    }
-    std::string names = arguments[++i];
-    std::replace(names.begin(), names.end(), ',', ' ');
-    if (names.find(' ') == std::string::npos) {
-      while (is_name(i + 1)) names += " " + arguments[++i];
-    }
-    joined.push_back("--columns=" + names);
-  }
-  return joined;
 }
 
 }  // namespace lacuna::tools

@@ -41,8 +41,4 @@ class ParameterOptions {
   std::deque<Given> given_;  // as in parameters(); a deque, because the options point into it
 };
 
-// `--columns x y z` with its names as one argument, `--columns=x y z`: all that follow up to the next option;
-// only the first where it holds several names already.
-std::vector<std::string> join_columns(std::vector<std::string> arguments);
-
 }  // namespace lacuna::tools
