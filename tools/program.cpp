@@ -5,11 +5,10 @@
 #include "engine/store/temporary_folder.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/log_file.hpp"
-#include "tools/run/signals.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/evaluate_command.hpp"
+#include "tools/run/signals.hpp"
 #include "tools/synth_command.hpp"
 
 #include <cerrno>
@@ -108,7 +107,6 @@ int run(int argc, char** argv) {
 
   try {
     prepare_process();
-    remember_command_line("lacuna " LACUNA_VERSION, argc, argv);
     line.run({argv + 1, argv + argc});
     warn_of_remaining_folders();
     return flush_output();

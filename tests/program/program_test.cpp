@@ -101,7 +101,7 @@ TEST_CASE("--help shows the options that people use, and --help-all of the progr
   const std::string common = run_program({"detect", "--help"}).out;
   for (const char* option : {"--out", "--min-hole", "--report", "--points", "--help-all"})
     CHECK_THAT(common, Contains(option));
-  for (const char* option : {"--sigma", "--print-config", "--log-file"})
+  for (const char* option : {"--sigma", "--print-config", "--progress"})
     CHECK_THAT(common, !Contains(option));
   CHECK(test::count_lines(common) < 30);
   const std::string all = run_program({"--help-all"}).out;
@@ -291,35 +291,6 @@ TEST_CASE("a quiet run says nothing") {
   CHECK(result.exit_code == 0);
   CHECK(result.out.empty());
   CHECK(result.err.empty());
-}
-
-TEST_CASE(
-    "a log file has the version, the command line, the times of stages and errors, each with its time") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  const std::string log = (scratch / "log.txt").string();
-  const auto detect = [&](const std::string& file, const std::string& log_file) {
-    return run_program(
-        {"detect", file, "--out", (scratch / "out").string(), "--quiet", "--log-file", log_file});
-  };
-  CHECK(detect(scan, log).exit_code == 0);
-  const std::string first = test::read_file(log);
-  CHECK_THAT(first, Contains(" info: lacuna ") && Contains(" detect " + scan + " --out ") &&
-                        Contains(" info: evaluate: done in ") && Contains(" info: write: done in "));
-  CHECK(first.substr(4, 1) == "-");
-  check_failure(detect("none\n.ply", log), 1, "none");
-  const std::string both = test::read_file(log);
-  CHECK(both.starts_with(first));
-  CHECK_THAT(both.substr(first.size()), Contains(" error: none") && Contains("cannot be opened"));
-  CHECK(test::count_lines(both.substr(first.size())) == 2);
-
-  check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
-  check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
-  check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
-  fs::create_symlink(scratch / "made", scratch / "link");
-  check_failure(detect(scan, (scratch / "link").string()), 1, "link: is a symbolic link to nothing");
-  CHECK_FALSE(fs::exists(scratch / "made"));
-  CHECK(test::read_file(scan) == sheet(20));
 }
 
 TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {

@@ -15,7 +15,6 @@
 #include "tools/commands/summary.hpp"
 #include "tools/commands/workspace_commands.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/log_file.hpp"
 #include "tools/console/overall_progress.hpp"
 #include "tools/console/shown_progress.hpp"
 #include "tools/console/terminal.hpp"
@@ -106,15 +105,11 @@ RunArguments::RunArguments(const Command& command) : parameters(command) {
                   "How stderr shows progress. The default is bar on a terminal, else plain")
       .rare();
   command.add_flag("--quiet", quiet, "Print no progress and no summary, only warnings and errors").rare();
-  command.add_option("--log-file", log_file, "Append warnings, errors and the times of stages to this file")
-      .type("FILE")
-      .rare();
 }
 
 Config RunArguments::start(Config base) const {
   auto [config, warnings] = parameters.read(std::move(base));
   if (quiet) quiet_log();
-  if (!log_file.empty()) start_log_file(log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   prepare_process(config.run);
   return config;

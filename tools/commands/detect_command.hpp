@@ -26,7 +26,6 @@ struct RunArguments {
 
   ProgressStyle progress = default_progress_style();
   bool quiet = false;
-  std::filesystem::path log_file;
   ParameterOptions parameters;
 };
 

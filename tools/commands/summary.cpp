@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 #include <utility>
 
 namespace lacuna::tools {
@@ -159,12 +158,11 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
   return facts;
 }
 
-// Phases in two columns, one below the other; where several have a name, their times together.
+// A row for each phase; where several have a name, their times together.
 std::string print_times(const Summary& summary, const RunTimes& times) {
   std::vector<PhaseTime> phases;
   const auto add = [&phases](const PhaseTime& phase) {
-    const auto same = std::find_if(phases.begin(), phases.end(),
-                                   [&](const PhaseTime& other) { return other.name == phase.name; });
+    const auto same = std::ranges::find(phases, phase.name, &PhaseTime::name);
     if (same == phases.end()) {
       phases.push_back(phase);
     } else {
@@ -173,25 +171,12 @@ std::string print_times(const Summary& summary, const RunTimes& times) {
   };
   for (const PhaseTime& phase : summary.phases) add(phase);
   add({"write", times.write_seconds});
-  std::vector<std::string> columns[2];
-  const std::size_t half = (phases.size() + 1) / 2;
-  std::vector<std::vector<std::string>> rows[2];
-  for (std::size_t i = 0; i < phases.size(); ++i) {
-    rows[i / half].push_back({phases[i].name, print_duration(phases[i].seconds),
-                              print_rate(summary.counts.points, phases[i].seconds)});
+  std::vector<std::vector<std::string>> rows;
+  for (const PhaseTime& phase : phases) {
+    rows.push_back(
+        {phase.name, print_duration(phase.seconds), print_rate(summary.counts.points, phase.seconds)});
   }
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (rows[side].empty()) continue;
-    std::istringstream lines(print_table(rows[side]));
-    for (std::string line; std::getline(lines, line);) columns[side].push_back(line);
-  }
-  std::string text;
-  for (std::size_t i = 0; i < columns[0].size(); ++i) {
-    text += columns[0][i];
-    if (i < columns[1].size()) text += "   " + columns[1][i];
-    text += "\n";
-  }
-  return text;
+  return print_table(rows);
 }
 
 }  // namespace

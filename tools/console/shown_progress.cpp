@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/shown_progress.hpp"
 
-#include "tools/console/log_file.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
@@ -22,7 +21,6 @@ using namespace std::chrono_literals;
 
 constexpr auto kRedrawAfter = 100ms;
 constexpr auto kPlainLineAfter = 10s;
-constexpr auto kNever = 24h * 365;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -40,8 +38,7 @@ std::string time_left(double seconds) {
   return std::to_string(whole / 3600) + ":" + two(whole / 60 % 60) + ":" + two(whole % 60) + " h left";
 }
 
-// Counts what passes and shows it now and then, by whichever thread comes by when it is time. The time of
-// each stage goes to the log file.
+// Counts what passes and shows it now and then, by whichever thread comes by when it is time.
 class ShownProgress : public Progress {
  public:
   ShownProgress(std::vector<ExpectedStage> stages, Clock::duration interval)
@@ -77,7 +74,6 @@ class ShownProgress : public Progress {
     after.overall = overall_.at(before.seconds, 0, 0);
     const std::string line = stage_ + ": done in " + print_duration(before.stage_seconds) +
                              (before.done > 0 ? ", " + print_rate(before.done, before.stage_seconds) : "");
-    log_to_file(line);
     show_end(after, line);
   }
 
@@ -141,12 +137,6 @@ class PlainProgress final : public ShownProgress {
   }
 };
 
-// Shows nothing; the log file has the times all the same.
-class SilentProgress final : public ShownProgress {
- public:
-  SilentProgress() : ShownProgress({}, kNever) {}
-};
-
 }  // namespace
 
 ProgressStyle default_progress_style() {
@@ -164,7 +154,7 @@ std::unique_ptr<Progress> make_progress(ProgressStyle style, std::vector<Expecte
     case ProgressStyle::kNone:
       break;
   }
-  return std::make_unique<SilentProgress>();
+  return std::make_unique<NoProgress>();
 }
 
 std::string progress_bar(const ProgressState& state, std::size_t width) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The progress of a run on stderr, and the times of its stages in the log file.
+// The progress of a run on stderr.
 #pragma once
 
 #include "engine/run/progress.hpp"

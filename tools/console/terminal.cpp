@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/terminal.hpp"
 
-#include "tools/console/log_file.hpp"
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>
@@ -22,8 +21,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLastLineAfter =
-    200ms;  // who has the console for longer writes to a stderr that takes nothing
+// Who has the console for longer writes to a stderr that takes nothing.
+constexpr auto kLastLineAfter = 200ms;
 
 // stderr, with at most one line of progress that stands below everything else.
 class Console {
@@ -100,15 +99,13 @@ void start_log() {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("lacuna", std::make_shared<ConsoleSink>()));
 }
 
-// The console's alone: a log file has everything.
 void quiet_log() {
-  spdlog::default_logger()->sinks().front()->set_level(spdlog::level::warn);
+  spdlog::set_level(spdlog::level::warn);
 }
 
 void print_error(std::string_view reason) {
   clear_progress();
   console().print_line("lacuna: error: " + std::string(reason));
-  log_error_to_file(reason);
 }
 
 void print_line(std::string_view line) {
@@ -125,7 +122,6 @@ void clear_progress() {
 
 void print_last_line(std::string_view line) {
   console().print_last_line(line);
-  log_to_file(line);
 }
 
 void clear_progress_now() {
