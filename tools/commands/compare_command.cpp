@@ -134,7 +134,7 @@ void add_compare_command(const Command& program) {
                   "How far apart the curves of one hole may be, in units of the scan; 0: twice the larger "
                   "median distance of neighbours")
       .type("LENGTH");
-  command.add_flag("--json", arguments->json, "For programs");
+  command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
   command.runs([arguments] { run_compare(*arguments); });
 }
 

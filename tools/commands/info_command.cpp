@@ -286,7 +286,7 @@ void add_info_command(const Command& program) {
                   "Scan files, folders of them, or @LIST of their names; several are one registered scan")
       .type("SCAN")
       .required();
-  command.add_flag("--json", arguments->json, "Print it as JSON");
+  command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
   command.runs([arguments] { run_info(*arguments); });
 }
 

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 struct StationsArguments {
   fs::path folder;
-  std::optional<fs::path> places;  // a file with those of the scanner; none: over the floor
+  std::optional<fs::path> places;  // a file with places of the scanner; none: over the floor
   std::size_t count = 5;
   double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0: chosen
   bool overwrite = false;

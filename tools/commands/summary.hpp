@@ -17,7 +17,7 @@ struct RunTimes {
 };
 
 // What was found, the largest holes by area, outer curves as sums; then counts, and time per phase. `unit` is
-// that of the scan's coordinates, such as "m"; empty: not known.
+// the unit of the scan's coordinates, such as "m"; empty: not known.
 std::string print_summary(const Detection& detection, const io::FileScan& scan, const RunTimes& times,
                           std::string_view unit = "");
 

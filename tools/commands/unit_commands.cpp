@@ -143,7 +143,11 @@ void add_workspace(const Command& command, fs::path& workspace) {
 void add_plan_command(const Command& program) {
   const Command command = program.add_command("plan", "Prepare a run that several processes share");
   const auto arguments = std::make_shared<PlanArguments>(command);
-  command.add_option("SCAN", arguments->scans, "As of lacuna detect").required().type("SCAN");
+  command
+      .add_option("SCAN", arguments->scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      .required()
+      .type("SCAN");
   command.add_option("--tasks", arguments->tasks, "Tasks that evaluate the tiles of a level at the same time")
       .required()
       .whole_number(1, kMostTasks)
@@ -157,8 +161,10 @@ void add_work_command(const Command& program) {
   const Command command = program.add_command("work", "Do one task of a step that lacuna plan names");
   const auto arguments = std::make_shared<WorkArguments>(command);
   add_workspace(command, arguments->workspace);
-  command.add_option("--step", arguments->step, "Such as evaluate-0").required().type("STEP");
-  command.add_option("--task", arguments->task, "From 0 on").type("I");
+  command.add_option("--step", arguments->step, "Name of the step, such as evaluate-0")
+      .required()
+      .type("STEP");
+  command.add_option("--task", arguments->task, "Number of the task, from 0 on").type("I");
   command.runs([arguments] { run_work(*arguments); });
 }
 

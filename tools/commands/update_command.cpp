@@ -74,7 +74,7 @@ bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
   return false;
 }
 
-// The parameters of the run before and those of the command line. Boxes add up.
+// The parameters of the run before, then the parameters of the command line. Boxes add up.
 Config changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
   Config base = run.config;
   base.input.leave_out.clear();
@@ -173,7 +173,7 @@ void add_update_command(const Command& program) {
       .type("OLD=NEW");
   command.option("--leave-out")
       .help("Points in these boxes do not take part, nor those in the boxes of the run before.");
-  command.option("--out").help("Folder for the results; those of the run before by default");
+  command.option("--out").help("Folder for the results. The default is the folder of the run before.");
   command.runs([arguments] { run_update(*arguments); });
 }
 

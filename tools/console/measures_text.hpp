@@ -17,7 +17,7 @@ std::string print_count(std::uint64_t count);  // "1,234,567"
 // Three digits, without an exponent from 0.001 to a million: "0.0123 m", "2.28 m", "1,234 m".
 std::string print_length(double length, std::string_view unit);
 std::string print_area(double area, std::string_view unit);  // "3.97 m²"
-std::string print_share(double share);                       // likewise, 1 as "100 %"
+std::string print_share(double share);                       // "100 %" for 1
 
 std::string print_power(double power_of_ten, std::string_view unit);  // "0.1 m", "1 m", "1,000 m"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configs by name: those that are installed with the program.
+// Finds configs by the name that they are installed with.
 #pragma once
 
 #include <filesystem>

@@ -22,7 +22,7 @@ class MadeFolder {
   // As named, but of a/../b only b: no `a` is made on the way.
   const std::filesystem::path& path() const { return folder_; }
 
-  void remove_empty() const;  // those that it made, innermost first, up to one that holds something
+  void remove_empty() const;  // the folders that it made, innermost first, up to one that holds something
 
  private:
   std::filesystem::path folder_;

@@ -78,19 +78,19 @@ void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warni
     if (scan.crs()[i].empty() || is_same_crs(scan.crs()[i], scan.crs()[*first])) continue;
     warnings.push_back(
         file_name(scan, i) +
-        ": its coordinate reference system is not that of the first file: " + crs_name(scan.crs()[i]) +
+        ": its coordinate reference system differs from the first file: " + crs_name(scan.crs()[i]) +
         ", not " + crs_name(scan.crs()[*first]) + "; results name none, unless --crs states it");
   }
 }
 
-// A file with a pose is not in its own system, but in that of the others.
+// A file with a pose is in the system of the others, not in its own.
 void warn_of_missing_systems(const FileScan& scan, std::vector<std::string>& warnings) {
   if (scan.common_crs().empty()) return;
   const auto is_without = [&](std::size_t i) { return scan.crs()[i].empty() && !scan.poses()[i]; };
   const auto first = find_file(scan, is_without);
   if (!first) return;
   warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_without) +
-                     ": without a coordinate reference system; that of the other files holds, " +
+                     ": without a coordinate reference system; the system of the other files holds, " +
                      crs_name(scan.common_crs()));
 }
 
@@ -102,7 +102,7 @@ void warn_of_other_units(const FileScan& scan, std::vector<std::string>& warning
   };
   if (const auto other = find_file(scan, is_other))
     warnings.push_back(file_name(scan, *other) + and_more(scan, *other, is_other) + ": its unit is " +
-                       scan.units()[*other] + ", not " + scan.units()[*first] + " as that of " +
+                       scan.units()[*other] + ", not " + scan.units()[*first] + " as in " +
                        file_name(scan, *first) + "; results name none, unless --unit states it");
 }
 

@@ -18,8 +18,8 @@ std::string crs_name(const std::string& crs);
 void refuse_degrees(const io::FileScan& scan);
 
 // Before a run: one line for each file that is given more than once, also by another name. One, too, for each
-// whose coordinate reference system is not that of the first. One line for all files without a system where
-// others have one, for those with another unit, and for those that contradict --crs or --unit.
+// whose coordinate reference system differs from the first. One line for all files without a system where
+// others have one, one for files with another unit, and one for files that contradict --crs or --unit.
 std::vector<std::string> input_warnings(const io::FileScan& scan);
 
 // Before a run: a memory limit above the machine's memory.
