@@ -19,7 +19,7 @@ void refuse_degrees(const io::FileScan& scan);
 
 // Before a run: one line for each file that is given more than once, also by another name. One, too, for each
 // whose coordinate reference system differs from the first. One line for all files without a system where
-// others have one, one for files with another unit, and one for files that contradict --crs or --unit.
+// others have one. One line for files with another unit, and one for files that contradict --crs or --unit.
 std::vector<std::string> input_warnings(const io::FileScan& scan);
 
 // Before a run: a memory limit above the machine's memory.
