@@ -49,8 +49,14 @@ class Help final : public CLI::Formatter {
     const Options own = chosen(options_of(*app), [&](const CLI::Option* option) {
       return option != app->get_help_ptr() && option != app->get_help_all_ptr();
     });
-    return "lacuna " + app->get_name() + ":\n" + make_description(app) + make_positionals(app) +
+    return "\nlacuna " + app->get_name() + ":\n" + make_description(app) + make_positionals(app) +
            by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
+  }
+
+  // The name of an argument says what it takes.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = Formatter::make_option_opts(option), type = " " + option->get_type_name();
+    return option->get_positional() && text.starts_with(type) ? text.substr(type.size()) : text;
   }
 
  private:
@@ -168,7 +174,9 @@ const Option& Option::show_default() const {
 }
 
 const Option& Option::show_default(const std::string& text) const {
-  option_->default_str(text);
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  const std::string value = is_quoted ? text.substr(1, text.size() - 2) : text;
+  if (value != "[]") option_->default_str(value);
   return *this;
 }
 

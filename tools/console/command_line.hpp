@@ -37,6 +37,7 @@ class Option {
   const Option& help(const std::string& text) const;     // in place of the help given before
   const Option& section(const std::string& name) const;  // of --help-all
   const Option& show_default() const;                    // the variable's value at this moment
+  // As the config file has it. An empty one is not shown.
   const Option& show_default(const std::string& text) const;
   const Option& excludes(const Option& other) const;
   const Option& once() const;             // a second time is an error
