@@ -7,9 +7,9 @@
 #include "python/arrays.hpp"
 #include "python/run.hpp"
 #include "tools/accuracy/evaluation.hpp"
-#include "tools/compare_command.hpp"
+#include "tools/commands/compare_command.hpp"
 #include "tools/evaluate_text.hpp"
-#include "tools/input_files.hpp"
+#include "tools/run/input_files.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that `lacuna evaluate` knows, as tables.
 #include "tools/evaluate_text.hpp"
-#include "tools/summary.hpp"
+#include "tools/console/measures_text.hpp"
 #include "tools/verdict_names.hpp"
-#include "tools/visible_text.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include <cstdio>
 #include <optional>

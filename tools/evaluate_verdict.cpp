@@ -3,9 +3,8 @@
 #include "engine/model/loop.hpp"
 #include "tools/accuracy/loop_size.hpp"
 #include "tools/evaluate_text.hpp"
-#include "tools/measures_text.hpp"
-#include "tools/summary.hpp"
-#include "tools/visible_text.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include <algorithm>
 #include <cstddef>

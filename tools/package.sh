@@ -4,13 +4,16 @@
 # liblacuna0.1, liblacuna-dev and python3-lacuna. Takes further arguments for CMake.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tools/packages.sh
 
 tools/install.sh
+install_packages help2man
 build=build-package
 cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DLACUNA_TESTS=OFF \
-  -DLACUNA_ZSH_DIR=zsh/vendor-completions -DLACUNA_PYTHON_DIR=lib/python3/dist-packages \
-  -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >&2
+  -DLACUNA_PYTHON_DIR=lib/python3/dist-packages -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >&2
 cmake --build "$build" --parallel "$(nproc)" >&2
+help2man --no-info --help-option=--help-all --name="find holes in scanned surfaces" "$build/lacuna" |
+  gzip -9n >"$build/lacuna.1.gz"
 rm -f "$build"/*.deb
 (cd "$build" && cpack -G DEB) >&2
 ls "$build"/*.deb

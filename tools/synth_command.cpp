@@ -5,7 +5,7 @@
 #include "tools/synth/scan.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/value_options.hpp"
-#include "tools/visible_text.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include <array>
 #include <iostream>

@@ -234,9 +234,10 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
   const Lines now = made_from(identity, given);
   const std::optional<Lines> before = made_from_of(folder);
   if (before && *before != now) {
-    throw Error(folder.string() + ": the workspace of another run: \"" + first_other(*before, now) +
-                "\" there, \"" + first_other(now, *before) +
-                "\" here; allowed: the same input and parameters, another folder, or --restart");
+    throw Error(
+        folder.string() + ": the workspace of another run: \"" + first_other(*before, now) + "\" there, \"" +
+        first_other(now, *before) +
+        "\" here; allowed: the same input and parameters, or another folder; lacuna clean removes this one");
   }
   if (!is_workspace(folder)) refuse_others(folder);
   for (const fs::path& file : workspace_files(folder)) {

@@ -265,7 +265,7 @@ class TextReader final : public ScanReader {
     }
     if (!has_position(names)) {
       in_.fail_at_line(in_.line(), "no columns named x, y and z, but " + joined(names) +
-                                       "; --columns x=... y=... z=... says which they are");
+                                       "; --columns x=...,y=...,z=... says which they are");
     }
     layout_ = packed_layout(columns);
   }

@@ -166,9 +166,10 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
   CHECK(common == "EPSG:25832");
   const auto [warning, crs] = detect({none, text});
   CHECK_THAT(crs, StartsWith("PROJCS[\"" + std::string(kUtm)));
-  CHECK_THAT(warning, Contains("none/points.las: without a coordinate reference system; that of the other "
-                               "files holds, " +
-                               std::string(kUtm)));
+  CHECK_THAT(warning,
+             Contains("none/points.las: without a coordinate reference system; the system of the other "
+                      "files holds, " +
+                      std::string(kUtm)));
   CHECK(test::count_lines(warning) == 1);
   CHECK(detect({text, other}).second.empty());
 }

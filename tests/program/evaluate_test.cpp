@@ -153,8 +153,7 @@ TEST_CASE("a scan that is text is read with the columns of the run") {
     rows += "7 " + std::to_string(i % 40) + " 0 " + std::to_string(i / 40) + "\n";
   const std::string scan = folder.write("sheet.txt", rows);
   const std::string out = (folder / "out").string();
-  REQUIRE(run_program({"detect", scan, "--out", out, "--quiet", "--columns", "t", "x", "z", "y"}).exit_code ==
-          0);
+  REQUIRE(run_program({"detect", scan, "--out", out, "--quiet", "--columns", "t x z y"}).exit_code == 0);
   std::string rim;
   for (int i = 0; i < 39; ++i) rim += std::to_string(i) + " ";
   for (int i = 0; i < 39; ++i) rim += std::to_string(39 + 40 * i) + " ";

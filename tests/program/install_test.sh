@@ -47,10 +47,18 @@ version=$("$prefix/bin/lacuna" --version)
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
 grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
 "$prefix/bin/lacuna" detect --print-config --config aerial >"$work/log" || fail "the installed config is not found"
-for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml \
+for file in share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml \
   share/doc/lacuna/docs/usage.md share/doc/lacuna/LICENSE share/doc/lacuna/CITATION.cff; do
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
+offered() {  # what bash offers for the last of these words
+  local COMP_WORDS=("$prefix/bin/lacuna" "$@") COMP_CWORD=$# COMPREPLY=()
+  _lacuna
+  echo "${COMPREPLY[*]}"
+}
+source "$prefix/share/bash-completion/completions/lacuna"
+[[ $(offered det) == detect && $(offered detect --min-h) == --min-hole && $(offered info --help-) == --help-all ]] ||
+  fail "bash completes: $(offered det), $(offered detect --min-h), $(offered info --help-)"
 python3 tests/program/check_links.py "$prefix/share/doc/lacuna" || fail "links of the installed documents lead nowhere"
 
 if grep --quiet 'LACUNA_HARDENING:BOOL=ON' "$build_folder/CMakeCache.txt"; then

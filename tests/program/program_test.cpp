@@ -76,13 +76,26 @@ TEST_CASE("a run counts its loops in words") {
 TEST_CASE("help is for everything and version is one line") {
   CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
   CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info") && Contains("synth"));
-  const ProgramResult help = run_program({"detect", "--help"});
+  const ProgramResult help = run_program({"detect", "--help-all"});
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
   Config config;
   for (const Parameter& parameter : parameters(config)) {
-    CHECK_THAT(help.out, Contains(parameter.option()) && Contains(std::string(parameter.section)));
+    CHECK_THAT(help.out, Contains(parameter.option()) && Contains(std::string(parameter.section) + ":\n"));
   }
+}
+
+TEST_CASE("--help shows the options that people use, and --help-all of the program has every command") {
+  const std::string common = run_program({"detect", "--help"}).out;
+  for (const char* option : {"--out", "--min-hole", "--report", "--points", "--help-all"})
+    CHECK_THAT(common, Contains(option));
+  for (const char* option : {"--sigma", "--print-config", "--progress"})
+    CHECK_THAT(common, !Contains(option));
+  CHECK(test::count_lines(common) < 30);
+  const std::string all = run_program({"--help-all"}).out;
+  for (const char* part :
+       {"detect", "--sigma", "--print-config", "render", "--hide-above", "clean", "WORKSPACE"})
+    CHECK_THAT(all, Contains(part));
 }
 
 TEST_CASE("wrong usage has exit code 2 and one line that names it") {
@@ -103,8 +116,7 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
                 "eps");
-  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2,
-                "bar, plain, json, none");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
   check_failure(run_program({"info"}), 2, "SCAN");
   check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
   check_failure(run_program({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
@@ -192,7 +204,7 @@ TEST_CASE("a printed config read again prints the same") {
   const ScratchFolder scratch;
   const ProgramResult first =
       run_program({"detect", "--print-config", "--k", "20", "--eps", "0.25", "--points", "--memory-limit",
-                   "512MiB", "--columns", "x", "y", "z", "--workspace", "/a b/c"});
+                   "512MiB", "--columns", "x,y,z", "--workspace", "/a b/c"});
   REQUIRE(first.exit_code == 0);
   CHECK_THAT(first.out, Contains("\nk = 20\n") && Contains("\npoints = true\n") &&
                             Contains("columns = \"x y z\"") && Contains("memory_limit = \"512MiB\""));
@@ -267,55 +279,6 @@ TEST_CASE("a quiet run says nothing") {
   CHECK(result.exit_code == 0);
   CHECK(result.out.empty());
   CHECK(result.err.empty());
-}
-
-TEST_CASE("progress for programs is a JSON object per line, whose share never falls") {
-  const ScratchFolder scratch;
-  const ProgramResult result = run_program({"detect", scratch.write("scan.txt", sheet(100)), "--out",
-                                            (scratch / "out").string(), "--points", "--progress", "json"});
-  CHECK(result.exit_code == 0);
-  std::istringstream lines(result.err);
-  double share = 0, seconds = 0;
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    const auto now = nlohmann::json::parse(line);
-    CHECK(now.at("share") >= share);
-    CHECK(now.at("seconds") >= seconds);
-    share = now.at("share");
-    seconds = now.at("seconds");
-    last = now.at("stage");
-  }
-  CHECK(share == 1);
-  CHECK(last == "write");
-}
-
-TEST_CASE(
-    "a log file has the version, the command line, the times of stages and errors, each with its time") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  const std::string log = (scratch / "log.txt").string();
-  const auto detect = [&](const std::string& file, const std::string& log_file) {
-    return run_program(
-        {"detect", file, "--out", (scratch / "out").string(), "--quiet", "--log-file", log_file});
-  };
-  CHECK(detect(scan, log).exit_code == 0);
-  const std::string first = test::read_file(log);
-  CHECK_THAT(first, Contains(" info: lacuna ") && Contains(" detect " + scan + " --out ") &&
-                        Contains(" info: evaluate: done in ") && Contains(" info: write: done in "));
-  CHECK(first.substr(4, 1) == "-");
-  check_failure(detect("none\n.ply", log), 1, "none");
-  const std::string both = test::read_file(log);
-  CHECK(both.starts_with(first));
-  CHECK_THAT(both.substr(first.size()), Contains(" error: none") && Contains("cannot be opened"));
-  CHECK(test::count_lines(both.substr(first.size())) == 2);
-
-  check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
-  check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
-  check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
-  fs::create_symlink(scratch / "made", scratch / "link");
-  check_failure(detect(scan, (scratch / "link").string()), 1, "link: is a symbolic link to nothing");
-  CHECK_FALSE(fs::exists(scratch / "made"));
-  CHECK(test::read_file(scan) == sheet(20));
 }
 
 TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {
@@ -483,7 +446,7 @@ TEST_CASE("a signal while a scan is made leaves nothing") {
 TEST_CASE("names of columns are divided by blanks or commas, and end where a file is named") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  CHECK(run_program({"info", "--columns", "z", "y", "x", scan}).exit_code == 0);
+  CHECK(run_program({"info", "--columns", "z y x", scan}).exit_code == 0);
   CHECK(run_program({"info", "--columns", "z,y,x", scan}).exit_code == 0);
   check_failure(run_program({"info", "--columns", "a,b,c", scan}), 1, "no columns named x, y and z");
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/disk_check.hpp"
+#include "tools/run/disk_check.hpp"
 
 #include "engine/run/error.hpp"
 #include "io/results/result_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/run_costs.hpp"
+#include "tools/run/run_costs.hpp"
 
 #include <filesystem>
 #include <map>

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line's view of the parameters: one option each, generated from the list in engine/config.
+#pragma once
+
+#include "engine/config.hpp"
+#include "tools/console/command_line.hpp"
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::tools {
+
+struct EffectiveConfig {
+  Config config;
+  // One for each parameter without effect that was given: on the command line with any value, in the config
+  // file with another than the default. (A printed config has all parameters.)
+  std::vector<std::string> warnings;
+};
+
+class ParameterOptions {
+ public:
+  // Adds `--config` and an option for every parameter, grouped by section in --help.
+  explicit ParameterOptions(const Command& command);
+
+  // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
+  // and `WrongOption` for what is wrong on the command line.
+  EffectiveConfig read(Config config = {}) const;
+
+ private:
+  // The file's name; empty: none was given.
+  std::string read_file(Config& config, std::vector<std::string>& keys) const;
+  std::vector<std::string> idle_warnings(Config config, const std::vector<std::string>& keys_in_file) const;
+
+  struct Given {
+    std::string text;
+    std::optional<Option> option;
+  };
+  std::string config_file_;
+  std::deque<Given> given_;  // as in parameters(); a deque, because the options point into it
+};
+
+}  // namespace lacuna::tools
