@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Local coordinates are relative to an offset. A comment in the header of a PLY or PCD file states it:
+// Local coordinates are relative to an offset. A comment in the header of a PLY file states it:
 // "lacuna offset X Y Z". The coordinates of the scan are the sums.
 #pragma once
 

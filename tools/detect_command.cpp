@@ -95,14 +95,11 @@ fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
 }
 
 // Empty where every program reads what was written.
-std::string readers_note(const FileScan& scan, const OutputConfig& config,
-                         const std::vector<fs::path>& written) {
+std::string readers_note(const FileScan& scan, const OutputConfig& config) {
   if (scan.single_precision() || config.local_coordinates) return "";
-  const bool has_pcd = std::any_of(written.begin(), written.end(),
-                                   [](const fs::path& file) { return file.extension() == ".pcd"; });
-  return std::string("note: PCL takes the 64-bit coordinates of ") + (has_pcd ? "PLY and PCD" : "PLY") +
-         " files for 0 0 0" + (has_pcd ? ", Open3D those of PCD" : "") +
-         "; --local-coordinates helps, or --points --points-format las or csv\n";
+  return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "
+         "--points "
+         "--points-format csv\n";
 }
 
 }  // namespace
@@ -197,7 +194,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
-  summary += readers_note(scan, config.output, written);
+  summary += readers_note(scan, config.output);
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/laz/laz.hpp"
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

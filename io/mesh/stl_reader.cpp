@@ -69,13 +69,6 @@ class BinaryStl final : public ScanReader {
       in_.read(batch.bytes.data() + row * kVertexBytes, kVertexBytes);
       if (left_ % 3 == 1) in_.skip(kTriangleBytes - kNormalBytes - 3 * kVertexBytes);
     }
-    if constexpr (std::endian::native == std::endian::big) {
-      for (const Property& property : layout_.properties) {
-        swap_bytes(
-            {.data = batch.bytes.data() + property.offset, .stride = kVertexBytes, .type = property.type},
-            batch.count);
-      }
-    }
     return batch.count > 0;
   }
 

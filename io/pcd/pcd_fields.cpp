@@ -121,14 +121,4 @@ void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLa
   }
 }
 
-void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count) {
-  const std::size_t stride = header.row_bytes();
-  std::size_t offset = 0;
-  for (const PcdField& field : header.fields) {
-    for (std::size_t i = 0; i < field.count; ++i, offset += field.size) {
-      swap_bytes({.data = raw + offset, .stride = stride, .type = scalar_of(field)}, count);
-    }
-  }
-}
-
 }  // namespace lacuna::io

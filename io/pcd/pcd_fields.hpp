@@ -34,7 +34,4 @@ RowLayout pcd_layout(const InputFile& in, const PcdHeader& header);
 void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLayout& layout,
                       RowBatch& batch);
 
-// Reverses the bytes of every value.
-void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count);
-
 }  // namespace lacuna::io

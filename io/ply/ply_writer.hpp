@@ -3,8 +3,8 @@
 #pragma once
 
 #include "io/local_offset.hpp"
+#include "io/output_file.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/results/output_file.hpp"
 
 #include <cstdint>
 #include <span>

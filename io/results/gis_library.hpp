@@ -5,8 +5,8 @@
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
+#include "io/output_file.hpp"
 #include "io/results/loops_gis.hpp"
-#include "io/results/output_file.hpp"
 
 namespace lacuna::io {
 

@@ -5,7 +5,7 @@
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include <filesystem>
 #include <string_view>

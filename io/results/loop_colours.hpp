@@ -11,11 +11,10 @@ namespace lacuna::io {
 
 struct LoopColour {
   std::uint8_t red, green, blue;
-  int index;  // the nearest one of AutoCAD's colour index
 };
 
-inline constexpr LoopColour kHoleColour{230, 80, 30, 20};
-inline constexpr LoopColour kOuterColour{30, 130, 230, 150};
+inline constexpr LoopColour kHoleColour{230, 80, 30};
+inline constexpr LoopColour kOuterColour{30, 130, 230};
 
 constexpr const LoopColour& colour_of(LoopKind kind) {
   return kind == LoopKind::kHole ? kHoleColour : kOuterColour;

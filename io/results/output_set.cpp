@@ -147,6 +147,15 @@ void check_subfolder(const fs::path& folder) {
               ", and a folder of this name is needed: remove it, or choose another place");
 }
 
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  if (fs::symlink_status(folder, error).type() != fs::file_type::directory) return names;
+  for (const auto& entry : fs::directory_iterator(folder, error)) names.push_back(entry.path().filename());
+  if (error) throw Error(folder.string() + ": cannot be read: " + error.message());
+  return names;
+}
+
 OutputFile& OutputSet::add(const fs::path& file, const FileMark& mark, Writer writer) {
   const auto found = find_file(file);
   check_output(file, mark, overwrite_);
@@ -161,17 +170,15 @@ void OutputSet::drop(const fs::path& file, const FileMark& mark) {
   if (is_own_file(file, mark)) join(place_of(file.parent_path(), ""), file.filename(), found);
 }
 
-void OutputSet::write_in(const fs::path& folder, const std::string& subfolder, const std::string& name,
-                         const FileMark& mark, const std::function<void(OutputFile&)>& write) {
+std::unique_ptr<OutputFile> OutputSet::open_in(const fs::path& folder, const std::string& subfolder,
+                                               const std::string& name, const FileMark& mark) {
   const fs::path file = folder / subfolder / name;
   const auto found = find_file(file);
   check_output(file, mark, overwrite_);
   Place& place = place_of(folder, subfolder);
   Member& member = join(place, name, found);
   place.has_new = member.is_new = true;
-  OutputFile out(file, member.staged());
-  write(out);
-  out.close_unsynced();
+  return std::make_unique<OutputFile>(file, member.staged());
 }
 
 void OutputSet::drop_in(const fs::path& folder, const std::string& subfolder, const std::string& name,

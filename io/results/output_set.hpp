@@ -21,11 +21,10 @@
 #pragma once
 
 #include "engine/store/temporary_folder.hpp"
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -68,6 +67,9 @@ void check_output(const std::filesystem::path& file, const FileMark& mark, Overw
 // Throws `Error` if files may not be written to this subfolder: something else than a folder has the name.
 void check_subfolder(const std::filesystem::path& folder);
 
+// The names in the folder, in no order. None where it is a link or does not exist. Throws `Error`.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
 class OutputSet {
  public:
   explicit OutputSet(Overwrite overwrite) : overwrite_(overwrite) {}
@@ -81,9 +83,9 @@ class OutputSet {
   void drop(const std::filesystem::path& file, const FileMark& mark);
 
   // These do the same for `name` in `folder / subfolder`, which need not exist. There may be many such files:
-  // each takes less than 400 bytes of memory once `write` has written its content.
-  void write_in(const std::filesystem::path& folder, const std::string& subfolder, const std::string& name,
-                const FileMark& mark, const std::function<void(OutputFile&)>& write);
+  // each takes less than 400 bytes of memory once it is gone. The caller writes and closes it before commit.
+  std::unique_ptr<OutputFile> open_in(const std::filesystem::path& folder, const std::string& subfolder,
+                                      const std::string& name, const FileMark& mark);
   void drop_in(const std::filesystem::path& folder, const std::string& subfolder, const std::string& name,
                const FileMark& mark);
 

@@ -23,7 +23,7 @@ LACUNA_API void check_output_folder(const FileScan& scan, const Config& config,
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
 // requests, as one set (io/results/output_set.hpp). The report is made of the others before any has its name.
-// A file of an earlier run that this one does not write, such as points.ply, does not belong to the new
+// A file of an earlier run that this one does not write, such as loops.obj, does not belong to the new
 // results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
                                                             const Config& config,

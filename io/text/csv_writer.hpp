@@ -2,7 +2,7 @@
 // Rows of scalars as lines of text, divided by commas, with a header line.
 #pragma once
 
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 #include "io/scan_reader.hpp"
 
 #include <cstddef>

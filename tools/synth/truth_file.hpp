@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/results/loops_reader.hpp"
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include "io/ply/ply_writer.hpp"
 #include "tests/io/io_support.hpp"

@@ -276,7 +276,9 @@ TEST_CASE("the files of a set may lie in several folders", "[io]") {
 namespace {
 
 void write_in(OutputSet& set, const ScratchFolder& folder, const std::string& name) {
-  set.write_in(folder.path(), "sub", name, kMark, [](OutputFile& out) { out.write("mine: new"); });
+  const auto out = set.open_in(folder.path(), "sub", name, kMark);
+  out->write("mine: new");
+  out->close_unsynced();
 }
 
 Names names_in(const fs::path& folder) {
