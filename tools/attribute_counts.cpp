@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/attribute_counts.hpp"
 
-#include "io/vectors.hpp"
+#include "io/rows/vectors.hpp"
 #include "tools/summary.hpp"
 
 #include <array>

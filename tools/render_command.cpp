@@ -2,10 +2,10 @@
 #include "tools/render_command.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/files/output_set.hpp"
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
-#include "io/results/output_set.hpp"
 #include "tools/value_options.hpp"
 #include "tools/visible_text.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/workspace/workspace.hpp"
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
 #include "io/results/results.hpp"
 #include "tools/compare_command.hpp"
 #include "tools/detect_command.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_extra.hpp"
 
-#include "io/little_endian.hpp"
-#include "io/scalar.hpp"
+#include "io/files/little_endian.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

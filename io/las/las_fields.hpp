@@ -2,7 +2,7 @@
 // Where the fields of each point format are in a record (ASPRS LAS specification 1.4 R15, section 2.6).
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>

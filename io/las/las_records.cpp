@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_records.hpp"
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/las/las_bytes.hpp"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // them. Source: ASPRS LAS specification 1.4 R15, sections 2.5 to 2.7.
 #pragma once
 
+#include "io/files/output_file.hpp"
 #include "io/las/las_header.hpp"
-#include "io/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

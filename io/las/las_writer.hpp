@@ -3,9 +3,9 @@
 // specification 1.4 R15).
 #pragma once
 
+#include "io/files/output_file.hpp"
 #include "io/las/las_header.hpp"
 #include "io/las/las_points_writer.hpp"
-#include "io/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_fields.hpp"
 
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <array>
 #include <bit>

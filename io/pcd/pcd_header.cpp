@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_header.hpp"
 
-#include "io/line_words.hpp"
-#include "io/number.hpp"
-#include "io/scan_reader.hpp"
+#include "io/files/line_words.hpp"
+#include "io/files/number.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <limits>
 #include <optional>

@@ -3,7 +3,7 @@
 // https://pointclouds.org/documentation/tutorials/pcd_file_format.html
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_reader.hpp"
 
-#include "io/number.hpp"
+#include "io/files/number.hpp"
 #include "io/pcd/pcd_fields.hpp"
 #include "io/pcd/pcd_rows.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_rows.hpp"
 
-#include "io/line_words.hpp"
+#include "io/files/line_words.hpp"
 #include "io/pcd/pcd_fields.hpp"
 
 #include <algorithm>

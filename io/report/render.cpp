@@ -2,9 +2,9 @@
 #include "io/report/render.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_colours.hpp"
 #include "io/report/percentile.hpp"
-#include "io/results/loop_colours.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // The page of a report, with a scene as its data.
 #pragma once
 
-#include "io/output_file.hpp"
+#include "io/files/output_file.hpp"
 #include "io/report/match_marks.hpp"
 #include "io/report/scene.hpp"
 

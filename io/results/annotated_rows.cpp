@@ -2,8 +2,8 @@
 #include "io/results/annotated_rows.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "io/scalar.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>

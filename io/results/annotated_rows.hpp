@@ -4,9 +4,9 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <functional>

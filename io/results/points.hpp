@@ -15,8 +15,8 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstdint>
 #include <filesystem>

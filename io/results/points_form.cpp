@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/points_form.hpp"
 
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 namespace lacuna::io {
 

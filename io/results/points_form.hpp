@@ -3,10 +3,10 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
-#include "io/output_file.hpp"
+#include "io/files/output_file.hpp"
 #include "io/results/annotated_rows.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "io/files/property_name.hpp"
 #include "io/ply/ply_writer.hpp"
-#include "io/property_name.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"

@@ -3,7 +3,7 @@
 // half-written.
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
