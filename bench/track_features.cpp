@@ -11,7 +11,7 @@
 #include "engine/track/level_loops.hpp"
 #include "engine/track/near_loops.hpp"
 #include "engine/track/track_all.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstdio>
 #include <exception>

@@ -16,7 +16,7 @@ constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
 constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
-constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv", "laz"};
+constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
 template <class Enum>
 NamedValue named(Enum& value, std::span<const std::string_view> names) {
@@ -163,10 +163,9 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write the annotated scan too: every point of the input with its probabilities.", kNothing},
-      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 5,
-       "input, ply, las, pcd, csv or laz",
-       "Format of the annotated scan and of cut-outs; input: that of the scan, PLY where it cannot be "
-       "written.",
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2,
+       "input, ply or csv",
+       "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        kPointsFiles},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to the annotated scan, unless a scan brings its own.", kPoints},
@@ -174,11 +173,7 @@ std::vector<Parameter> parameters(Config& config) {
        "Write probability.vdb too: the boundary probability as a grid of OpenVDB, for Houdini and Blender.",
        kNothing},
       {"output", "obj", &output.obj, 0, 1, "true or false",
-       "Write loops.obj too: the loops as polylines, for CAD and Blender.", kNothing},
-      {"output", "dxf", &output.dxf, 0, 1, "true or false",
-       "Write loops.dxf too: the loops as closed 3D polylines, for CAD.", kNothing},
-      {"output", "vtp", &output.vtp, 0, 1, "true or false",
-       "Write loops.vtp too: the loops with their measures, for ParaView and VTK.", kNothing},
+       "Write loops.obj too: the loops as polylines, for CAD, ParaView and Blender.", kNothing},
       {"output", "gpkg", &output.gpkg, 0, 1, "true or false",
        "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS.", kNothing},
       {"output", "geojson", &output.geojson, 0, 1, "true or false",
@@ -206,7 +201,7 @@ std::vector<Parameter> parameters(Config& config) {
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone.",
        kNothing},
       {"output", "local_coordinates", &output.local_coordinates, 0, 1, "true or false",
-       "Coordinates of PLY and PCD files are 32-bit floats relative to an offset, which their headers state.",
+       "Coordinates of PLY files are 32-bit floats relative to an offset, which their headers state.",
        kNothing},
       {"output", "sample_points", &output.sample_points, 0, 1e8, "a whole number from 0 to 100000000",
        "Points of sample.ply at most, spread evenly over the surface, for report and render; 0: no sample.",

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/scan_arrays.hpp"
+#include "io/scan/scan_arrays.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -5,7 +5,7 @@
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/store/scratch_place.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <memory>
 #include <string>

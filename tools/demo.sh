@@ -29,7 +29,7 @@ docs/evaluate.md has the numbers.
 Open it in a browser, by a double click:
   $PWD/demo/holes/report.html   the scan and its holes in 3D
 or in CloudCompare or MeshLab:
-  $PWD/demo/holes/points.ply    every point, with its boundary probability
+  $PWD/demo/holes/points/scan.ply  every point, with its boundary probability
   $PWD/demo/holes/boundary.ply  the boundary points
   $PWD/demo/holes/loops.ply     the loops around the holes
 and at $PWD/demo/holes/holes.csv for their measures; "loop 3" above has the id 3 there.

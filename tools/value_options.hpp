@@ -2,7 +2,7 @@
 // Options whose values are checked before they are used: an error says what is allowed.
 #pragma once
 
-#include "io/number.hpp"
+#include "io/files/number.hpp"
 
 #include <array>
 #include <cstddef>

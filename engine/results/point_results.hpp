@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of every point of the input, for points.ply.
+// Results of every point of the input, for the annotated scan.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ply/mesh_reader.hpp"
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/ply/ply_body.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/ply/ply_rows.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <span>

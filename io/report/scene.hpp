@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
-#include "io/results/json.hpp"
+#include "io/loops/json.hpp"
 
 #include <array>
 #include <cstddef>

@@ -4,8 +4,8 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/results/output_file.hpp"
+#include "io/files/output_file.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <filesystem>
 #include <string_view>

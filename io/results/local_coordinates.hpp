@@ -5,8 +5,8 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/results/output_file.hpp"
+#include "io/files/output_file.hpp"
 
 #include <string_view>
 

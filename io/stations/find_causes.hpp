@@ -7,7 +7,7 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "engine/model/cause.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/field_of_view.hpp"
 #include "io/stations/path_view.hpp"
 #include "io/stations/range_image.hpp"

@@ -91,7 +91,7 @@ class Setting:
                         "--positions", "random", *more], check=True, stdout=subprocess.DEVNULL)
 
     def options(self, threads=1):
-        return ["--points", "--tile-points", "2000", "--threads", str(threads)]
+        return ["--points", "--points-format", "ply", "--tile-points", "2000", "--threads", str(threads)]
 
     def box(self, name):
         return ["--leave-out=" + BOX] if name == "leave-out" else []

@@ -16,8 +16,9 @@ struct Files {
 };
 
 Files detect_files(const std::string& scan, const fs::path& out, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"detect",  scan,       "--out",     out.string(),
-                                        "--quiet", "--points", "--normals", "--orient-normals"};
+  std::vector<std::string> arguments = {
+      "detect",          scan,  "--out",     out.string(),      "--quiet", "--points",
+      "--points-format", "ply", "--normals", "--orient-normals"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const test::ProgramResult result = test::run_program(arguments);
   INFO(result.err);

@@ -228,7 +228,7 @@ class Files(Folder):
         holes = lacuna.find_holes(SHEET, points=True, attributes={"red": np.arange(len(SHEET), dtype=np.uint8)})
         written = holes.save(self.folder / "out", obj=True, points=True)
         self.assertIn("loops.obj", [file.name for file in written])
-        self.assertIn(b"property uchar red", (self.folder / "out/points.ply").read_bytes()[:2000])
+        self.assertIn(b"property uchar red", (self.folder / "out/points/arrays.ply").read_bytes()[:2000])
         loaded = lacuna.load(self.folder / "out")
         self.assertTrue(same_loops(loaded, holes))
         for name in ("xyz", "area", "centroid", "is_outer", "points", "confidence"):

@@ -105,9 +105,9 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
 void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected) {
   for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"})
     CHECK(std::filesystem::exists(expected / name));
-  for (const auto& entry : std::filesystem::directory_iterator(expected)) {
-    const std::filesystem::path name = entry.path().filename();
-    if (name == "run.json") continue;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(expected)) {
+    const std::filesystem::path name = entry.path().lexically_relative(expected);
+    if (name == "run.json" || !entry.is_regular_file()) continue;
     INFO(name);
     CHECK((read_file(folder / name) == read_file(entry.path())));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // True loops of scenes whose outlines are computed by hand.
-#include "io/results/loops_reader.hpp"
+#include "io/loops/loops_reader.hpp"
 #include "tests/synth/made.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/trig.hpp"

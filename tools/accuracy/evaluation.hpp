@@ -2,7 +2,7 @@
 // A result held against the truth: files in, scores out.
 #pragma once
 
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tools/accuracy/boundary_points.hpp"
 #include "tools/accuracy/match_loops.hpp"
 #include "tools/accuracy/true_loops.hpp"

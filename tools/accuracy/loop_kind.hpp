@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
-#include "io/results/loops_reader.hpp"
+#include "io/loops/loops_reader.hpp"
 #include "tools/accuracy/point_tree.hpp"
 
 #include <optional>

@@ -2,8 +2,8 @@
 // Loops around places of the true surface where the scan has no points.
 #pragma once
 
+#include "io/loops/loops_reader.hpp"
 #include "io/ply/mesh_reader.hpp"
-#include "io/results/loops_reader.hpp"
 
 #include <cstdint>
 #include <span>

@@ -8,8 +8,8 @@
 #include "engine/store/temporary_folder.hpp"
 #include "engine/workspace/workspace.hpp"
 #include "engine/workspace/workspace_state.hpp"
-#include "io/file_scan.hpp"
 #include "io/results/results.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/find_causes.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
@@ -86,14 +86,11 @@ fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
 }
 
 // Empty where every program reads what was written.
-std::string readers_note(const FileScan& scan, const OutputConfig& config,
-                         const std::vector<fs::path>& written) {
+std::string readers_note(const FileScan& scan, const OutputConfig& config) {
   if (scan.single_precision() || config.local_coordinates) return "";
-  const bool has_pcd = std::any_of(written.begin(), written.end(),
-                                   [](const fs::path& file) { return file.extension() == ".pcd"; });
-  return std::string("note: PCL takes the 64-bit coordinates of ") + (has_pcd ? "PLY and PCD" : "PLY") +
-         " files for 0 0 0" + (has_pcd ? ", Open3D those of PCD" : "") +
-         "; --local-coordinates helps, or --points --points-format las or csv\n";
+  return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "
+         "--points "
+         "--points-format csv\n";
 }
 
 }  // namespace
@@ -188,7 +185,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
-  summary += readers_note(scan, config.output, written);
+  summary += readers_note(scan, config.output);
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";

@@ -2,7 +2,7 @@
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/shown_progress.hpp"
 #include "tools/run/parameter_options.hpp"

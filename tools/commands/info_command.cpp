@@ -4,10 +4,11 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "io/file_scan.hpp"
-#include "io/results/json.hpp"
+#include "io/formats.hpp"
+#include "io/loops/json.hpp"
 #include "io/results/points.hpp"
 #include "io/results/result_bytes.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
@@ -89,11 +90,12 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 }
 
 // Some scans have more columns than a format holds with the results.
-std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConfig& config) {
-  if (config.points) check_points(scan, config);
+std::optional<std::uint64_t> size_of_points(const FileScan& scan, const OutputConfig& config,
+                                            std::uint64_t rows) {
   try {
-    return point_row_bytes(scan, config);
+    return points_bytes(scan, config, rows).all;
   } catch (const Error&) {
+    if (config.points) throw;
     return std::nullopt;
   }
 }
@@ -113,9 +115,8 @@ RunInfo inspect_run(FileScan& scan, const Config& config) {
   const Summary& summary = run.inspection.summary;
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
-  run.points_file = points_file(scan, config.output);
-  run.points_bytes = points_bytes(scan, config.output);
-  if (run.points_bytes) *run.points_bytes *= counts.points;
+  run.points_file = points_name(config.output);
+  run.points_bytes = size_of_points(scan, config.output, counts.points);
   run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
   run.costs = run_costs(scan, config, counts.points, points);
   return run;

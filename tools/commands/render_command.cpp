@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/files/output_set.hpp"
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
-#include "io/results/output_set.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"

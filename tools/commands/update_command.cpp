@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "engine/workspace/workspace.hpp"
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
 #include "io/results/results.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/compare_command.hpp"

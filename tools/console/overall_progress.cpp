@@ -33,7 +33,7 @@ constexpr std::array<TypicalTime, 15> kTypicalTimes{{{"survey", 3},
                                                      {"orient", 15},
                                                      {"collect", 0.5},
                                                      {"write", 3}}};
-constexpr double kWritePoints = 10;  // points.ply
+constexpr double kWritePoints = 10;  // the annotated scan
 constexpr double kUnknownStage = 3;
 constexpr double kLeastShare = 0.01;  // below, the time left is a guess
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/attribute_counts.hpp"
 
-#include "io/vectors.hpp"
+#include "io/rows/vectors.hpp"
 #include "tools/console/measures_text.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 // How many points of a file are of each class and kind of return.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "engine/config.hpp"
 #include "engine/run/disk_space.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -2,10 +2,10 @@
 #include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/input_file.hpp"
-#include "io/number.hpp"
-#include "io/pose.hpp"
-#include "io/scan_reader.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/number.hpp"
+#include "io/rows/pose.hpp"
+#include "io/rows/scan_reader.hpp"
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // The scan files that the user names, one by one, by folder or in a list.
 #pragma once
 
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -13,8 +13,8 @@ namespace lacuna::tools {
 // that are not read are passed over, the last with a warning. A folder with an ept.json, or that file, stands
 // for the LAZ files in its ept-data. "@FILE" stands for the files named in it, one
 // per line, relative to its folder; blank lines and lines that begin with # are passed over. A pose may
-// follow the name: `pose=` and its numbers, or a file that holds them (io/pose.hpp). Throws `Error` where a
-// folder or list names no scan, where a pose is not valid, and for "-".
+// follow the name: `pose=` and its numbers, or a file that holds them (io/rows/pose.hpp). Throws `Error`
+// where a folder or list names no scan, where a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                          const io::ReadOptions& options);
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/config.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstdint>
 

@@ -217,14 +217,6 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
       warnings.push_back(warning.str());
     }
   }
-  // Points of LAS files are finite, so that all of these are from other formats.
-  const std::uint64_t not_finite = counts.dropped - scan.filtered_out().total();
-  const PointsFormat format = points_format(scan, config.output);
-  const bool is_las = format == PointsFormat::kLas || format == PointsFormat::kLaz;
-  if (config.output.points && not_finite > 0 && is_las) {
-    warnings.push_back(points_file(scan, config.output) + " is without the " + print_count(not_finite) +
-                       " points that have no finite position, which LAS cannot hold; ids count them");
-  }
   return warnings;
 }
 

@@ -4,7 +4,7 @@
 
 #include "engine/config.hpp"
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // A binary PLY of points, streamed: the count is filled in at the end.
 #pragma once
 
-#include "io/results/output_file.hpp"
+#include "io/files/output_file.hpp"
 #include "tools/synth/vec3.hpp"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "tools/synth/scan.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/results/digits.hpp"
+#include "io/files/number.hpp"
 #include "tools/synth/scan_truth.hpp"
 #include "tools/synth/scanner.hpp"
 #include "tools/synth/truth_file.hpp"

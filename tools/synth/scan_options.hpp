@@ -2,7 +2,7 @@
 // The options of `lacuna synth scan`. A flight has a range and a field of view of its own.
 #pragma once
 
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/ply_output.hpp"
 #include "tools/synth/scene.hpp"

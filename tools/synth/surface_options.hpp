@@ -2,7 +2,7 @@
 // The options of `lacuna synth surface`.
 #pragma once
 
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
 #include "tools/synth/permutation.hpp"
 #include "tools/synth/ply_output.hpp"
 

@@ -2,8 +2,8 @@
 // The file of true loops of a synthetic scan.
 #pragma once
 
-#include "io/results/loops_reader.hpp"
-#include "io/results/output_file.hpp"
+#include "io/files/output_file.hpp"
+#include "io/loops/loops_reader.hpp"
 
 #include <cstdint>
 #include <filesystem>
