@@ -4,6 +4,7 @@
 #include "engine/run/error.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/number.hpp"
+#include "io/formats.hpp"
 #include "io/rows/pose.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "tools/console/visible_text.hpp"
