@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of scans and results, as a library: `#include <lacuna/lacuna_io.hpp>`, target lacuna::io.
 //
-// - Scans: `io::FileScan` (io/scan/file_scan.hpp) is a `PointSource` of files, which `find_holes` and
-// `detect` take.
-//   `io::open_scan` (io/rows/scan_reader.hpp) reads rows of one file with all columns.
+// - Scans: `io::FileScan` (io/scan/file_scan.hpp) is a `PointSource` of files, for `find_holes` and `detect`.
+//   `io::open_scan` (io/formats.hpp) reads rows of one file with all columns.
 // - Results: `io::write_results` (io/results/results.hpp) writes what `lacuna detect` writes.
 // - The report: `io::write_report` (io/report/report.hpp) makes it from results in a folder.
 #pragma once
 
+#include "io/formats.hpp"
 #include "io/report/report.hpp"
 #include "io/results/results.hpp"
-#include "io/rows/scan_reader.hpp"
 #include "io/scan/file_scan.hpp"
