@@ -442,7 +442,7 @@ TEST_CASE("a signal while a scan is made leaves nothing") {
   CHECK(count_entries(scratch.path()) == 0);
 }
 
-TEST_CASE("names of columns are divided by blanks or commas, and end where a file is named") {
+TEST_CASE("names of columns are divided by blanks or commas") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   CHECK(run_program({"info", "--columns", "z y x", scan}).exit_code == 0);
