@@ -49,8 +49,8 @@ class Help final : public CLI::Formatter {
     const Options own = chosen(options_of(*app), [&](const CLI::Option* option) {
       return option != app->get_help_ptr() && option != app->get_help_all_ptr();
     });
-    return "\nlacuna " + app->get_name() + ":\n" + make_description(app) + make_positionals(app) +
-           by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
+    return "\n" + app->get_parent()->get_name() + " " + app->get_name() + ":\n" + make_description(app) +
+           make_positionals(app) + by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
   }
 
   // The name of an argument says what it takes.
