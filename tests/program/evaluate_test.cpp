@@ -182,14 +182,6 @@ TEST_CASE("the tolerance is in spacings") {
   CHECK(evaluate({found, truth, "--scan", scan, "--tolerance", "1.99"}).at("found") == 0);
 }
 
-TEST_CASE("true loops too short to count are the user's to say") {
-  const Made made;
-  const auto large = evaluate({made.out, made.truth, "--min-vertices", "100"});
-  CHECK(large.at("true") == 1);
-  CHECK(large.at("short") == 3);
-  CHECK(large.at("false") == 0);
-}
-
 TEST_CASE("the truth of a mesh is its boundary, without vertices that no face uses") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("square.ply", kSquare);

@@ -33,18 +33,6 @@ inline std::uint64_t fnv1a(const std::string& bytes) {
   return hash;
 }
 
-// A scan of `options`, written twice, has the same bytes; with another seed it has others.
-template <typename Options, typename Summary>
-void check_seed(Options options, Summary (*write)(const Options&)) {
-  write(options);
-  const std::string first = read_file(options.out);
-  write(options);
-  CHECK(read_file(options.out) == first);
-  ++options.seed;
-  write(options);
-  CHECK(read_file(options.out) != first);
-}
-
 // `options` make a scan, and after `change` are refused in one line that leaves no file.
 template <typename Options, typename Summary, typename Change>
 void check_refused(const ScratchFolder& folder, Options options, Summary (*write)(const Options&),

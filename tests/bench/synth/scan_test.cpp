@@ -101,11 +101,6 @@ TEST_CASE("leaves stop more rays the longer the way through them is, and their p
   CHECK(double(in_leaves) / double(in_leaves + below) == Approx(2.0 / 5).margin(0.05));
 }
 
-TEST_CASE("a scan of the same seed has the same bytes, of another seed other bytes") {
-  const ScratchFolder folder;
-  check_seed(small(folder), write_scan);
-}
-
 TEST_CASE(
     "a scan and its true loops have the bytes that they had on the machine where this test was written") {
   const ScratchFolder folder;
@@ -145,20 +140,6 @@ TEST_CASE("a scan has about the wanted number of points, of every station, with 
     }
     for (const std::size_t count : of_station) CHECK(count > 2500);
   }
-}
-
-TEST_CASE("random order has the rows of scanline order, in another order") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder, SceneKind::kCourt);
-  write_scan(options);
-  auto in_scanlines = rows_of(options.out, kStride);
-  options.order = Order::kRandom;
-  write_scan(options);
-  auto at_random = rows_of(options.out, kStride);
-  CHECK(in_scanlines != at_random);
-  std::sort(in_scanlines.begin(), in_scanlines.end());
-  std::sort(at_random.begin(), at_random.end());
-  CHECK(in_scanlines == at_random);
 }
 
 TEST_CASE("without noise and outliers the room's points lie on it, and its windows are empty") {

@@ -23,15 +23,6 @@ long status_kilobytes(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("a surface of the same seed has the same bytes, of another seed other bytes") {
-  const ScratchFolder folder;
-  for (const PositionKind positions : kAllPositions) {
-    SurfaceOptions options = small_surface(folder);
-    options.positions = positions;
-    check_seed(options, write_surface);
-  }
-}
-
 // A truth file as it was before its loops had names.
 static std::string without_names(const std::string& truth) {
   std::istringstream lines(truth);
