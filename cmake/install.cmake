@@ -63,7 +63,8 @@ foreach(page engine/README.md engine/store/README.md tools/README.md bench/READM
 endforeach()
 install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library PATTERN __pycache__ EXCLUDE)
 
-# tools/package.sh makes the manual page, which has what --help-all says.
+# tools/package.sh makes the manual pages, which have what --help-all says.
 install(FILES ${PROJECT_BINARY_DIR}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/lacuna-bench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT bench OPTIONAL)
 install(FILES tools/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
         COMPONENT program)

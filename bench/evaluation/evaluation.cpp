@@ -3,6 +3,7 @@
 
 #include "bench/evaluation/loop_kind.hpp"
 #include "bench/evaluation/mesh_boundary.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
 #include "bench/evaluation/polylines.hpp"
 #include "bench/evaluation/spacing.hpp"
 #include "bench/evaluation/step_loops.hpp"
@@ -10,7 +11,6 @@
 #include "io/files/input_file.hpp"
 #include "io/loops/json.hpp"
 #include "io/loops/loops_reader.hpp"
-#include "io/ply/mesh_reader.hpp"
 #include "io/ply/ply_reader.hpp"
 #include "io/scan/file_scan.hpp"
 

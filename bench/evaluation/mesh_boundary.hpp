@@ -2,7 +2,7 @@
 // The true loops of a mesh.
 #pragma once
 
-#include "io/ply/mesh_reader.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
 #include "tools/matching/true_loops.hpp"
 
 #include <cstdint>
@@ -27,7 +27,7 @@ using namespace matching;
 // odd number of boundary edges, and each is an open loop.
 //
 // Triangles with two corners at one place have no area and do not count. Cost: n log n.
-std::vector<TrueLoop> mesh_boundary(std::span<const io::Triangle> triangles,
+std::vector<TrueLoop> mesh_boundary(std::span<const Triangle> triangles,
                                     std::span<const std::uint64_t> stand_ins,
                                     std::span<const Eigen::Vector3d> positions);
 

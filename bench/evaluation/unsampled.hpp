@@ -2,8 +2,8 @@
 // Loops around places of the true surface where the scan has no points.
 #pragma once
 
+#include "bench/evaluation/mesh_reader.hpp"
 #include "io/loops/loops_reader.hpp"
-#include "io/ply/mesh_reader.hpp"
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ namespace lacuna::evaluation {
 
 struct Surface {
   std::vector<Eigen::Vector3d> positions;
-  std::vector<io::Triangle> triangles;
+  std::vector<Triangle> triangles;
 };
 
 // A scan and its spacing. Ids are places in `positions`.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/mesh_boundary.hpp"
 
-#include "tests/bench/evaluation/drawn.hpp"
 #include "tests/support/clouds.hpp"
+#include "tests/tools/matching/drawn.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/step_loops.hpp"
 
-#include "tests/bench/evaluation/drawn.hpp"
+#include "tests/tools/matching/drawn.hpp"
 
 #include <catch2/catch.hpp>
 

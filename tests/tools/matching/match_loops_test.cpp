@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/matching/match_loops.hpp"
 
-#include "tests/bench/evaluation/drawn.hpp"
+#include "tests/tools/matching/drawn.hpp"
 
 #include <limits>
 

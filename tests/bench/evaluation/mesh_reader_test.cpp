@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/ply/mesh_reader.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
 
 #include "tests/io/broken_files.hpp"
 
@@ -7,6 +7,7 @@
 
 namespace lacuna::test {
 using namespace io;
+using namespace evaluation;
 
 namespace {
 

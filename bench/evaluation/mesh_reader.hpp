@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace lacuna::io {
+namespace lacuna::evaluation {
 
 // Rows of element "vertex".
 using Triangle = std::array<std::uint64_t, 3>;
@@ -17,4 +17,4 @@ using Triangle = std::array<std::uint64_t, 3>;
 // not a complete PLY, has no such list, or a face names a vertex that does not exist.
 std::vector<Triangle> read_triangles(const std::filesystem::path& file);
 
-}  // namespace lacuna::io
+}  // namespace lacuna::evaluation

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna::evaluation {
+namespace lacuna::matching {
 
 struct Drawing {
   std::vector<Eigen::Vector3d> positions;
@@ -40,4 +40,4 @@ inline io::LoopIds part(const io::LoopIds& loop, double share) {
   return {loop.begin(), loop.begin() + count};
 }
 
-}  // namespace lacuna::evaluation
+}  // namespace lacuna::matching

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/ply/mesh_reader.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
 
 #include "io/files/input_file.hpp"
 #include "io/ply/ply_body.hpp"
@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <span>
 
-namespace lacuna::io {
+namespace lacuna::evaluation {
+using namespace io;
+
 namespace {
 
 const PlyElement& find_element(const InputFile& in, const PlyHeader& header, std::string_view name) {
@@ -68,4 +70,4 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
   return triangles;
 }
 
-}  // namespace lacuna::io
+}  // namespace lacuna::evaluation
