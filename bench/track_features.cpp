@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the confidence of every loop is computed from, at every level of one scan, with default parameters. Of
-// two files for bench/accuracy/calibrate.py, one has the loops as `lacuna evaluate` reads them. The other has
-// their numbers, in the same order.
+// two files for bench/accuracy/calibrate.py, one has the loops as `lacuna-bench evaluate` reads them. The
+// other has their numbers, in the same order.
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/config.hpp"
 #include "engine/pipeline_steps.hpp"

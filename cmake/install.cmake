@@ -5,6 +5,9 @@ include(CMakePackageConfigHelpers)
 include(cmake/public_headers.cmake)
 
 install(TARGETS lacuna COMPONENT program)
+if(LACUNA_BENCH_PROGRAM)
+  install(TARGETS lacuna-bench COMPONENT bench OPTIONAL)
+endif()
 install(TARGETS lacuna_gis LIBRARY DESTINATION lib/lacuna COMPONENT gis)  # where the program looks for it
 
 # The libraries: lacuna::lacuna, lacuna::io with the files, and lacuna::shared with both.
@@ -54,13 +57,14 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE THIRD_
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
         PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
-foreach(page engine/README.md engine/store/README.md tools/README.md bench/README.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
+foreach(page engine/README.md engine/store/README.md tools/README.md bench/README.md bench/SPEED.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
 install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library PATTERN __pycache__ EXCLUDE)
 
-# tools/package.sh makes the manual page, which has what --help-all says.
+# tools/package.sh makes the manual pages, which have what --help-all says.
 install(FILES ${PROJECT_BINARY_DIR}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/lacuna-bench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT bench OPTIONAL)
 install(FILES tools/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
         COMPONENT program)

@@ -4,6 +4,7 @@
 # of what is missing, unless all of these programs are installed.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
+bench=${LACUNA_BENCH_PROGRAM:?}
 python=/usr/bin/python3  # Debian's own: python3-vtk9 is a package of it
 
 missing=()
@@ -23,7 +24,7 @@ chmod 700 "$work"
 cd "$work"
 
 # One scan near the origin, for programs of single precision, and the same one on Earth.
-"$program" synth surface near.ply --points 12000 --holes 4 --hole-radius 3 6 --order random >/dev/null
+"$bench" synth surface near.ply --points 12000 --holes 4 --hole-radius 3 6 --order random >/dev/null
 "$python" - <<'END'
 import struct
 content = open("near.ply", "rb").read()

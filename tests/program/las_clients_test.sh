@@ -5,6 +5,7 @@
 # 77: Node.js or npm is missing, or npm cannot fetch the library.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
+bench=${LACUNA_BENCH_PROGRAM:?}
 here=$PWD
 shared=${LACUNA_SHARED:-$here/../../../shared}/data/las
 
@@ -31,7 +32,7 @@ check() {
   node "$here/las_clients.cjs" "$work/npm" "$@"
 }
 
-"$program" synth surface torus.ply --kind torus --points 12000 --holes 3 --hole-radius 3 6 >/dev/null
+"$bench" synth surface torus.ply --kind torus --points 12000 --holes 3 --hole-radius 3 6 >/dev/null
 for format in 0 1 2 3 6 7 8; do
   python3 "$here/make_las.py" torus.ply "$format.las" "$format"
   "$program" detect "$format.las" --out "$format.out" --points --quiet

@@ -109,7 +109,7 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
   const auto evaluated = [&](const std::string& result, const Strings& more) {
     Strings words = {"evaluate", result, truth_file, "--json"};
     words.insert(words.end(), more.begin(), more.end());
-    const auto run = run_program(words);
+    const auto run = test::run_bench(words);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     json found = json::parse(run.out);

@@ -4,6 +4,7 @@
 # lasinfo open the LAS. 77: none of them is there.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
+bench=${LACUNA_BENCH_PROGRAM:?}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 here=$PWD
@@ -11,7 +12,7 @@ cd "$work"
 tried=0
 has() { command -v "$1" >/dev/null; }
 
-"$program" synth surface torus.ply --kind torus --points 20000 --holes 3 >/dev/null
+"$bench" synth surface torus.ply --kind torus --points 20000 --holes 3 >/dev/null
 for format in ply csv; do
   "$program" detect torus.ply --out "$format" --points --points-format "$format" --quiet
 done

@@ -66,7 +66,7 @@ TEST_CASE("a run counts its loops in words") {
   const ScratchFolder scratch;
   const auto summary_of = [&](const char* kind) {
     const std::string scan = (scratch / (std::string(kind) + ".ply")).string();
-    run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
+    test::run_bench({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
     return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
   };
   CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve; 2 longer than 0.1\n"));
@@ -75,7 +75,7 @@ TEST_CASE("a run counts its loops in words") {
 
 TEST_CASE("help is for everything and version is one line") {
   CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
-  CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info") && Contains("synth"));
+  CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info"));
   const ProgramResult help = run_program({"detect", "--help-all"});
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
@@ -118,23 +118,24 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
                 "eps");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
   check_failure(run_program({"info"}), 2, "SCAN");
-  check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
-  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "-1"}), 2, "a whole number");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "abc"}), 2,
-                "lacuna synth surface --help");
-  check_failure(run_program({"synth", "surface", "x.las"}), 2,
+  check_failure(test::run_bench({"synth", "sculpture"}), 2, "surface, scan");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "-1"}), 2, "a whole number");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "abc"}), 2,
+                "lacuna-bench synth surface --help");
+  check_failure(test::run_bench({"synth", "surface", "x.las"}), 2,
                 "x.las is not possible; allowed: a name that ends in .ply");
   check_failure(run_program({"render", "d", "--out", "x.jpg"}), 2, "allowed: a name that ends in .png");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2, "--points 0");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2,
+                "--points 0");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2,
                 "--holes 90");
-  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
                 "--density-step");
-  check_failure(run_program({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,
                 "--jitter");
-  check_failure(run_program({"synth", "scan", "d.ply", "--stations", "0"}), 2, "--stations");
-  check_failure(run_program({"synth", "scan", "d.ply", "--truth", "d.ply"}), 2, "two files");
+  check_failure(test::run_bench({"synth", "scan", "d.ply", "--stations", "0"}), 2, "--stations");
+  check_failure(test::run_bench({"synth", "scan", "d.ply", "--truth", "d.ply"}), 2, "two files");
   CHECK_FALSE(fs::exists("d"));
   CHECK_FALSE(fs::exists("x.las"));
   CHECK_FALSE(fs::exists("x.jpg"));
@@ -144,10 +145,10 @@ TEST_CASE("a value with a unit or a decimal comma is refused with what a number 
   const std::string form = "a number without a unit, with a decimal point";
   for (const std::string value : {"5cm", "0.1m", "0,5"}) {
     check_failure(run_program({"detect", "a.ply", "--out", "d", "--min-hole", value}), 2, form);
-    check_failure(run_program({"synth", "surface", "d.ply", "--spacing", value}), 2, form);
-    check_failure(run_program({"synth", "scan", "d.ply", "--field-of-view", "-30", value}), 2, form);
+    check_failure(test::run_bench({"synth", "surface", "d.ply", "--spacing", value}), 2, form);
+    check_failure(test::run_bench({"synth", "scan", "d.ply", "--field-of-view", "-30", value}), 2, form);
     check_failure(run_program({"render", "d", "--out", "d.png", "--hide-above", value}), 2, form);
-    check_failure(run_program({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
+    check_failure(test::run_bench({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
   }
   CHECK_THAT(run_program({"detect", "a.ply", "--out", "d", "--min-hole", "-1"}).err, !Contains(form));
 }
@@ -155,7 +156,7 @@ TEST_CASE("a value with a unit or a decimal comma is refused with what a number 
 TEST_CASE("a mistyped option or command is reported with the one that may be meant") {
   check_failure(run_program({"detetc"}), 2,
                 "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
-  check_failure(run_program({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
+  check_failure(test::run_bench({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
   check_failure(run_program({"help", "surfac"}), 2, "unknown command \"surfac\"; allowed: detect");
   const ProgramResult mistyped = run_program({"detect", "a.ply", "--min-hol", "3", "--out", "d"});
   check_failure(mistyped, 2, "unknown option --min-hol (did you mean \"--min-hole\"?)");
@@ -166,12 +167,14 @@ TEST_CASE("a mistyped option or command is reported with the one that may be mea
 
 TEST_CASE("lacuna help COMMAND is the help of the command") {
   CHECK(run_program({"help"}).out == run_program({"--help"}).out);
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect"}, {"synth", "scan"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect"}, {"info"}}) {
     std::vector<std::string> asked = {"help"}, flagged = words;
     asked.insert(asked.end(), words.begin(), words.end());
     flagged.push_back("--help");
     CHECK(run_program(asked).out == run_program(flagged).out);
   }
+  CHECK(test::run_bench({"help", "synth", "scan"}).out == test::run_bench({"synth", "scan", "--help"}).out);
+  CHECK(test::run_bench({"--version"}).out == "lacuna-bench 0.1.0\n");
   CHECK(run_program({"-V"}).out == run_program({"--version"}).out);
 }
 
@@ -339,15 +342,17 @@ TEST_CASE("a file that the program did not write is refused before the work, and
                                           "100"};
   const std::string mine = scratch.write("out/points.ply", "x y z\n1 2 3\n");
   for (std::vector<std::string> arguments : {detect, synth, detect}) {
+    const test::Program program = arguments == synth ? test::Program::kBench : test::Program::kLacuna;
     const std::string before = test::read_file(mine);
-    check_failure(run_program(arguments), 1, "points.ply: exists, and this command did not write it");
+    check_failure(run_program(arguments, program), 1,
+                  "points.ply: exists, and this command did not write it");
     CHECK(test::read_file(mine) == before);
     CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 7 : 1));
     arguments.push_back("--overwrite");
-    CHECK(run_program(arguments).exit_code == 0);
+    CHECK(run_program(arguments, program).exit_code == 0);
     CHECK(test::read_file(mine) != before);
     arguments.pop_back();
-    CHECK(run_program(arguments).exit_code == 0);  // its own file
+    CHECK(run_program(arguments, program).exit_code == 0);  // its own file
     if (arguments == synth) {
       for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "holes.csv", "holes.json",
                                "run.json", "points.loops.txt", "points.stations.txt"})
@@ -435,10 +440,11 @@ TEST_CASE("a folder whose name takes a detour leaves none of it behind") {
 TEST_CASE("a signal while a scan is made leaves nothing") {
   const ScratchFolder scratch;
   const auto is_writing = [&] { return count_entries(scratch.path()) > 0; };
-  const ProgramResult result = test::run_program_until(
-      {"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"}, SIGINT, is_writing);
+  const ProgramResult result =
+      test::run_program_until({"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"},
+                              SIGINT, is_writing, test::Program::kBench);
   CHECK(result.exit_code == 128 + SIGINT);
-  CHECK(result.err == "lacuna: interrupted\n");
+  CHECK(result.err == "lacuna-bench: interrupted\n");
   CHECK(count_entries(scratch.path()) == 0);
 }
 

@@ -18,6 +18,7 @@ import numpy as np
 import lacuna
 
 PROGRAM = os.environ["LACUNA_PROGRAM"]
+BENCH_PROGRAM = os.environ["LACUNA_BENCH_PROGRAM"]
 
 
 def plane(n, holes=(), seed=1):
@@ -269,7 +270,7 @@ class Files(Folder):
 
     def test_causes_of_holes_where_stations_are_known(self):
         scan, stations = self.folder / "room.ply", self.folder / "room.stations.txt"
-        subprocess.run([PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([BENCH_PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(scan, stations=stations)
         causes = [loop.cause for loop in holes.loops]
         self.assertTrue({"hidden", "opening"} <= set(causes))
@@ -283,7 +284,7 @@ class Files(Folder):
         self.assertEqual({loop.cause for loop in lacuna.detect(scan).loops}, {None})
 
     def test_results_are_compared_with_the_truth_and_with_others(self):
-        subprocess.run([PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([BENCH_PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(self.folder / "s.ply")
         score = lacuna.evaluate(holes, self.folder / "s.loops.txt")
         self.assertEqual((score["found"], score["true"], score["false"]), (4, 4, 0))

@@ -3,11 +3,11 @@
 
 #include "engine/run/error.hpp"
 #include "io/report/scene.hpp"
-#include "tools/accuracy/compare_loops.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/matching/compare_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace lacuna::tools {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace accuracy;
+using namespace matching;
 using nlohmann::ordered_json;
 
 struct CompareArguments {

@@ -2,7 +2,7 @@
 // `lacuna compare`: which holes of two results are closed, new, changed or the same.
 #pragma once
 
-#include "tools/accuracy/compare_loops.hpp"
+#include "tools/matching/compare_loops.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace lacuna::tools {
 
 // What is compared of a result.
 struct ComparedResult {
-  std::vector<accuracy::ComparedLoop> loops;
+  std::vector<matching::ComparedLoop> loops;
   double spacing = 0;  // median distance of neighbours
   double extent = 0;
   std::string unit;
@@ -35,7 +35,7 @@ struct Comparison {
 
   ComparedResult before, after;
   double tolerance;
-  std::vector<accuracy::LoopChange> changes;
+  std::vector<matching::LoopChange> changes;
 };
 
 }  // namespace lacuna::tools

@@ -5,6 +5,8 @@
 #include "io/files/number.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -49,8 +51,8 @@ class Help final : public CLI::Formatter {
     const Options own = chosen(options_of(*app), [&](const CLI::Option* option) {
       return option != app->get_help_ptr() && option != app->get_help_all_ptr();
     });
-    return "\nlacuna " + app->get_name() + ":\n" + make_description(app) + make_positionals(app) +
-           by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
+    return "\n" + app->get_parent()->get_name() + " " + app->get_name() + ":\n" + make_description(app) +
+           make_positionals(app) + by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
   }
 
   // The name of an argument says what it takes.
@@ -195,6 +197,11 @@ const Option& Option::joined_by_comma() const {
   return *this;
 }
 
+const Option& Option::in_groups_of(int count) const {
+  option_->type_size(count)->expected(-1);
+  return *this;
+}
+
 const Option& Option::rare() const {
   option_->group(kRare + section_of(*option_));
   return *this;
@@ -246,6 +253,10 @@ Option Command::add_option(const std::string& name, T& value, const std::string&
 template Option Command::add_option(const std::string&, std::string&, const std::string&) const;
 template Option Command::add_option(const std::string&, double&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::size_t&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::uint32_t&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::array<double, 2>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::array<double, 3>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&) const;
 template Option Command::add_option(const std::string&, fs::path&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<fs::path>&, const std::string&) const;
@@ -274,6 +285,10 @@ Option Command::add_choice(const std::string& name, std::span<const std::string_
 
 Option Command::option(const std::string& name) const {
   return Option(*app_->get_option(name));
+}
+
+void Command::needs_command() const {
+  app_->require_subcommand(1);
 }
 
 void Command::runs(const std::function<void()>& action) const {

@@ -40,9 +40,10 @@ class Option {
   // As the config file has it. An empty one is not shown.
   const Option& show_default(const std::string& text) const;
   const Option& excludes(const Option& other) const;
-  const Option& once() const;             // a second time is an error
-  const Option& joined_by_comma() const;  // may be given again: the texts become one
-  const Option& rare() const;             // only --help-all shows it
+  const Option& once() const;                   // a second time is an error
+  const Option& joined_by_comma() const;        // may be given again: the texts become one
+  const Option& in_groups_of(int count) const;  // several values at a time; may be given again
+  const Option& rare() const;                   // only --help-all shows it
 
   // What values must be. An error says it.
   const Option& whole_number() const;  // CLI11 alone makes a number near 2^64 of -1
@@ -63,8 +64,8 @@ class Command {
 
   Command add_command(const std::string& name, const std::string& help) const;
 
-  // "--name", or "NAME" for an argument without a name. T: a number, a text, a path, a list of these, or an
-  // optional one; command_line.cpp has the list.
+  // "--name", or "NAME" for an argument without a name. T: a number, a text, a path, several or a list of
+  // these, or an optional one; command_line.cpp has the list.
   template <class T>
   Option add_option(const std::string& name, T& value, const std::string& help) const;
   // T: bool, or a text that becomes "true" or "false".
@@ -76,10 +77,11 @@ class Command {
 
   Option option(const std::string& name) const;  // one that was added before
 
+  // One of the commands that were added to this one must follow it.
+  void needs_command() const;
+
   // The command does this. It may throw.
   void runs(const std::function<void()>& action) const;
-
-  CLI::App& cli() const { return *app_; }
 
  private:
   CLI::App* app_;

@@ -72,10 +72,16 @@ Console& console() {
   return *instance;
 }
 
+// The program's name stands before each line.
+std::string& name() {
+  static std::string* const instance = new std::string("lacuna");
+  return *instance;
+}
+
 class ConsoleSink final : public spdlog::sinks::base_sink<std::mutex> {
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    std::string line = "lacuna: ";
+    std::string line = name() + ": ";
     if (message.level >= spdlog::level::warn) {
       const auto level = spdlog::level::to_string_view(message.level);
       line.append(level.data(), level.size()).append(": ");
@@ -95,8 +101,9 @@ std::string formatted(const char* format, Values... values) {
 
 }  // namespace
 
-void start_log() {
-  spdlog::set_default_logger(std::make_shared<spdlog::logger>("lacuna", std::make_shared<ConsoleSink>()));
+void start_log(const std::string& program) {
+  name() = program;
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(program, std::make_shared<ConsoleSink>()));
 }
 
 void quiet_log() {
@@ -105,7 +112,11 @@ void quiet_log() {
 
 void print_error(std::string_view reason) {
   clear_progress();
-  console().print_line("lacuna: error: " + std::string(reason));
+  console().print_line(name() + ": error: " + std::string(reason));
+}
+
+const std::string& program_name() {
+  return name();
 }
 
 void print_line(std::string_view line) {

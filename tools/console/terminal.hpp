@@ -10,11 +10,12 @@
 
 namespace lacuna::tools {
 
-// spdlog's default logger writes to stderr from now on: "lacuna: ...", "lacuna: warning: ...".
-void start_log();
-void quiet_log();  // warnings and errors only
+// spdlog's default logger writes to stderr from now on: "PROGRAM: ...", "PROGRAM: warning: ...".
+void start_log(const std::string& program);
+const std::string& program_name();  // "lacuna" before start_log
+void quiet_log();                   // warnings and errors only
 
-void print_error(std::string_view reason);  // "lacuna: error: ..."
+void print_error(std::string_view reason);  // "PROGRAM: error: ..."
 void print_line(std::string_view line);     // above the bar
 void show_bar(std::string bar);             // in place of the one before
 void clear_progress();

@@ -61,7 +61,7 @@ std::string completeness(const WatchedResults& results) {
 
 std::string last_line() {
   const std::lock_guard lock(watched_mutex);
-  std::string line = "lacuna: interrupted";
+  std::string line = program_name() + ": interrupted";
   if (!watched) return line;
   const bool is_complete = watched->are_complete || !(Identity(watched->report) == watched->before);
   if (is_complete) return line + completeness(*watched);
