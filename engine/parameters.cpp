@@ -15,7 +15,7 @@ constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 // In the order of their enumerations.
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
-constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
+constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
 template <class Enum>
@@ -43,7 +43,7 @@ std::string_view name_of(LoopMethod method) {
 }
 
 std::string_view name_of(LengthUnit unit) {
-  return kUnits[static_cast<std::size_t>(unit)];
+  return kUnitNames[static_cast<std::size_t>(unit)];
 }
 
 std::vector<Parameter> parameters(Config& config) {
@@ -158,13 +158,12 @@ std::vector<Parameter> parameters(Config& config) {
        "a code such as EPSG:25832, well-known text, or a file that has one of them",
        "Coordinate reference system of the scan, over what its files state; empty: as they state it.",
        kNothing},
-      {"input", "unit", named(input.unit, kUnits), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
+      {"input", "unit", named(input.unit, kUnitNames), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
        "Unit of the coordinates, over what the files state; input: as they, or --crs, state it.", kNothing},
 
       {"output", "points", &output.points, 0, 1, "true or false",
        "Write the annotated scan too: every point of the input with its probabilities.", kNothing},
-      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2,
-       "input, ply or csv",
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2, "input, ply or csv",
        "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        kPointsFiles},
       {"output", "normals", &output.normals, 0, 1, "true or false",
