@@ -151,8 +151,9 @@ class AnnotatedFile {
         out_(std::move(out)),
         form_(written(format).form(plan)),
         input_(form_->open()),
-        writer_(form_->writer(*out_, rows)),
-        missing_(rows) {}
+        writer_(form_->writer(*out_, rows)) {
+    if (format != FileFormat::kCsv) missing_ = rows;
+  }
 
   // Writes the next rows with these results. Returns their number; 0: the input has no more rows.
   std::size_t put(std::span<const PointResult> results) {
@@ -161,14 +162,16 @@ class AnnotatedFile {
     const std::size_t rows = input_->next(std::min(results.size(), kRows), stride, block_);
     if (rows == 0) return 0;
     copy_results(results.first(rows), results_, stride, block_.data() + bytes);
-    if (rows > missing_) fail_changed(out_->path().string());
-    missing_ -= rows;
+    if (missing_) {
+      if (rows > *missing_) fail_changed(out_->path().string());
+      *missing_ -= rows;
+    }
     writer_->put(block_);
     return rows;
   }
 
   void finish() {
-    if (missing_ > 0 || input_->next(1, form_->row_bytes() + bytes_of(results_), block_) != 0)
+    if (missing_.value_or(0) > 0 || input_->next(1, form_->row_bytes() + bytes_of(results_), block_) != 0)
       fail_changed(out_->path().string());
     writer_->finish();
     out_->close();
@@ -180,7 +183,7 @@ class AnnotatedFile {
   std::unique_ptr<PointsForm> form_;
   std::unique_ptr<InputRows> input_;
   std::unique_ptr<PointsWriter> writer_;
-  std::uint64_t missing_;  // rows that are not written yet
+  std::optional<std::uint64_t> missing_;  // rows that the file declares and that are not written yet
   std::vector<std::byte> block_;
 };
 
