@@ -2,7 +2,7 @@
 // What a run takes, found by its first steps and a sample of the others.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/progress.hpp"

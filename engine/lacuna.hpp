@@ -5,16 +5,15 @@
 // - Points in memory: `find_holes`, below.
 // - A scan larger than memory: derive from `PointSource` (engine/model/points.hpp), and call `detect`
 //   (engine/pipeline.hpp). It returns the same results as streams (engine/model/detection.hpp).
-// - Parameters: `Config` (engine/config.hpp), one struct per stage with its defaults. `read_config` reads
-// them
-//   from a file, `parameters` lists them by name.
+// - Parameters: `Config` (engine/config/config.hpp), one struct per stage with its defaults. `read_config`
+//   reads them from a file, `parameters` lists them by name.
 // - Errors: `Error` (engine/run/error.hpp), one line of text for the user.
 //
 // Results are the same bytes for every number of threads and every memory limit. They are those of the
 // program, which calls the same functions. Source of the method: docs/method.md.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"

@@ -2,7 +2,7 @@
 // A run of the engine for Python: its scan, its parameters, and what it has found.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/store/scratch_place.hpp"
 #include "io/file_scan.hpp"

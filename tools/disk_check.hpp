@@ -2,7 +2,7 @@
 // Whether the disks hold what a run writes, before it runs.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/run/disk_space.hpp"
 #include "io/file_scan.hpp"
 
@@ -16,8 +16,8 @@ namespace lacuna::tools {
 
 using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
 
-// Knows the headers of the scan and the options. Returns one line for each disk that is probably too small for
-// the workspace, the results, or both. Throws `Error` for one that certainly is. Both folders exist.
+// Knows the headers of the scan and the options. Returns one line for each disk that is probably too small
+// for the workspace, the results, or both. Throws `Error` for one that certainly is. Both folders exist.
 std::vector<std::string> check_disks(const io::FileScan& scan, const Config& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);

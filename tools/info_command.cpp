@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/info_command.hpp"
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/estimate.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line's view of the parameters: one option each, generated from the list in engine/config.
+// The command line's view of the parameters: one option each, generated from the list in engine/config/.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <deque>
 #include <string>

@@ -2,7 +2,7 @@
 // What is odd about a scan: not wrong, but hardly meant.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 

@@ -5,7 +5,7 @@
 // so the names of the parts are all that several processes share.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/job.hpp"
 

@@ -2,7 +2,7 @@
 // How much of a scan is covered, in square cells seen from above.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 

@@ -2,7 +2,7 @@
 // The cut-outs of a run: for each hole, the points of the scan around it as a file of their own.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/output_set.hpp"

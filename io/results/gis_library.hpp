@@ -2,7 +2,7 @@
 // The results that lacuna_gis.so writes.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/loops_gis.hpp"

@@ -2,7 +2,7 @@
 // What the results in JSON share.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "io/row_filter.hpp"

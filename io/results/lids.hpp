@@ -2,7 +2,7 @@
 // The lids of holes, as meshes and as a table. io/lids/make_lid.hpp says what they are.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/output_file.hpp"

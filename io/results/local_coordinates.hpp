@@ -3,7 +3,7 @@
 // relative to an offset.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"

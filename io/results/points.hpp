@@ -5,7 +5,7 @@
 // `Error`.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/results/output_set.hpp"

@@ -2,7 +2,7 @@
 // The points of a scan as a format has them. All of them, or any selection, become a file.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"

@@ -2,7 +2,7 @@
 // The rows of points.pcd, without the results: those of PCD files as they are, or the columns of any formats.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"
 #include "io/pcd/pcd_header.hpp"

@@ -2,7 +2,7 @@
 // What the results of a run take of the disk.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "io/file_scan.hpp"
 
 #include <cstdint>

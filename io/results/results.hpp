@@ -2,7 +2,7 @@
 // What a run leaves in its output folder. Ids are ranks of the input's rows, over the files in order.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"

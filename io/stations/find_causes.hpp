@@ -5,7 +5,7 @@
 // a hole, ranges are shorter where something hides it. Where rays pass, they are longer, or there are none.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/stations/inside_places.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every parameter changes the results of a small scan, or the list says what it needs for that.
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"

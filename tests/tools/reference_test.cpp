@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manual page and the completions have every command and every option.
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/boundary_graph.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The config file: TOML, each key in its section.
-#include "engine/config.hpp"
-#include "engine/config_text.hpp"
-#include "engine/parameter_values.hpp"
+#include "engine/config/config.hpp"
+#include "engine/config/config_text.hpp"
+#include "engine/config/parameter_values.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/regular_file.hpp"
 #include "engine/run/words.hpp"

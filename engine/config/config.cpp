@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
+#include "engine/config/parameter_values.hpp"
 #include "engine/criteria/criteria.hpp"
-#include "engine/parameter_values.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/parameter_values.hpp"
+#include "engine/config/parameter_values.hpp"
 
 #include "engine/run/error.hpp"
 

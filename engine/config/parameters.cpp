@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one list of all parameters.
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/criteria/criteria.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Values of parameters as text.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <string>
 #include <string_view>
