@@ -20,11 +20,11 @@ Consumers::Consumers(const Level& level, const Job& job) : boundary(boundary_met
   all.push_back(boundary.get());
   if (level.number > 0) return;
   const TileStore& store = level.store;
-  const OutputConfig& output = job.config.output;
+  const ResultsConfig& wanted = job.config.results;
   all.push_back(&candidates.emplace(store, job));
-  if (output.points) all.push_back(&points.emplace(level.survey.points, store, job));
-  if (output.vdb) all.push_back(&voxels.emplace(store, job));
-  if (const std::int64_t most = output.sample_points; most > 0)
+  if (wanted.points) all.push_back(&points.emplace(level.survey.points, store, job));
+  if (wanted.voxels) all.push_back(&voxels.emplace(store, job));
+  if (const std::int64_t most = wanted.sample_points; most > 0)
     all.push_back(&sample.emplace(static_cast<std::uint64_t>(most), level.survey.ids, store, job));
   if (job.config.normals.orient) all.push_back(&orientation.emplace(store, job));
 }

@@ -74,8 +74,8 @@ Config config_of_sample(Config config, double extent, double share) {
   config.neighbourhood.eps = eps_length(config.neighbourhood, extent);
   config.neighbourhood.eps_fraction = 0;
   config.run.workspace.clear();
-  config.output.sample_points =
-      static_cast<std::int64_t>(std::ceil(static_cast<double>(config.output.sample_points) * share));
+  config.results.sample_points =
+      static_cast<std::int64_t>(std::ceil(static_cast<double>(config.results.sample_points) * share));
   return config;
 }
 

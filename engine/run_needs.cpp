@@ -54,7 +54,7 @@ std::uint64_t stored_point(const RunSize& size) {
 }
 
 std::uint64_t sampled_points(const RunSize& size, const Job& job) {
-  return std::min(size.points, static_cast<std::uint64_t>(job.config.output.sample_points));
+  return std::min(size.points, static_cast<std::uint64_t>(job.config.results.sample_points));
 }
 
 // A point enters if its key is among the smallest so far.
@@ -89,20 +89,21 @@ std::uint64_t kept_bytes(const RunSize& size) {
 
 DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t spills = job.memory.spills;
-  const OutputConfig& output = job.config.output;
+  const ResultsConfig& wanted = job.config.results;
   const std::uint64_t store = size.points * stored_point(size);
 
   const std::uint64_t all = size.is_thinned ? size.rows * stored_point(size) : 0;  // before they are thinned
   const std::uint64_t represented =
-      size.is_thinned && output.points ? beyond(size.rows * sizeof(Represented), spills / 8) : 0;
+      size.is_thinned && wanted.points ? beyond(size.rows * sizeof(Represented), spills / 8) : 0;
   const std::uint64_t sample = sampled_points(size, job) * sizeof(StoredSample);
   const std::uint64_t sorted_sample = beyond(sample_keys(size, job), spills / 8) + beyond(sample, spills / 8);
-  const std::uint64_t results = output.points ? beyond(size.rows * result_bytes(), spills / 8) : 0;
-  const std::uint64_t voxels = output.vdb ? size.points * sizeof(ProbabilityVoxel) : 0;  // at most one each
+  const std::uint64_t results = wanted.points ? beyond(size.rows * result_bytes(), spills / 8) : 0;
+  const std::uint64_t voxels =
+      wanted.voxels ? size.points * sizeof(ProbabilityVoxel) : 0;  // at most one each
   const std::uint64_t voxel_work =
-      output.vdb ? size.points * sizeof(float) +
-                       sorted_on_disk(size.points * (sizeof(ProbabilityVoxel) + 8), job.memory.global / 3)
-                 : 0;
+      wanted.voxels ? size.points * sizeof(float) +
+                          sorted_on_disk(size.points * (sizeof(ProbabilityVoxel) + 8), job.memory.global / 3)
+                    : 0;
   const std::uint64_t edges = size.points * sizeof(OrientationEdge);
   const std::uint64_t orientation = job.config.normals.orient
                                         ? size.points * sizeof(StoredNormal) + beyond(edges, spills / 16) +
@@ -121,14 +122,14 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
   const std::uint64_t kept =
       job.config.run.workspace.empty()
           ? 0
-          : size.points * (kKeptBytes + stored_point(size) + (output.points ? result_bytes() : 0) +
-                           (output.vdb ? sizeof(float) : 0) +
+          : size.points * (kKeptBytes + stored_point(size) + (wanted.points ? result_bytes() : 0) +
+                           (wanted.voxels ? sizeof(float) : 0) +
                            (job.config.normals.orient ? sizeof(StoredNormal) + sizeof(OrientationEdge) : 0));
 
   DiskNeeds needs;
   const std::uint64_t input = std::max(kept_bytes(size) + (all > 0 ? all : store), all + store + represented);
   needs.last = sample + results + voxels + represented +
-               (size.is_thinned && output.points ? beyond(size.rows * kSpreadResult, spills / 4) : 0);
+               (size.is_thinned && wanted.points ? beyond(size.rows * kSpreadResult, spills / 4) : 0);
   needs.most = std::max({input,
                          store + exchanged + sorted_sample + sample + results + voxels + voxel_work +
                              orientation + represented + above,
@@ -139,7 +140,7 @@ DiskNeeds disk_needs(const RunSize& size, const Job& job) {
 }
 
 std::uint64_t memory_needs(const RunSize& size, const Job& job) {
-  const OutputConfig& output = job.config.output;
+  const ResultsConfig& wanted = job.config.results;
   const bool orients = job.config.normals.orient;
   const std::uint64_t spills = job.memory.spills;
   const double tile = points_of_a_tile(size);
@@ -153,7 +154,7 @@ std::uint64_t memory_needs(const RunSize& size, const Job& job) {
   std::uint64_t lists =
       std::min(border_bytes(size, kListBytes), spills / 2) + std::min(sample_keys(size, job), spills / 8);
   if (orients) lists += std::min(size.points * sizeof(OrientationEdge), spills / 16);
-  if (output.points) {
+  if (wanted.points) {
     lists += std::min(size.rows * result_bytes(), spills / 8);
     if (size.is_thinned) lists += std::min(size.rows * sizeof(Represented), spills / 8);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/detect_command.hpp"
 
-#include "engine/config/config.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
@@ -117,12 +116,13 @@ RunArguments::RunArguments(CLI::App& command) : parameters(command) {
       ->type_name("FILE");
 }
 
-Config RunArguments::start(Config base) const {
+FilesConfig RunArguments::start(FilesConfig base) const {
   auto [config, warnings] = parameters.read(std::move(base));
   if (quiet) quiet_log();
   if (!log_file.empty()) start_log_file(log_file);
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   prepare_process(config.run);
+  config.run.note = print_parameters(file_parameters(config));
   return config;
 }
 
@@ -130,7 +130,13 @@ std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) cons
   return make_progress(quiet ? ProgressStyle::kNone : progress, expected_stages(config));
 }
 
-std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const Config& config) {
+FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
+  FilesConfig config{run.config, {}, {}};
+  read_parameters(run.note, workspace, file_parameters(config));
+  return config;
+}
+
+std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
   auto scan =
       std::make_unique<FileScan>(inputs, config.input, Memory::share(config.run.memory_limit).reading);
   refuse_degrees(*scan);
@@ -144,7 +150,7 @@ ResultArguments::ResultArguments(CLI::App& command) : RunArguments(command) {
                    "Replace files that lacuna detect did not write, too, where results need their names");
 }
 
-std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config,
+std::string detect_to(const std::vector<ScanInput>& inputs, const FilesConfig& config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps) {
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
@@ -211,7 +217,7 @@ void run_detect(const CLI::App& command, const DetectArguments& arguments) {
     std::cout << print_config(arguments.run.parameters.read().config);
     return;
   }
-  const Config config = arguments.run.start();
+  const FilesConfig config = arguments.run.start();
   require(command, "SCAN");
   require(command, "--out");
   if (arguments.run.out.empty()) throw CLI::ValidationError("--out", "a folder name is needed");

@@ -2,6 +2,7 @@
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 
+#include "engine/workspace/workspace.hpp"
 #include "io/file_scan.hpp"
 #include "tools/parameter_options.hpp"
 #include "tools/shown_progress.hpp"
@@ -20,8 +21,9 @@ namespace lacuna::tools {
 struct RunArguments {
   explicit RunArguments(CLI::App& command);
 
-  // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
-  Config start(Config base = {}) const;
+  // The parameters over those in `base`, with a note of those of files for a workspace. Sets up the log, and
+  // warns of what has no effect.
+  io::FilesConfig start(io::FilesConfig base = {}) const;
 
   std::unique_ptr<Progress> show_progress(const Config& config) const;
 
@@ -39,8 +41,12 @@ struct ResultArguments : RunArguments {
   bool overwrite = false;
 };
 
+// The parameters of a run that a workspace keeps.
+io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& workspace);
+
 // The files of a run as one scan. Warns of what is odd, and refuses degrees. Throws `Error`.
-std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs, const Config& config);
+std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
+                                          const io::FilesConfig& config);
 
 // What a command does besides, with the workspace that this run alone uses.
 struct WorkspaceSteps {
@@ -49,7 +55,7 @@ struct WorkspaceSteps {
 };
 
 // Finds the holes and writes the results; returns their summary.
-std::string detect_to(const std::vector<io::ScanInput>& inputs, const Config& config,
+std::string detect_to(const std::vector<io::ScanInput>& inputs, const io::FilesConfig& config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps = {});
 
 // It runs when parsed. Throws `Error` when the job fails, `CLI::Error` for wrong usage.

@@ -30,7 +30,7 @@ void check(const std::filesystem::path& folder, const std::optional<Disk>& disk,
 
 }  // namespace
 
-std::vector<std::string> check_disks(const FileScan& scan, const Config& config,
+std::vector<std::string> check_disks(const FileScan& scan, const FilesConfig& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk) {
   check_config(config);

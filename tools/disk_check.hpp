@@ -18,7 +18,7 @@ using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& 
 
 // Knows the headers of the scan and the options. Returns one line for each disk that is probably too small
 // for the workspace, the results, or both. Throws `Error` for one that certainly is. Both folders exist.
-std::vector<std::string> check_disks(const io::FileScan& scan, const Config& config,
+std::vector<std::string> check_disks(const io::FileScan& scan, const io::FilesConfig& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);
 

@@ -93,16 +93,16 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 }
 
 // Some scans have more columns than a format holds with the results.
-std::optional<std::uint64_t> points_bytes(const FileScan& scan, const OutputConfig& config) {
-  if (config.points) check_points(scan, config);
+std::optional<std::uint64_t> points_bytes(const FileScan& scan, const FilesConfig& config) {
+  if (config.results.points) check_points(scan, config.output);
   try {
-    return point_row_bytes(scan, config);
+    return point_row_bytes(scan, config.output);
   } catch (const Error&) {
     return std::nullopt;
   }
 }
 
-RunInfo estimate_run(FileScan& scan, const Config& config) {
+RunInfo estimate_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
   const MadeFolder parent(scratch_folder(config.run));
@@ -118,13 +118,13 @@ RunInfo estimate_run(FileScan& scan, const Config& config) {
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
   run.points_file = points_file(scan, config.output);
-  run.points_bytes = points_bytes(scan, config.output);
+  run.points_bytes = points_bytes(scan, config);
   if (run.points_bytes) *run.points_bytes *= counts.points;
   run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
 
-  const std::uint64_t sampled = std::min(points, static_cast<std::uint64_t>(config.output.sample_points));
+  const std::uint64_t sampled = std::min(points, static_cast<std::uint64_t>(config.results.sample_points));
   const std::uint64_t rows =
-      sampled + (config.output.report ? sampled : 0) + (config.output.points ? counts.points : 0);
+      sampled + (config.output.report ? sampled : 0) + (config.results.points ? counts.points : 0);
   run.seconds = run.estimate.seconds +
                 run.estimate.slowdown * (kStartSeconds + static_cast<double>(rows) / kRowsPerSecond);
   return run;
@@ -257,7 +257,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 }
 
 void run_info(const InfoArguments& arguments) {
-  const Config config = arguments.parameters.read().config;
+  const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
   const ReadOptions options{.columns = config.input.columns, .memory = memory};

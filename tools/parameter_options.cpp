@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 
 namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 struct TypeName {
@@ -41,9 +43,10 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
           "--config", config_file_,
           "Config file (TOML), or the name of one that is installed; options of the command line override it")
       ->type_name("CONFIG");
-  Config defaults;
+  FilesConfig defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
+    if (parameter.is_constant) continue;
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
     CLI::Option* option = is_flag ? command.add_flag(parameter.option(), given.text)
                                   : command.add_option(parameter.option(), given.text);
@@ -59,7 +62,11 @@ ParameterOptions::ParameterOptions(CLI::App& command) {
   }
 }
 
-std::string ParameterOptions::read_file(Config& config, std::vector<std::string>& keys) const {
+bool ParameterOptions::Given::is_given() const {
+  return option != nullptr && option->count() > 0;
+}
+
+std::string ParameterOptions::read_file(FilesConfig& config, std::vector<std::string>& keys) const {
   if (config_file_.empty()) return "";
   try {
     const std::string file = find_config(config_file_).string();
@@ -70,12 +77,12 @@ std::string ParameterOptions::read_file(Config& config, std::vector<std::string>
   }
 }
 
-EffectiveConfig ParameterOptions::read(Config config) const {
+EffectiveConfig ParameterOptions::read(FilesConfig config) const {
   std::vector<std::string> keys_in_file;
   const std::string file = read_file(config, keys_in_file);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (given_[i].option->count() == 0) continue;
+    if (!given_[i].is_given()) continue;
     try {
       all[i].set(given_[i].text);
     } catch (const Error& error) {
@@ -91,17 +98,17 @@ EffectiveConfig ParameterOptions::read(Config config) const {
   return {config, idle_warnings(config, keys_in_file)};
 }
 
-std::vector<std::string> ParameterOptions::idle_warnings(Config config,
+std::vector<std::string> ParameterOptions::idle_warnings(FilesConfig config,
                                                          const std::vector<std::string>& keys_in_file) const {
-  Config defaults;
+  FilesConfig defaults;
   const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].needs.is_given(config)) continue;
+    if (all[i].missing.empty()) continue;
     const bool in_file =
         std::find(keys_in_file.begin(), keys_in_file.end(), all[i].key) != keys_in_file.end();
-    const std::string effect = " changes nothing without " + std::string(all[i].needs.options);
-    if (given_[i].option->count() > 0) {
+    const std::string effect = " changes nothing without " + std::string(all[i].missing);
+    if (given_[i].is_given()) {
       warnings.push_back(all[i].option() + effect);
     } else if (in_file && all[i].print() != unchanged[i].print()) {
       warnings.push_back(config_file_ + ": " + std::string(all[i].key) + effect);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line's view of the parameters: one option each, generated from the list in engine/config/.
+// The command line's view of the parameters: one option each, generated from the
+// list in io/options/. Constants of a method have none.
 #pragma once
 
-#include "engine/config/config.hpp"
+#include "io/options/options.hpp"
 
 #include <deque>
 #include <string>
@@ -16,7 +17,7 @@ class Option;
 namespace lacuna::tools {
 
 struct EffectiveConfig {
-  Config config;
+  io::FilesConfig config;
   // One for each parameter without effect that was given: on the command line with any value, in the config
   // file with another than the default. (A printed config has all parameters.)
   std::vector<std::string> warnings;
@@ -29,15 +30,18 @@ class ParameterOptions {
 
   // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
   // and `CLI::ValidationError` for what is wrong on the command line.
-  EffectiveConfig read(Config config = {}) const;
+  EffectiveConfig read(io::FilesConfig config = {}) const;
 
  private:
   // The file's name; empty: none was given.
-  std::string read_file(Config& config, std::vector<std::string>& keys) const;
-  std::vector<std::string> idle_warnings(Config config, const std::vector<std::string>& keys_in_file) const;
+  std::string read_file(io::FilesConfig& config, std::vector<std::string>& keys) const;
+  std::vector<std::string> idle_warnings(io::FilesConfig config,
+                                         const std::vector<std::string>& keys_in_file) const;
 
   struct Given {
-    const CLI::Option* option;
+    bool is_given() const;
+
+    const CLI::Option* option = nullptr;  // of a constant: none
     std::string text;
   };
   std::string config_file_;

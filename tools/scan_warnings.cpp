@@ -196,7 +196,8 @@ std::string stray_warning(const Strays& strays, double resolution) {
   return text.str();
 }
 
-std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config) {
+std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
+                                       const FilesConfig& config) {
   std::vector<std::string> warnings;
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
@@ -220,7 +221,7 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   const std::uint64_t not_finite = counts.dropped - scan.filtered_out().total();
   const PointsFormat format = points_format(scan, config.output);
   const bool is_las = format == PointsFormat::kLas || format == PointsFormat::kLaz;
-  if (config.output.points && not_finite > 0 && is_las) {
+  if (config.results.points && not_finite > 0 && is_las) {
     warnings.push_back(points_file(scan, config.output) + " is without the " + print_count(not_finite) +
                        " points that have no finite position, which LAS cannot hold; ids count them");
   }

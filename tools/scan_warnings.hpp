@@ -38,6 +38,6 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
 // After a run: strays, too few points for their neighbourhoods, coordinates too coarse for their spacing, and
 // rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
-                                       const Config& config);
+                                       const io::FilesConfig& config);
 
 }  // namespace lacuna::tools

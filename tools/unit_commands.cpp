@@ -77,7 +77,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
 }
 
 void run_plan(const PlanArguments& arguments) {
-  Config config = arguments.run.start();
+  FilesConfig config = arguments.run.start();
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw CLI::RequiredError("--workspace");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
@@ -100,7 +100,7 @@ struct WorkArguments {
 
 void run_work(const WorkArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
-  Config config = arguments.run.start(stored.config);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   const std::optional<Step> step = step_of_name(arguments.step, arguments.workspace);
   if (!step) throw CLI::ValidationError("--step", "allowed: a step of lacuna plan, such as evaluate-0");
@@ -125,7 +125,7 @@ struct FinishArguments {
 
 void run_finish(const FinishArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
-  Config config = arguments.run.start(stored.config);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;

@@ -11,7 +11,7 @@ int main(int count, char** arguments) {
   try {
     if (count < 3) throw lacuna::Error("usage: detect_files OUT SCAN...");
     const std::filesystem::path out = arguments[1], scratch = out / "scratch";
-    lacuna::Config config;
+    lacuna::io::FilesConfig config;
     config.output.report = true;
     lacuna::io::FileScan scan({arguments + 2, arguments + count}, config.input);
     std::filesystem::create_directories(scratch);

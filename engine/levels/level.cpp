@@ -130,7 +130,7 @@ Level read_first_level(PointSource& input, Job& job) {
   if (edge == 0) return bucket_points(input, level_files(0, job), job);
   const Level all = bucket_points(input, temporary_files(job), job);
   Phase phase(job, "thin", all.store.tiling().points());
-  ChosenPoints chosen = choose_points(all.store, edge, job.config.output.points ? all.survey.ids : 0, job);
+  ChosenPoints chosen = choose_points(all.store, edge, job.config.results.points ? all.survey.ids : 0, job);
   refuse_too_coarse(chosen.count, all.survey, job.config);
   return level_of(std::move(chosen), all, 0, edge, job);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/workspace/workspace.hpp"
 
+#include "engine/config/config_file.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/sealed_part.hpp"
@@ -43,7 +44,7 @@ std::string joined(const Lines& lines) {
 }
 
 bool is_of_input(const Parameter& p) {
-  const std::set<std::string_view> sections = {"input", "scale", "neighbourhood", "criteria"};
+  const std::set<std::string_view> sections = {"scale", "neighbourhood", "criteria"};
   return sections.contains(p.section) || p.key == "crease_threshold";
 }
 
@@ -182,9 +183,13 @@ StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}};
-  const std::vector<char> text = part->records<char>("config", 0);
-  read_config_text({text.data(), text.size()}, folder / kRun, run.config);
+  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}, .note = {}};
+  const auto text = [&](std::string_view stream) {
+    const std::vector<char> characters = part->records<char>(stream, 0);
+    return std::string(characters.begin(), characters.end());
+  };
+  read_parameters(text("config"), folder / kRun, parameters(run.config));
+  run.note = text("note");
   return run;
 }
 
@@ -254,7 +259,8 @@ void open_workspace(const PointSource& scan, Job& job) {
     PartWriter part(folder / kRun);
     for (const auto& [stream, text] : {std::pair<std::string_view, std::string>{"made from", joined(now)},
                                        {"inputs", inputs},
-                                       {"config", print_config(config)}})
+                                       {"config", print_config(config)},
+                                       {"note", config.run.note}})
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }

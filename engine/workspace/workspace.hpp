@@ -37,6 +37,7 @@ enum class WorkspaceNote {
 struct StoredRun {
   std::vector<std::string> names;  // `PointSource::names`
   Config config;
+  std::string note;  // as `RunConfig::note` was
 };
 // Throws `Error` where the folder is no workspace.
 StoredRun read_run(const std::filesystem::path& folder);

@@ -63,7 +63,7 @@ void write_bytes(std::string_view id, const Items& items, Encode&& encode, Outpu
 
 // Keys of the run that the user has changed.
 Json changed_parameters(const Json& parameters) {
-  const Json defaults = parameter_values({}, [](std::string_view) { return true; });
+  const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
   Json changed = Json::array();
   for (const auto& [section, values] : parameters.items()) {
     for (const auto& [key, value] : values.items()) {

@@ -2,10 +2,10 @@
 // The annotated scan as rows of bytes: what the input has of each point, then its results.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"
+#include "io/options/options.hpp"
 #include "io/scan_reader.hpp"
 
 #include <cstddef>

@@ -2,9 +2,9 @@
 // The results that lacuna_gis.so writes.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
+#include "io/options/options.hpp"
 #include "io/results/loops_gis.hpp"
 #include "io/results/output_file.hpp"
 
@@ -20,6 +20,7 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, const Out
                      GisFormat format, OutputFile& out);
 
 // Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.
-void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+                    OutputFile& out);
 
 }  // namespace lacuna::io

@@ -82,7 +82,7 @@ Json cause_json(const LoopCause& cause) {
   return json;
 }
 
-Json head(const Detection& detection, const FileScan& scan, const Config& config) {
+Json head(const Detection& detection, const FileScan& scan, const FilesConfig& config) {
   const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
   put_crs(scan, json);
@@ -153,7 +153,8 @@ void write_loop(std::size_t id, const Detection& detection, bool with_coordinate
 
 }  // namespace
 
-void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+void write_holes(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+                 OutputFile& out) {
   std::string text = print(head(detection, scan, config), 2);
   text.resize(text.size() - 2);  // without its "\n}": the loops follow
   out.write(text);

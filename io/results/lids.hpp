@@ -2,9 +2,9 @@
 // The lids of holes, as meshes and as a table. io/lids/make_lid.hpp says what they are.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
+#include "io/options/options.hpp"
 #include "io/results/output_file.hpp"
 
 #include <filesystem>

@@ -3,10 +3,10 @@
 // relative to an offset.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"
+#include "io/options/options.hpp"
 
 #include <vector>
 

@@ -5,9 +5,9 @@
 // `Error`.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
+#include "io/options/options.hpp"
 #include "io/results/output_set.hpp"
 
 #include <cstdint>

@@ -2,10 +2,10 @@
 // The points of a scan as a format has them. All of them, or any selection, become a file.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"
+#include "io/options/options.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/output_file.hpp"
 

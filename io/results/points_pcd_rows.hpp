@@ -2,9 +2,9 @@
 // The rows of points.pcd, without the results: those of PCD files as they are, or the columns of any formats.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "io/file_scan.hpp"
 #include "io/local_offset.hpp"
+#include "io/options/options.hpp"
 #include "io/pcd/pcd_header.hpp"
 #include "io/results/annotated_rows.hpp"
 

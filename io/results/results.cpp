@@ -30,22 +30,22 @@ namespace {
 struct ResultFile {
   std::string_view name;
   FileMark mark;
-  void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
-  bool (*is_wanted)(const Config&);
+  void (*write)(const Detection&, const FileScan&, const FilesConfig&, OutputFile&);
+  bool (*is_wanted)(const FilesConfig&);
   Writer writer = Writer::kThis;
   bool is_of_others = false;  // made of the other results, once these are complete
 };
 
 using D = const Detection&;
 using S = const FileScan&;
-using C = const Config&;
+using C = const FilesConfig&;
 bool always(C) {
   return true;
 }
 
 template <PointsFormat format>
 bool has_points(C config) {
-  return config.output.points && config.output.points_format == format;
+  return config.results.points && config.output.points_format == format;
 }
 
 bool has_lids(C config) {
@@ -63,7 +63,7 @@ ResultFile shapefile_part(std::string_view name) {
           Writer::kLibrary};
 }
 
-bool needs_gis_library(const Config& config) {
+bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
 }
 
@@ -88,9 +88,9 @@ const std::vector<ResultFile>& all_results() {
        [](D d, S s, C c, OutputFile& out) { write_points_csv(d, s, c.output, out); },
        has_points<PointsFormat::kCsv>},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
-       [](C c) { return c.output.sample_points > 0; }},
+       [](C c) { return c.results.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
-       [](C c) { return c.output.vdb; }},
+       [](C c) { return c.results.voxels; }},
       {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
       {"loops.dxf", kDxfMark, [](D d, S, C, OutputFile& out) { write_loops_dxf(d, out); },
@@ -132,13 +132,13 @@ const std::vector<ResultFile>& all_results() {
 }
 
 // With the format of the annotated scan that `input` stands for.
-Config with_points_format(Config config, const FileScan& scan) {
+FilesConfig with_points_format(FilesConfig config, const FileScan& scan) {
   config.output.points_format = points_format(scan, config.output);
   return config;
 }
 
 // The format is a chosen one here and below, not `input`.
-std::vector<ResultFile> results_of(const Config& config) {
+std::vector<ResultFile> results_of(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
                [&](const ResultFile& result) { return result.is_wanted(config); });
@@ -146,7 +146,7 @@ std::vector<ResultFile> results_of(const Config& config) {
 }
 
 // Those that this run does not write. An earlier run may have.
-std::vector<ResultFile> unwanted_results(const Config& config) {
+std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
                [&](const ResultFile& result) { return !result.is_wanted(config); });
@@ -155,10 +155,10 @@ std::vector<ResultFile> unwanted_results(const Config& config) {
 
 }  // namespace
 
-void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
+void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
-  const Config chosen = with_points_format(config, scan);
-  if (config.output.points) check_points(scan, config.output);
+  const FilesConfig chosen = with_points_format(config, scan);
+  if (config.results.points) check_points(scan, config.output);
   check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
   for (const ResultFile& result : results_of(chosen)) {
@@ -171,8 +171,8 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
 }
 
 std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
-                                                 const Config& config, const std::filesystem::path& folder,
-                                                 Overwrite overwrite) {
+                                                 const FilesConfig& config,
+                                                 const std::filesystem::path& folder, Overwrite overwrite) {
   check_output_folder(scan, config, folder, overwrite);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -181,7 +181,7 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
   OutputSet set(overwrite);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(1, [&](std::size_t) { write_cut_outs(detection, scan, config, folder, set); });
-  const Config chosen = with_points_format(config, scan);
+  const FilesConfig chosen = with_points_format(config, scan);
   const std::vector<ResultFile> results = results_of(chosen);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results)

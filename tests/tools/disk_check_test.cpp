@@ -27,8 +27,8 @@ std::string ply() {
          std::string(kPoints * 12, '\1');
 }
 
-Config with_limit() {
-  Config config;
+io::FilesConfig with_limit() {
+  io::FilesConfig config;
   config.run.memory_limit = 256 << 20;
   config.run.threads = 1;
   return config;
@@ -40,7 +40,7 @@ struct Disks {
   std::optional<Disk> operator()(const std::filesystem::path& folder) const { return of.at(folder.string()); }
 };
 
-std::uint64_t workspace_bytes(const FileScan& scan, const Config& config) {
+std::uint64_t workspace_bytes(const FileScan& scan, const io::FilesConfig& config) {
   NoProgress silence;
   const Job job(config, {}, silence);
   return disk_needs(size_from_headers(scan, job), job).most;
@@ -51,7 +51,7 @@ std::uint64_t workspace_bytes(const FileScan& scan, const Config& config) {
 TEST_CASE("a disk that is too small for the workspace or for the results is a warning that names it") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  const Config config = with_limit();
+  const io::FilesConfig config = with_limit();
   const std::uint64_t workspace = workspace_bytes(scan, config);
   const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
   CHECK(workspace > kPoints * (16 + 48));
@@ -72,8 +72,8 @@ TEST_CASE("a disk that is too small for the workspace or for the results is a wa
 TEST_CASE("workspace and results on one disk need space for both") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  Config config = with_limit();
-  config.output.points = true;
+  io::FilesConfig config = with_limit();
+  config.results.points = true;
   config.scale.every_point = true;  // levels need more of the workspace than the results do
   config.output.normals = true;
   const std::uint64_t workspace = workspace_bytes(scan, config);
@@ -90,8 +90,8 @@ TEST_CASE("workspace and results on one disk need space for both") {
 TEST_CASE("a disk that cannot hold the annotated scan is an error before the run") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  Config config = with_limit();
-  config.output.points = true;
+  io::FilesConfig config = with_limit();
+  config.results.points = true;
   const std::uint64_t points = result_bytes(scan, config, kPoints, kPoints).points;
   const auto check = [&](std::uint64_t free) {
     return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, kPlenty}}, {"out", {2, free}}}});

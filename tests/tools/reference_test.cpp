@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manual page and the completions have every command and every option.
-#include "engine/config/config.hpp"
+#include "io/options/options.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <string>
@@ -35,8 +35,9 @@ bool is_installed(const std::string& program) {
 
 TEST_CASE("the manual page has every parameter, its section and its default", "[reference]") {
   const std::string page = printed({"manual"});
-  Config config;
+  io::FilesConfig config;
   for (const Parameter& parameter : parameters(config)) {
+    if (parameter.is_constant) continue;
     CHECK_THAT(page, Contains("\\fB" + in_troff(parameter.option()) + "\\fR") &&
                          Contains(".SS [" + std::string(parameter.section) + "]"));
   }
@@ -62,11 +63,12 @@ TEST_CASE("the date of the manual page may be given, so that its bytes are the s
 }
 
 TEST_CASE("every completion has every parameter and every choice", "[reference]") {
-  Config config;
+  io::FilesConfig config;
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     INFO(shell);
     const std::string script = printed({"completion", shell});
     for (const Parameter& parameter : parameters(config)) {
+      if (parameter.is_constant) continue;
       const std::string option = parameter.option();
       CHECK_THAT(script, Contains(shell == "fish" ? " -l " + option.substr(2) + " " : option));
     }

@@ -27,8 +27,8 @@ using Names = std::vector<std::string>;
 
 constexpr double kMargin = 0.75;
 
-Config with_cut_outs(PointsFormat format = PointsFormat::kInput) {
-  Config config;
+FilesConfig with_cut_outs(PointsFormat format = PointsFormat::kInput) {
+  FilesConfig config;
   config.output.cut_outs = kMargin;
   config.output.points_format = format;
   return config;
@@ -118,7 +118,7 @@ bool is_same(const std::vector<std::vector<double>>& a, const std::vector<std::v
 }
 
 // Writes only the cut-outs. Returns their folder.
-fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const Config& config,
+fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const FilesConfig& config,
                  const fs::path& out, std::size_t most_holes = 1000) {
   FileScan scan(inputs, {});
   check_cut_outs(scan, config, out, Overwrite::kOwn);
@@ -170,7 +170,7 @@ TEST_CASE("a cut-out has the rows in the widened box of its loop, with all colum
   check_selections(detection, laz.parent_path(), {las}, ".laz");
   const Names formats{".ply", ".pcd"};
   for (const std::string& extension : formats) {
-    const Config config = with_cut_outs(extension == ".ply" ? PointsFormat::kPly : PointsFormat::kPcd);
+    const FilesConfig config = with_cut_outs(extension == ".ply" ? PointsFormat::kPly : PointsFormat::kPcd);
     const fs::path made = cut_out(detection, {text}, config, folder / extension);
     check_selections(detection, made, {text}, extension);
     // A file of the format itself, for which the writer has another way.
@@ -248,7 +248,7 @@ TEST_CASE("cut-outs of local coordinates are those of the scan", "[io][results]"
   const std::string text = folder.write("scan.xyz", text_of(random_points(2000)));
   const std::vector<std::vector<double>> expected = expected_rows({text}, detection.found[0]).rows;
   for (const PointsFormat format : {PointsFormat::kPly, PointsFormat::kPcd}) {
-    Config config = with_cut_outs(format);
+    FilesConfig config = with_cut_outs(format);
     config.output.local_coordinates = true;
     const std::string name = format == PointsFormat::kPly ? "hole-0.ply" : "hole-0.pcd";
     const fs::path local = cut_out(detection, {text}, config, folder / ("local " + name)) / name;
@@ -270,12 +270,12 @@ TEST_CASE("points that LAS cannot hold are an error before the work that names t
     values += " 1.5";
   }
   FileScan scan({folder.write("scan.xyz", names + "\n" + values + "\n")}, {});
-  const auto error = [&](Config config) {
+  const auto error = [&](FilesConfig config) {
     return error_of([&] { check_output_folder(scan, config, folder / "out", Overwrite::kOwn); });
   };
   CHECK_THAT(error(with_cut_outs(PointsFormat::kLaz)), Contains("cut-outs/*.laz: points of "));
-  Config config;
-  config.output.points = true;
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = PointsFormat::kLaz;
   CHECK_THAT(error(config), Contains("points.laz: points of "));
 }
@@ -373,11 +373,11 @@ TEST_CASE("cut-outs are results like others: all appear, or none", "[io][results
   FileScan scan({scan_file}, {});
   const fs::path out = folder / "out";
   const FakeDetection detection = with_squares(2);
-  Config config = with_cut_outs();
+  FilesConfig config = with_cut_outs();
   write_results(detection, scan, config, out);
   const auto before = files_of(out / kCutOutsFolder);
   CHECK(before.size() == 2);
-  config.output.points = true;  // the results of points are missing
+  config.results.points = true;  // the results of points are missing
   config.output.cut_outs = 2;
   CHECK_FALSE(error_of([&] { write_results(detection, scan, config, out); }).empty());
   CHECK(files_of(out / kCutOutsFolder) == before);

@@ -76,7 +76,7 @@ TEST_CASE("LAS files that one LAS file cannot hold are an error before the work,
     FileScan scan({folder.write("a.las", a.bytes()), folder.write("b.las", bytes)}, {});
     const std::string error =
         error_of([&] { check_output_folder(scan, las_config(), folder / "out", Overwrite::kOwn); });
-    Config ply = las_config();
+    FilesConfig ply = las_config();
     ply.output.points_format = PointsFormat::kPly;
     CHECK(error_of([&] { check_output_folder(scan, ply, folder / "out", Overwrite::kOwn); }).empty());
     return error;

@@ -57,9 +57,9 @@ FakeDetection detection_of(const Points& points) {
   return detection;
 }
 
-Config local_config(PointsFormat format) {
-  Config config;
-  config.output.points = true;
+FilesConfig local_config(PointsFormat format) {
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = format;
   config.output.local_coordinates = true;
   return config;
@@ -133,7 +133,7 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   CHECK(json.at("loops")[0].at("coordinates")[1] ==
         nlohmann::json{points[1].x(), points[1].y(), points[1].z()});
   for (const PointsFormat format : {PointsFormat::kPly, PointsFormat::kPcd}) {
-    const Config config = local_config(format);
+    const FilesConfig config = local_config(format);
     const auto size = std::filesystem::file_size(
         folder / (format == PointsFormat::kPly ? "ply/points.ply" : "pcd/points.pcd"));
     const auto bytes = result_bytes(scan, config, 100, 100);
@@ -148,7 +148,7 @@ TEST_CASE("without local coordinates nothing states an offset, and coordinates a
   const ScratchFolder folder;
   const Points points = utm_points();
   FileScan scan({folder.write("a.txt", text_of(points))}, {});
-  Config config = local_config(PointsFormat::kPly);
+  FilesConfig config = local_config(PointsFormat::kPly);
   config.output.local_coordinates = false;
   write_results(detection_of(points), scan, config, folder.path());
   for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "points.ply"}) {
@@ -250,7 +250,7 @@ TEST_CASE("points.pcd of PCD files keeps all but their positions, whatever offse
     FileScan scan(inputs, {});
     Points all;
     for (std::size_t i = 0; i < inputs.size(); ++i) all.insert(all.end(), points.begin(), points.end());
-    Config config = local_config(PointsFormat::kPcd);
+    FilesConfig config = local_config(PointsFormat::kPcd);
     config.output.local_coordinates = is_local;
     write_results(detection_of(all), scan, config, folder / name);
     return read_file(folder / name / "points.pcd");

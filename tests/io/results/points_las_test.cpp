@@ -146,7 +146,7 @@ TEST_CASE("points.las of a LAZ file is LAS with the same points, without what LA
       laz_point_data(layout, std::as_bytes(std::span(points)), std::vector<std::uint64_t>{5}, bytes.size()));
   std::string out[2];
   const std::string files[] = {plain, folder.write("a.laz", bytes)};
-  Config config = las_config();
+  FilesConfig config = las_config();
   config.output.points_format = PointsFormat::kLas;
   for (std::size_t i = 0; i < 2; ++i) {
     FileScan scan({files[i]}, {});
@@ -191,7 +191,7 @@ TEST_CASE("points.las has the system that holds for the scan, not the records of
     };
     std::vector<ScanInput> inputs = {write("a", crs)};
     for (const std::string& other : other_crs) inputs.emplace_back(write("b", other));
-    Config config = las_config();
+    FilesConfig config = las_config();
     config.input.crs = stated;
     FileScan scan(inputs, config.input);
     const std::string out = detect_to(folder, scan, 5 * inputs.size(), config);
@@ -225,7 +225,7 @@ TEST_CASE("rows of other formats become LAS points, and nothing of them is lost"
                                                 "nan 0 0 1 1 1 1 1 1 1 1 1 1\n"
                                                 "500002 5400002 3 4 5 6 7 31 2 3.5 7 -9 nan\n")},
                 {});
-  Config config = las_config();
+  FilesConfig config = las_config();
   config.output.points_format = PointsFormat::kLas;
   const std::string out = detect_to(folder, scan, 4, config);
   CHECK(at<std::uint8_t>(out, 104) == 7);
@@ -258,7 +258,7 @@ TEST_CASE("LAS and other files together share fields and extra bytes by name", "
   const std::string text = "x y z intensity depth\n500000.1234 5400000.5 1 3 0.25\n";
   FileScan scan({folder.write("t.xyz", text), folder.write("a.las", las.bytes())}, {});
   CHECK(points_format(scan, {}) == PointsFormat::kPly);
-  Config config = las_config();
+  FilesConfig config = las_config();
   config.output.points_format = PointsFormat::kLas;
   detect_to(folder, scan, 6, config);
   const Table table = read_table(folder / "out" / "points.las");

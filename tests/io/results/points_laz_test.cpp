@@ -26,7 +26,7 @@ std::string records_of(const std::filesystem::path& file) {
 // The annotated scan of this format, in a folder "out".
 std::filesystem::path write_points(const ScratchFolder& folder, const std::vector<ScanInput>& inputs,
                                    std::size_t rows, PointsFormat format) {
-  Config config = las_config();
+  FilesConfig config = las_config();
   config.output.points_format = format;
   FileScan scan(inputs, {});
   write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
@@ -162,7 +162,7 @@ TEST_CASE("chunks of long points have fewer of them, and are read as they were w
 TEST_CASE("points.laz refuses waveforms and points too long for the memory limit before the work",
           "[io][results]") {
   const ScratchFolder folder;
-  Config config = las_config();
+  FilesConfig config = las_config();
   config.output.points_format = PointsFormat::kLaz;
   const auto refusal = [&](const std::string& file, std::uint64_t memory) {
     const FileScan scan({file}, {}, memory);

@@ -18,15 +18,15 @@ namespace {
 using Catch::Matchers::Contains;
 using Names = std::vector<std::string>;
 
-Config with_points(PointsFormat format = PointsFormat::kInput) {
-  Config config;
-  config.output.points = true;
+FilesConfig with_points(PointsFormat format = PointsFormat::kInput) {
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = format;
   return config;
 }
 
 std::string written(const ScratchFolder& folder, const std::vector<ScanInput>& inputs, std::size_t rows,
-                    const std::string& name, const Config& config = with_points()) {
+                    const std::string& name, const FilesConfig& config = with_points()) {
   FileScan scan(inputs, {});
   write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / name);
@@ -89,7 +89,7 @@ TEST_CASE("the annotated scan of another format goes, and one of another program
       write_results(detection, scan, with_points(format), folder / "out");
       for (const auto& [any, file] : formats)
         CHECK(std::filesystem::exists(folder / "out" / file) == (file == name));
-      write_results(detection, scan, Config{}, folder / "out");
+      write_results(detection, scan, FilesConfig{}, folder / "out");
       CHECK_FALSE(std::filesystem::exists(folder / "out" / name));
     }
   }
@@ -261,7 +261,7 @@ TEST_CASE("blocks of results do not change the bytes of any format", "[io][resul
       FakeDetection detection;
       detection.with_results(100).block = block;
       for (const int threads : {1, 4}) {
-        Config config = with_points(format);
+        FilesConfig config = with_points(format);
         config.run.threads = threads;
         write_results(detection, scan, config, folder / "out");
         const std::string bytes = read_file(folder / "out" / points_file(scan, config.output));

@@ -25,7 +25,7 @@ struct Found {
     options.points = points;
     options.out = folder / "scan.ply";
     synth::write_scan(options);
-    Config config;
+    FilesConfig config;
     config.input = std::move(input);
     config.output.stations = (folder / (drives ? "scan.trajectory.txt" : "scan.stations.txt")).string();
     FileScan scan({options.out}, config.input);
