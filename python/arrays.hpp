@@ -16,7 +16,7 @@ io::ScanArrays scan_of(const pybind11::dict& columns);
 
 // The reported loops: one array for each measure; `offsets`, `ids` and `xyz` of their points, one loop after
 // the other.
-pybind11::dict loops_of(const Detection& detection);
+pybind11::dict loops_of(const io::ExplainedDetection& detection);
 
 // One row for each point of the input: probability, criteria, boundary, coherent, loop, normal.
 pybind11::dict points_of(const Detection& detection);

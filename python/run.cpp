@@ -175,7 +175,8 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
-        found->detection = detect(*found->scan, config, found->scratch->path(), watched);
+        found->detection.emplace(
+            io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));

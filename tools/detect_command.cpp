@@ -180,12 +180,11 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const FilesConfig& c
   const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
-  const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
-  if (stations) find_causes(*stations, scan, config.run, *detection);
+  ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
+  if (stations) find_causes(*stations, scan, config.run, detection);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  const std::vector<fs::path> written =
-      write_results(*detection, scan, with_min_hole(config), out, overwrite);
+  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
   const std::string more = steps.end ? steps.end() : "";
   if (workspace) {
@@ -193,12 +192,12 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const FilesConfig& c
     end_update(workspace->folder.path());
   }
   progress->end();
-  for (const std::string& warning : station_warnings(detection->stations)) spdlog::warn("{}", warning);
-  for (const std::string& warning : scan_warnings(scan, detection->summary, config))
+  for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
+  for (const std::string& warning : scan_warnings(scan, detection.summary, config))
     spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
-  std::string summary = print_summary(*detection, scan,
+  std::string summary = print_summary(detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());

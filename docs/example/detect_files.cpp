@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the holes of scan files and writes what `lacuna detect` writes: detect_files OUT SCAN...
-#include <lacuna/lacuna.hpp>
-#include <lacuna/lacuna_io.hpp>
-
 #include <cstdio>
 #include <filesystem>
 #include <vector>
+
+#include <lacuna/lacuna.hpp>
+#include <lacuna/lacuna_io.hpp>
 
 int main(int count, char** arguments) {
   try {
@@ -17,7 +17,7 @@ int main(int count, char** arguments) {
     std::filesystem::create_directories(scratch);
     lacuna::NoProgress silence;
     const auto found = lacuna::detect(scan, config, scratch, silence);
-    lacuna::io::write_results(*found, scan, config, out);
+    lacuna::io::write_results({*found}, scan, config, out);
     std::filesystem::remove(scratch);
     std::printf("%zu loops in %s\n", found->loops.size(), out.c_str());
   } catch (const std::exception& error) {

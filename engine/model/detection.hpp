@@ -132,8 +132,7 @@ using Stream = std::function<void(const std::function<void(Element...)>& visit)>
 // Streams are read from disk: they throw `Error`. Visits come from the calling thread.
 struct Detection {
   Summary summary;
-  std::vector<LoopMeasures> loops;       // reported ones, in order
-  std::vector<StationSummary> stations;  // that are known; the engine knows none
+  std::vector<LoopMeasures> loops;  // reported ones, in order
   // The points of one of these loops, in its order. It may be larger than memory.
   std::function<void(std::size_t loop, const std::function<void(const LoopPoint&)>& visit)>
       for_each_loop_point;

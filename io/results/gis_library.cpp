@@ -37,7 +37,7 @@ void check_gis_library() {
   check_gis_module(kUser);
 }
 
-void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
   const bool is_geojson = format == GisFormat::kGeoJson;

@@ -16,7 +16,7 @@ void check_gis_library();
 // Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate
 // reference system and the file has none. It has one, too, where GIS will read metres as degrees. Throws
 // `Error`.
-void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out);
 
 // Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.

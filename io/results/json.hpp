@@ -6,6 +6,7 @@
 #include "engine/model/points.hpp"
 #include "io/options/options.hpp"
 #include "io/row_filter.hpp"
+#include "io/stations/cause.hpp"
 
 #include <filesystem>
 #include <functional>

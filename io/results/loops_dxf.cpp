@@ -100,7 +100,7 @@ void put_tables(DxfText& dxf) {
 }
 
 // Extended data: strings 1000, reals 1040, whole numbers of 32 bits 1071.
-void put_measures(DxfText& dxf, std::size_t id, const LoopMeasures& loop) {
+void put_measures(DxfText& dxf, std::size_t id, const ExplainedLoop& loop) {
   dxf.put(1001, kApplication);
   dxf.put(1000, "id");
   dxf.put_whole(1071, id);
@@ -122,9 +122,9 @@ void put_measures(DxfText& dxf, std::size_t id, const LoopMeasures& loop) {
   }
 }
 
-void put_loop(DxfText& dxf, std::size_t id, const Detection& detection) {
+void put_loop(DxfText& dxf, std::size_t id, const ExplainedDetection& detection) {
   constexpr int kClosed = 1, k3D = 8, k3DVertex = 32;
-  const LoopMeasures& measures = detection.loops[id];
+  const ExplainedLoop measures = detection.loop(id);
   const char* const layer = layer_of(measures.kind);
   dxf.put(0, "POLYLINE");
   dxf.put(8, layer);
@@ -144,7 +144,7 @@ void put_loop(DxfText& dxf, std::size_t id, const Detection& detection) {
 
 }  // namespace
 
-void write_loops_dxf(const Detection& detection, OutputFile& out) {
+void write_loops_dxf(const ExplainedDetection& detection, OutputFile& out) {
   DxfText dxf(out);
   out.write(kDxfMark);
   put_header(dxf, detection.summary.bounds);

@@ -3,8 +3,8 @@
 // takes.
 #pragma once
 
-#include "engine/model/detection.hpp"
 #include "io/results/output_file.hpp"
+#include "io/stations/cause.hpp"
 
 #include <string_view>
 
@@ -16,6 +16,6 @@ inline constexpr std::string_view kDxfMark = "999\nlacuna detect, loops\n";
 // One entity POLYLINE for each loop, in order, on the layer "holes" or "outer_curves": release 12 has no
 // blanks in names. The id, the kind and the measures are its extended data of the application LACUNA: a name,
 // then its value. Coordinates have all digits. Holds one loop in memory. Throws `Error`.
-void write_loops_dxf(const Detection& detection, OutputFile& out);
+void write_loops_dxf(const ExplainedDetection& detection, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -35,7 +35,8 @@ struct Array {
 
 class LoopArrays {
  public:
-  explicit LoopArrays(const Detection& detection) : detection_(detection), loops_(detection.loops.size()) {
+  explicit LoopArrays(const ExplainedDetection& detection)
+      : detection_(detection), loops_(detection.loops.size()) {
     for (const LoopMeasures& loop : detection.loops) points_ += loop.points;
     add_points();
     add_lines();
@@ -58,12 +59,12 @@ class LoopArrays {
                          }
                        }});
   }
-  // `value_of(index, measures)`: a number of 8 bytes.
+  // `value_of(index, loop)`: a number of 8 bytes.
   template <class ValueOf>
   void add_for_loops(std::string section, std::string name, std::string type, ValueOf value_of) {
     arrays_.push_back({std::move(section), std::move(name), std::move(type), 1, loops_ * 8,
                        [this, value_of](OutputFile& out) {
-                         for (std::size_t i = 0; i < loops_; ++i) put(out, value_of(i, detection_.loops[i]));
+                         for (std::size_t i = 0; i < loops_; ++i) put(out, value_of(i, detection_.loop(i)));
                        }});
   }
 
@@ -80,19 +81,19 @@ class LoopArrays {
 
   void add_lines() {
     add_for_loops("CellData", "id", "Int64",
-                  [](std::size_t i, const LoopMeasures&) { return static_cast<std::int64_t>(i); });
-    add_for_loops("CellData", "kind", "Int64", [](std::size_t, const LoopMeasures& loop) {
+                  [](std::size_t i, const ExplainedLoop&) { return static_cast<std::int64_t>(i); });
+    add_for_loops("CellData", "kind", "Int64", [](std::size_t, const ExplainedLoop& loop) {
       return static_cast<std::int64_t>(loop.kind == LoopKind::kOuter);
     });
     for (const LoopMeasure& measure : kLoopMeasures) {
       const std::string name(measure.name);
       if (measure.is_count) {
-        add_for_loops("CellData", name, "Int64", [of = measure.of](std::size_t, const LoopMeasures& loop) {
+        add_for_loops("CellData", name, "Int64", [of = measure.of](std::size_t, const ExplainedLoop& loop) {
           return static_cast<std::int64_t>(of(loop));
         });
       } else {
         add_for_loops("CellData", name, "Float64",
-                      [of = measure.of](std::size_t, const LoopMeasures& loop) { return of(loop); });
+                      [of = measure.of](std::size_t, const ExplainedLoop& loop) { return of(loop); });
       }
     }
     arrays_.push_back({"Lines", "connectivity", "Int64", 1, (points_ + loops_) * 8, [this](OutputFile& out) {
@@ -111,7 +112,7 @@ class LoopArrays {
                        }});
   }
 
-  const Detection& detection_;
+  const ExplainedDetection& detection_;
   std::uint64_t loops_ = 0, points_ = 0;
   std::vector<Array> arrays_;
 };
@@ -136,7 +137,7 @@ std::string declare(const std::vector<Array>& arrays) {
 
 }  // namespace
 
-void write_loops_vtp(const Detection& detection, OutputFile& out) {
+void write_loops_vtp(const ExplainedDetection& detection, OutputFile& out) {
   const LoopArrays arrays(detection);
   out.write(kVtpMark);
   out.write(

@@ -2,8 +2,8 @@
 // loops.vtp: the loops as poly data of VTK's XML, for ParaView and VTK.
 #pragma once
 
-#include "engine/model/detection.hpp"
 #include "io/results/output_file.hpp"
+#include "io/stations/cause.hpp"
 
 #include <string_view>
 
@@ -15,6 +15,6 @@ inline constexpr std::string_view kVtpMark = "<?xml version=\"1.0\"?>\n<!-- lacu
 // One closed line for each loop, in order. Data of lines: id, kind (0 hole, 1 outer), each measure. Data of
 // points: id, probability. Coordinates and measures are doubles, in binary. Reads each loop three times, and
 // holds one in memory. Throws `Error`.
-void write_loops_vtp(const Detection& detection, OutputFile& out);
+void write_loops_vtp(const ExplainedDetection& detection, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -30,13 +30,13 @@ namespace {
 struct ResultFile {
   std::string_view name;
   FileMark mark;
-  void (*write)(const Detection&, const FileScan&, const FilesConfig&, OutputFile&);
+  void (*write)(const ExplainedDetection&, const FileScan&, const FilesConfig&, OutputFile&);
   bool (*is_wanted)(const FilesConfig&);
   Writer writer = Writer::kThis;
   bool is_of_others = false;  // made of the other results, once these are complete
 };
 
-using D = const Detection&;
+using D = const ExplainedDetection&;
 using S = const FileScan&;
 using C = const FilesConfig&;
 bool always(C) {
@@ -116,8 +116,8 @@ const std::vector<ResultFile>& all_results() {
        Writer::kThis, true},
       {"lids.csv", kLidsHeader, [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); },
        has_lids, Writer::kThis, true},
-      {"coverage.tif", coverage_mark(), write_coverage, [](C c) { return c.output.coverage > 0; },
-       Writer::kLibrary},
+      {"coverage.tif", coverage_mark(), [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
+       [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
@@ -170,7 +170,7 @@ void check_output_folder(const FileScan& scan, const FilesConfig& config, const 
   }
 }
 
-std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
                                                  const FilesConfig& config,
                                                  const std::filesystem::path& folder, Overwrite overwrite) {
   check_output_folder(scan, config, folder, overwrite);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "engine/model/detection.hpp"
 #include "io/file_scan.hpp"
 #include "io/options/options.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/results/output_set.hpp"
+#include "io/stations/cause.hpp"
 
 #include <filesystem>
 #include <string_view>
@@ -25,8 +25,8 @@ LACUNA_API void check_output_folder(const FileScan& scan, const FilesConfig& con
 // requests, as one set (io/results/output_set.hpp). The report is made of the others before any has its name.
 // A file of an earlier run that this one does not write, such as points.ply, does not belong to the new
 // results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
-LACUNA_API std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
-                                                            const FilesConfig& config,
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const FileScan& scan, const FilesConfig& config,
                                                             const std::filesystem::path& folder,
                                                             Overwrite overwrite = Overwrite::kOwn);
 
@@ -40,7 +40,7 @@ inline constexpr std::string_view kChangesFile = "changes.json";
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
 // which changes with it. What is not finite is null.
 inline constexpr std::string_view kHolesSchema = "holes 2";
-void write_holes(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+void write_holes(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config,
                  OutputFile& out);
 
 // run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
@@ -49,7 +49,7 @@ void write_run(const Detection& detection, const FileScan& scan, const FilesConf
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
 std::string_view table_header();
-void write_table(const Detection& detection, OutputFile& out);
+void write_table(const ExplainedDetection& detection, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
