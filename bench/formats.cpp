@@ -4,8 +4,8 @@
 // format instead, for whole runs.
 #include "bench/sample.hpp"
 #include "bench/scan_files.hpp"
-#include "io/file_scan.hpp"
 #include "engine/store/temporary_folder.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <filesystem>
 #include <string>

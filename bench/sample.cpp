@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/sample.hpp"
 
+#include "bench/synth/permutation.hpp"
+#include "bench/synth/random.hpp"
 #include "engine/bucket/cell_index.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/survey/survey.hpp"
-#include "tools/synth/permutation.hpp"
-#include "tools/synth/random.hpp"
 
 #include <cmath>
 #include <numbers>

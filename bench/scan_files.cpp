@@ -2,8 +2,8 @@
 #include "bench/scan_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "io/little_endian.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/laz_data.hpp"
 

@@ -3,6 +3,8 @@
 // other parameter at its default. Counter `per_point` is the time per point of the tile, comparable between
 // stages and with a whole run. Counters of other names are per thing that the stage goes through.
 #include "bench/sample.hpp"
+#include "bench/synth/ply_output.hpp"
+#include "bench/synth/random.hpp"
 #include "engine/boundary/coherence.hpp"
 #include "engine/boundary/paper/cycles.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
@@ -19,11 +21,9 @@
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/survey/survey.hpp"
-#include "io/file_scan.hpp"
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tests/support/point_tree.hpp"
-#include "tools/synth/ply_output.hpp"
-#include "tools/synth/random.hpp"
 
 #include <algorithm>
 #include <array>

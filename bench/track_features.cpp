@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the confidence of every loop is computed from, at every level of one scan, with default parameters. Of
-// two files for bench/accuracy/calibrate.py, one has the loops as `lacuna evaluate` reads them. The other has
-// their numbers, in the same order.
+// two files for bench/accuracy/calibrate.py, one has the loops as `lacuna-bench evaluate` reads them. The
+// other has their numbers, in the same order.
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/config/config.hpp"
-#include "engine/levels/evaluate_level.hpp"
-#include "engine/levels/level.hpp"
+#include "engine/pipeline_steps.hpp"
 #include "engine/run/job.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/near_loops.hpp"
 #include "engine/track/track_all.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -29,24 +28,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `totals`: set to those of the level.
-LevelLoops find_loops(const Level& level, Totals& totals, Job& job) {
-  tangential::TangentialBoundary boundary(level.store, job);
-  const std::vector<TileConsumer*> consumers = {&boundary};
-  totals = evaluate_level(level, consumers, job,
-                          [&](TileIndex tile, const TileOutput& output) { boundary.absorb(tile, output); });
-  const FoundLoops found = boundary.find_loops(totals, job);
-  return level_loops(level, totals, found, boundary, job);
-}
-
 // As engine/pipeline.cpp finds them, from fine to coarse.
 std::vector<LevelLoops> find_all_loops(PointSource& scan, Job& job) {
-  std::optional<Level> level = first_level(scan, job);
+  std::optional<Level> level = first_level(scan, {}, job);
   std::vector<LevelLoops> levels;
   while (level) {
-    Totals totals;
-    levels.push_back(find_loops(*level, totals, job));
-    std::optional<Level> above = level_above(*level, totals, job);
+    tangential::TangentialBoundary boundary(level->store.tiling(), job);
+    const std::vector<TileConsumer> consumers = {
+        [&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }};
+    const TileOutputs outputs = evaluate_level(*level, consumers, {}, job);
+    const Totals totals = read_totals(outputs, level->store.tiling(), level->extent);
+    boundary.complete_edges(outputs);
+    boundary.stitch(outputs, totals);
+    levels.push_back(level_loops(boundary.find_loops(outputs).loops, level->edge, totals));
+    std::optional<Level> above = level_above(*level, totals, {}, job);
     level.reset();
     if (above) level.emplace(*std::move(above));
   }
@@ -79,9 +74,9 @@ void write_features(const fs::path& file, std::span<const LevelLoops> levels,
   for (const TrackedLoop& loop : loops) {
     const LevelLoops& level = levels[loop.level];
     const TrackEvidence& e = loop.evidence;
-    out << loop.level << ',' << level.edge << ',' << level.evidence[loop.loop].is_coarse << ',' << e.clearness
-        << ',' << e.surface << ',' << e.sampling_gap << ',' << e.best << ',' << e.persistence << ','
-        << e.roundness << ',' << loop.log_odds << '\n';
+    out << loop.level << ',' << level.edge << ',' << level.loops.evidence(loop.loop).is_coarse << ','
+        << e.clearness << ',' << e.surface << ',' << e.sampling_gap << ',' << e.best << ',' << e.persistence
+        << ',' << e.roundness << ',' << loop.log_odds << '\n';
   }
   out.close();
 }

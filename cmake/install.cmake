@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` writes: the program with its manual and completions, the library, configs and documentation.
+# What `cmake --install` writes: the program with its completion for bash, the library, configs and documentation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(cmake/public_headers.cmake)
 
 install(TARGETS lacuna COMPONENT program)
+if(LACUNA_BENCH_PROGRAM)
+  install(TARGETS lacuna-bench COMPONENT bench OPTIONAL)
+endif()
 install(TARGETS lacuna_gis LIBRARY DESTINATION lib/lacuna COMPONENT gis)  # where the program looks for it
 
 # The libraries: lacuna::lacuna, lacuna::io with the files, and lacuna::shared with both.
@@ -54,27 +57,14 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE THIRD_
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
         PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
-foreach(page engine/README.md engine/store/README.md bench/README.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
+foreach(page engine/README.md engine/store/README.md tools/README.md bench/README.md bench/SPEED.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
 install(DIRECTORY docs/example DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT library PATTERN __pycache__ EXCLUDE)
 
-# The program writes the manual page and the completions of commands each time that it is linked. So whoever builds the
-# target lacuna has all that is installed.
-set(reference ${PROJECT_BINARY_DIR}/reference)
-file(MAKE_DIRECTORY ${reference})
-add_custom_command(
-  TARGET lacuna POST_BUILD
-  COMMAND lacuna manual > ${reference}/lacuna.1
-  COMMAND gzip -9nf ${reference}/lacuna.1
-  COMMAND lacuna completion bash > ${reference}/lacuna.bash
-  COMMAND lacuna completion zsh > ${reference}/_lacuna
-  COMMAND lacuna completion fish > ${reference}/lacuna.fish
-  BYPRODUCTS ${reference}/lacuna.1.gz ${reference}/lacuna.bash ${reference}/_lacuna ${reference}/lacuna.fish VERBATIM)
-set(LACUNA_ZSH_DIR zsh/site-functions CACHE STRING "Folder in share/ for the completion of zsh; Debian has its own")
-install(FILES ${reference}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-install(FILES ${reference}/lacuna.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
+# tools/package.sh makes the manual pages, which have what --help-all says.
+install(FILES ${PROJECT_BINARY_DIR}/lacuna.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/lacuna-bench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT bench OPTIONAL)
+install(FILES tools/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lacuna
         COMPONENT program)
-install(FILES ${reference}/_lacuna DESTINATION ${CMAKE_INSTALL_DATADIR}/${LACUNA_ZSH_DIR} COMPONENT program)
-install(FILES ${reference}/lacuna.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)

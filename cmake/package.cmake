@@ -30,6 +30,11 @@ its outer boundaries, and writes them with their measures. The scan may be
 larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, OFF, STL and
 text.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-gis)
+if(LACUNA_BENCH_PROGRAM)
+  lacuna_debian_package(bench lacuna-bench "benchmark for programs that find holes in scanned surfaces"
+"Makes synthetic scans whose holes are known, and evaluates the loops that a
+program has found: those of lacuna, or of any other program.")
+endif()
 lacuna_debian_package(gis lacuna-gis "files for GIS from lacuna, by GDAL"
 "With this package, lacuna writes GeoPackage, GeoJSON and Shapefile, and knows
 coordinate reference systems by their codes.")

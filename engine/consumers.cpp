@@ -1,32 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/consumers.hpp"
 
-#include "engine/boundary/paper/paper_boundary.hpp"
-#include "engine/boundary/tangential/tangential_boundary.hpp"
+#include "engine/boundary/candidates.hpp"
+#include "engine/results/orientation_graph.hpp"
+#include "engine/results/point_results.hpp"
+#include "engine/results/probability_voxels.hpp"
 
 namespace lacuna {
-namespace {
 
-// The one place where the method is chosen.
-std::unique_ptr<BoundaryMethod> boundary_method(const TileStore& store, const Job& job) {
-  if (job.config.loops.method == LoopMethod::kPaper)
-    return std::make_unique<paper::PaperBoundary>(store, job);
-  return std::make_unique<tangential::TangentialBoundary>(store, job);
-}
-
-}  // namespace
-
-Consumers::Consumers(const Level& level, const Job& job) : boundary(boundary_method(level.store, job)) {
-  all.push_back(boundary.get());
+Consumers::Consumers(const Level& level, bool keeps_outputs, Job& job)
+    : method(boundary_method(level.store.tiling(), job)) {
+  all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });
   if (level.number > 0) return;
-  const TileStore& store = level.store;
   const ResultsConfig& wanted = job.config.results;
-  all.push_back(&candidates.emplace(store, job));
-  if (wanted.points) all.push_back(&points.emplace(level.survey.points, store, job));
-  if (wanted.voxels) all.push_back(&voxels.emplace(store, job));
-  if (const std::int64_t most = wanted.sample_points; most > 0)
-    all.push_back(&sample.emplace(static_cast<std::uint64_t>(most), level.survey.ids, store, job));
-  if (job.config.normals.orient) all.push_back(&orientation.emplace(store, job));
+  all.push_back(emit_candidates);
+  if (wanted.points) all.push_back(emit_point_results);
+  if (wanted.voxels) all.push_back(emit_probabilities);
+  if (wanted.sample_points > 0) {
+    sample.emplace(static_cast<std::uint64_t>(wanted.sample_points), keeps_outputs);
+    all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { sample->emit(tile, output); });
+  }
+  if (job.config.normals.orient) all.push_back(emit_orientation);
 }
 
 }  // namespace lacuna

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who takes the evaluated tiles of a level.
+// Who puts out what of the evaluated tiles of a level.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
-#include "engine/boundary/candidates.hpp"
-#include "engine/levels/level.hpp"
-#include "engine/results/orientation_graph.hpp"
-#include "engine/results/point_results.hpp"
-#include "engine/results/probability_voxels.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/results/scan_sample.hpp"
+#include "engine/run/job.hpp"
+#include "engine/thin/level.hpp"
 
 #include <memory>
 #include <optional>
@@ -16,18 +14,17 @@
 
 namespace lacuna {
 
-// The method, which finds the loops. Of the first level, also all else that a user wants of its points.
+// The method, which finds the loops. At the first level, also all else that a user wants of its points.
 struct Consumers {
-  Consumers(const Level& level, const Job& job);
+  // `keeps_outputs`: a workspace keeps them. `level` and `job` must outlive this.
+  Consumers(const Level& level, bool keeps_outputs, Job& job);
+  Consumers(const Consumers&) = delete;
+  Consumers& operator=(const Consumers&) = delete;
 
-  std::unique_ptr<BoundaryMethod> boundary;
-  std::optional<Candidates> candidates;  // of the first level
-  std::optional<PointResults> points;
-  std::optional<ProbabilityVoxels> voxels;
+  std::unique_ptr<BoundaryMethod> method;
   std::optional<ScanSample> sample;
-  std::optional<OrientationGraph> orientation;
 
-  std::vector<TileConsumer*> all;
+  std::vector<TileConsumer> all;
 };
 
 }  // namespace lacuna

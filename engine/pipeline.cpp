@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/pipeline.hpp"
 
+#include "engine/boundary/candidates.hpp"
+#include "engine/bucket/bucket_scan.hpp"
 #include "engine/consumers.hpp"
+#include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/halo/eps_balls.hpp"
-#include "engine/levels/evaluate_level.hpp"
-#include "engine/levels/level.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/loops/measure_loops.hpp"
+#include "engine/pipeline_steps.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
+#include "engine/results/orientation_graph.hpp"
+#include "engine/results/point_results.hpp"
+#include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
+#include "engine/results/scan_sample.hpp"
+#include "engine/store/kept_scan.hpp"
 #include "engine/summarise.hpp"
+#include "engine/survey/survey_scan.hpp"
+#include "engine/thin/thin.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
-#include "engine/workspace/workspace.hpp"
+#include "engine/workspace/sealed_level.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -22,32 +33,80 @@
 namespace lacuna {
 namespace {
 
+// All points of the scan, in tiles on disk.
+Level bucket_points(PointSource& scan, StoreFiles files, const Workspace& workspace, Job& job) {
+  if (scan.reads_slowly()) {
+    KeptScan kept(scan, job.file("input"));
+    return bucket_points(kept, std::move(files), workspace, job);
+  }
+  std::optional<TileGuide> guide = find_guide(workspace, job);
+  SurveyedScan survey = survey_scan(scan, job, guide ? &guide->grid : nullptr);
+  TilePlan plan = plan_tiles(survey, std::move(guide), job);
+  TileGuide cuts{survey.grid, plan.cuts, plan.tile_points, plan.cell_points};
+  TileStore store =
+      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), std::move(files), job);
+  const double extent = extent_of(survey.bounds);
+  return {.survey = std::move(survey),
+          .extent = extent,
+          .guide = std::move(cuts),
+          .store = std::move(store),
+          .represented = {}};
+}
+
+LevelPlace place_of(std::size_t number, const Workspace& workspace, const Job& job) {
+  return {level_files(number, workspace, job), find_join(number, workspace)};
+}
+
+// The tiles of a level whose outputs a process makes: those without one whose middle point is in its share.
+std::vector<TileIndex> tiles_in(const TaskShare& share, const std::vector<TileIndex>& missing,
+                                const Tiling& tiling) {
+  std::vector<TileIndex> mine;
+  const double all = static_cast<double>(tiling.points());
+  std::uint64_t before = 0;
+  auto next = missing.begin();
+  for (TileIndex t = 0; t < tiling.tiles.size() && next != missing.end(); ++t) {
+    const double middle = static_cast<double>(before) + static_cast<double>(tiling.tiles[t].points) / 2;
+    const auto task =
+        static_cast<std::size_t>(middle / all * static_cast<double>(share.tasks));  // or `tasks`
+    before += tiling.tiles[t].points;
+    if (*next != t) continue;
+    if (std::min(task, share.tasks - 1) == share.task) mine.push_back(t);
+    ++next;
+  }
+  return mine;
+}
+
 struct FoundLevel {
+  TileOutputs outputs;
   Totals totals;
   FoundLoops found;
-  LevelLoops loops;
 };
 
-// Finds the loops of one level. Halo and evaluate: each point's criteria from its exact neighbourhood
-// (paper, 4.1 to 4.6). Then boundary edges, stitched across tiles to components, and their loops. Each
-// consumer keeps what it needs of an evaluated tile.
-FoundLevel find_loops(const Level& level, Consumers& consumers, Job& job) {
-  Totals totals = evaluate_level(level, consumers.all, job, [&](TileIndex tile, const TileOutput& output) {
-    for (TileConsumer* const consumer : consumers.all) consumer->absorb(tile, output);
-  });
-  FoundLoops found = consumers.boundary->find_loops(totals, job);
-  LevelLoops loops = level_loops(level, totals, found, *consumers.boundary, job);
-  return {std::move(totals), std::move(found), std::move(loops)};
+// Finds the loops of one level.
+FoundLevel find_loops(const Level& level, Consumers& consumers, const Workspace& workspace, Job& job) {
+  // Halo, evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6).
+  TileOutputs outputs = evaluate_level(level, consumers.all, workspace, job);
+  Totals totals = read_totals(outputs, level.store.tiling(), level.extent);
+
+  // Boundary edges, stitch, loops (paper, 5.1 and 5.2).
+  Phase phase(job, "loops", 0);
+  BoundaryMethod& method = *consumers.method;
+  method.complete_edges(outputs);
+  job.trim();
+  method.stitch(outputs, totals);
+  FoundLoops found = method.find_loops(outputs);
+  return {std::move(outputs), std::move(totals), std::move(found)};
 }
 
 // Finds the loops of each level above, from fine to coarse.
-void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels, Job& job) {
-  Phase phase(job, "levels", points_above(first));
+void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels,
+                      const Workspace& workspace, Job& job) {
+  Phase phase(job, "levels", 2 * first.store.tiling().points());  // each has half of the points below
   std::optional<Level> below;
-  while (std::optional<Level> level = level_above(below ? *below : first, totals, job)) {
-    Consumers consumers(*level, job);
-    FoundLevel found = find_loops(*level, consumers, job);
-    levels.push_back(std::move(found.loops));
+  while (std::optional<Level> level = level_above(below ? *below : first, totals, workspace, job)) {
+    Consumers consumers(*level, workspace.is_kept(), job);
+    FoundLevel found = find_loops(*level, consumers, workspace, job);
+    levels.push_back(level_loops(std::move(found.found.loops), level->edge, found.totals));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
     below.emplace(*std::move(level));
@@ -56,49 +115,88 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
 
 }  // namespace
 
+Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
+  if (std::optional<Level> kept = open_level(0, workspace.made_from, workspace, job)) {
+    scan.set_pass_counts(kept->input);
+    return *std::move(kept);
+  }
+  const bool is_thinned = first_edge(job.config.scale) > 0;
+  Level all =
+      bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), workspace, job);
+  Level level = is_thinned ? thin_to_first(all, place_of(0, workspace, job), job) : std::move(all);
+  level.input = scan.pass_counts();
+  seal_level(level, workspace.made_from, workspace, job);
+  return level;
+}
+
+std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
+                                 Job& job) {
+  const std::size_t number = below.number + 1;
+  if (std::optional<Level> kept = open_level(number, below.evaluation, workspace, job)) return kept;
+  std::optional<Level> level = thin_above(
+      below, totals.distances, [&] { return place_of(number, workspace, job); }, job);
+  if (level) seal_level(*level, below.evaluation, workspace, job);
+  return level;
+}
+
+TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
+                           const Workspace& workspace, Job& job, const std::optional<TaskShare>& share) {
+  const Tiling& tiling = level.store.tiling();
+  const auto check = share ? PartReader::Check::kTable : PartReader::Check::kWhole;
+  TileOutputs outputs(tiling, find_outputs(level, check, workspace, job.config), job);
+  std::vector<TileIndex> tiles = outputs.missing();
+  if (share) tiles = tiles_in(*share, tiles, tiling);
+  evaluate_tiles(level, tiles, exchange_halo(level.store, tiles, job), consumers, outputs, job);
+  return outputs;
+}
+
 std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
                                   const std::filesystem::path& scratch, Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
   Job job(config, scratch, progress);
-  open_workspace(scan, job);
+  const Workspace workspace = open_workspace(scan, config);
 
-  // Survey and bucket: where the points are, and the points in tiles on disk.
-  Level first = first_level(scan, job);
+  // Survey, bucket: where the points are, and the points in tiles on disk.
+  Level first = first_level(scan, workspace, job);
   const TileStore& store = first.store;
   Summary summary = summarise(first, job);
   const double eps = eps_length(config.neighbourhood, first.extent);
-  refuse_balls(store.tiling(), eps, job);  // those of thinner levels are smaller
+  refuse_balls(store.tiling(), eps, job);  // the balls of thinner levels hold fewer points
 
-  // The loops of the first level, and all else that is found of its points.
-  Consumers consumers(first, job);
-  FoundLevel found = find_loops(first, consumers, job);
-
-  // The loops of the levels above, and each hole tracked through the levels.
+  // The loops of all levels.
+  Consumers consumers(first, workspace.is_kept(), job);
+  FoundLevel found = find_loops(first, consumers, workspace, job);
+  const TileOutputs& outputs = found.outputs;
   std::vector<LevelLoops> levels;
-  levels.push_back(std::move(found.loops));
-  if (has_levels(config)) find_loops_above(first, found.totals, levels, job);
+  levels.push_back(level_loops(std::move(found.found.loops), first.edge, found.totals));
+  if (has_levels(config)) find_loops_above(first, found.totals, levels, workspace, job);
   add_findings(found.totals, found.found, levels, eps, summary);
+
+  // Track: each hole through the levels.
+  TrackedLoops tracked = track_loops(std::move(levels), job);
   MeasuredLoops loops =
-      measure_loops(track_loops(std::move(levels), job), found.totals.mean_edge_length(), job);
+      measure_loops(std::move(tracked.loops), tracked.tracks, found.totals.mean_edge_length(), job);
 
   // Results, in the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
   LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
-  auto& [boundary, candidates, points, voxels, sampler, orientation, all] = consumers;
-  RowSet coherent = candidates->coherent(job);
-  RowSet boundary_candidates = boundary->boundary_candidates(*candidates, coherent, on_loops.rows, job);
-  std::optional<ProbabilityGrid> probabilities;
-  if (voxels) probabilities.emplace(voxels->finish(store, first.survey.middle, job));
-  std::optional<Column<StoredSample>> sample;
-  if (sampler) sample.emplace(sampler->finish(job));
-  std::optional<RowSet> opposed_normals;
-  if (orientation) opposed_normals = orientation->opposed_normals(job);
-  std::unique_ptr<Detection> detection =
-      collect_results({std::move(summary), std::move(loops), std::move(selected), std::move(on_loops),
-                       std::move(coherent), std::move(boundary_candidates), std::move(points),
-                       std::move(probabilities), std::move(sample), std::move(opposed_normals)},
-                      *candidates, store, job);
+  RowSet coherent = coherent_candidates(outputs, store.tiling(), job);
+  RowSet boundary_candidates = consumers.method->boundary_candidates(outputs, coherent, on_loops.rows);
+  Findings findings{.summary = std::move(summary),
+                    .loops = std::move(loops),
+                    .selected = std::move(selected),
+                    .on_loops = std::move(on_loops),
+                    .coherent = std::move(coherent),
+                    .boundary_candidates = std::move(boundary_candidates)};
+  if (config.results.points) findings.points.emplace(outputs, first.survey.points, store, job);
+  if (config.results.voxels)
+    findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
+                                                      findings.summary.strays.rest, store, job));
+  if (consumers.sample)
+    findings.sample.emplace(consumers.sample->draw(outputs, first.survey.ids, store, job));
+  if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);
+  std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
   if (!first.represented) return detection;
   return spread_results(std::move(detection), *std::move(first.represented), job);
 }

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/levels/level.hpp"
+#include "engine/evaluate/totals.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
+#include "engine/thin/level.hpp"
 #include "engine/track/level_loops.hpp"
 
 #include <span>

@@ -2,9 +2,10 @@
 #include "engine/unit.hpp"
 
 #include "engine/consumers.hpp"
-#include "engine/levels/evaluate_level.hpp"
-#include "engine/levels/sealed_level.hpp"
+#include "engine/pipeline_steps.hpp"
 #include "engine/run/error.hpp"
+#include "engine/thin/thin.hpp"
+#include "engine/workspace/sealed_level.hpp"
 #include "engine/workspace/workspace.hpp"
 
 #include <algorithm>
@@ -30,14 +31,14 @@ std::size_t tasks_of_plan(const fs::path& workspace) {
   return tasks;
 }
 
-std::optional<Level> make_level(std::size_t number, PointSource& scan, Job& job) {
-  if (std::optional<Level> kept = find_level(number, job)) return kept;
-  if (number == 0) return first_level(scan, job);
-  const std::optional<Level> below = make_level(number - 1, scan, job);
+std::optional<Level> make_level(std::size_t number, PointSource& scan, const Workspace& workspace, Job& job) {
+  if (std::optional<Level> kept = find_level(number, workspace, job)) return kept;
+  if (number == 0) return first_level(scan, workspace, job);
+  const std::optional<Level> below = make_level(number - 1, scan, workspace, job);
   if (!below) return std::nullopt;
-  const Consumers consumers(*below, job);
-  const Totals totals = evaluate_level(*below, consumers.all, job, [](TileIndex, const TileOutput&) {});
-  return level_above(*below, totals, job);
+  const Consumers consumers(*below, true, job);
+  const TileOutputs outputs = evaluate_level(*below, consumers.all, workspace, job);
+  return level_above(*below, read_totals(outputs, below->store.tiling(), below->extent), workspace, job);
 }
 
 }  // namespace
@@ -51,12 +52,11 @@ std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks
   Config config = with_min_hole(given);
   NoProgress silence;
   Job job(config, config.run.workspace, silence);
-  job.is_unit = true;  // units of an earlier plan may be at work
   if (config.run.tile_points == 0)
     config.run.tile_points =
         static_cast<std::int64_t>(std::min(job.tile_points(points), points / tasks / kTilesOfTask + 1));
-  open_workspace(scan, job);
-  write_note(job.kept, WorkspaceNote::kTasks, std::to_string(tasks));
+  const Workspace workspace = open_workspace(scan, config, true);  // units of an earlier plan may be at work
+  write_note(workspace.folder, WorkspaceNote::kTasks, std::to_string(tasks));
 
   std::vector<Step> steps;
   const std::size_t levels = has_levels(config) ? kMostLevels : 1;
@@ -84,13 +84,12 @@ bool work(PointSource& scan, const Config& given, const Step& step, std::size_t 
   check_config(given);
   const Config config = with_min_hole(given);
   Job job(config, scratch, progress);
-  job.is_unit = true;
-  open_workspace(scan, job);
-  const std::optional<Level> level = make_level(step.level, scan, job);
+  const Workspace workspace = open_workspace(scan, config, true);
+  const std::optional<Level> level = make_level(step.level, scan, workspace, job);
   if (!level) return false;
   if (!step.evaluates) return true;
-  const Consumers consumers(*level, job);
-  evaluate_share(*level, {task, step.tasks}, consumers.all, job);
+  const Consumers consumers(*level, true, job);
+  evaluate_level(*level, consumers.all, workspace, job, TaskShare{task, step.tasks});
   return true;
 }
 

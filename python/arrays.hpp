@@ -2,7 +2,8 @@
 // Between numpy and the engine: columns of scans, and results.
 #pragma once
 
-#include "io/scan_arrays.hpp"
+#include "engine/model/detection.hpp"
+#include "io/scan/scan_arrays.hpp"
 #include "io/stations/cause.hpp"
 
 #include <pybind11/numpy.h>

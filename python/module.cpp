@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // lacuna._core: what python/lacuna calls. Everything else is Python.
+#include "bench/evaluation/evaluation.hpp"
+#include "bench/evaluation/print.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "python/arrays.hpp"
 #include "python/run.hpp"
-#include "tools/accuracy/evaluation.hpp"
-#include "tools/compare_command.hpp"
-#include "tools/evaluate_text.hpp"
-#include "tools/input_files.hpp"
+#include "tools/commands/compare_command.hpp"
+#include "tools/run/input_files.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -85,12 +85,12 @@ std::string evaluate(const fs::path& result_path, const fs::path& truth_path,
                      const std::vector<fs::path>& scans, const fs::path& surface, double tolerance,
                      std::size_t min_vertices) {
   const py::gil_scoped_release unlocked;
-  const accuracy::Result result = accuracy::read_result(result_path);
-  accuracy::Truth truth = accuracy::read_truth(truth_path, {scans.begin(), scans.end()}, result);
-  if (!surface.empty()) truth.surface = accuracy::read_surface(surface);
-  const accuracy::EvaluationRule rule{.tolerance = tolerance, .min_vertices = min_vertices};
-  const accuracy::Evaluation evaluation = accuracy::evaluate(result, truth, rule);
-  return tools::print_json({result, truth, evaluation, result_path, truth_path, surface, rule});
+  evaluation::Result result = evaluation::read_result(result_path);
+  evaluation::Truth truth = evaluation::read_truth(truth_path, {scans.begin(), scans.end()}, result);
+  if (!surface.empty()) truth.surface = evaluation::read_surface(surface);
+  const evaluation::EvaluationRule rule{.tolerance = tolerance, .min_vertices = min_vertices};
+  const evaluation::Evaluation evaluation = evaluation::evaluate(result, truth, rule);
+  return evaluation::print_json({result, truth, evaluation, result_path, truth_path, surface, rule});
 }
 
 std::string compare(const fs::path& before, const fs::path& after, double tolerance) {

@@ -5,8 +5,8 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "io/stations/find_causes.hpp"
-#include "tools/overall_progress.hpp"
-#include "tools/scan_warnings.hpp"
+#include "tools/console/overall_progress.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/store/scratch_place.hpp"
-#include "io/file_scan.hpp"
 #include "io/options/options.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 
 #include <memory>

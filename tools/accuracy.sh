@@ -13,7 +13,8 @@ bench/accuracy/results/DATE.csv. Where PCL (libpcl-dev) or CGAL (libcgal-dev) ar
 points and the border loops of CGAL's advancing front, too.
 
   --only EXPRESSION   sets whose GROUP/NAME matches: synth/, cube, ...   default all but quick/
-  --lacuna PROGRAM    this one, instead of building
+  --lacuna PROGRAM    this one, instead of building; --bench too, then
+  --bench PROGRAM     lacuna-bench, which makes the sets and evaluates
   --no-peers          without PCL and CGAL
   --build DIR         default build
   --work DIR          sets and results of runs; sets are kept            default bench/work/accuracy
@@ -28,6 +29,7 @@ END
 only='^(?!quick/)'
 floors=
 lacuna=
+bench=
 no_peers=0
 build=$root/build
 work=$root/bench/work/accuracy
@@ -39,11 +41,13 @@ parse_options "$@"
 command -v python3 >/dev/null || fail "python3 is missing (package python3)"
 if [[ -n $lacuna ]]; then
   [[ -x $lacuna ]] || fail "$lacuna is no program"
+  [[ -x $bench ]] || fail "--bench must name the program lacuna-bench"
 else
   tools/install.sh
   cmake -G Ninja -S . -B "$build" >/dev/null
-  cmake --build "$build" --parallel "$(nproc)" --target lacuna >&2
+  cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench >&2
   lacuna=$build/lacuna
+  bench=$build/lacuna-bench
 fi
 
 # Builds a peer of Lacuna where its library is installed, and adds the option of run.py that names it.
@@ -63,7 +67,7 @@ if ((!no_peers)); then
   add_peer cgal libcgal-dev cgal_border_loops
 fi
 
-python3 bench/accuracy/run.py --lacuna "$lacuna" "${peers[@]}" --work "$work" --data "$data" --csv "$csv" \
+python3 bench/accuracy/run.py --lacuna "$lacuna" --bench "$bench" "${peers[@]}" --work "$work" --data "$data" --csv "$csv" \
   --only "$only" ${floors:+--floors "$floors"} -- "${detect_options[@]}"
 echo
 echo "$csv"

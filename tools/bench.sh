@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Measures `lacuna detect` from scan file to results, next to other tools where wanted. See bench/README.md.
+# Measures `lacuna detect` from scan file to results, next to other tools where wanted. See bench/SPEED.md.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/options.sh"
 source tools/packages.sh
@@ -76,7 +76,7 @@ done
 tools/install.sh
 install_packages libbenchmark-dev liblzf-dev gnuplot-nox python3 time
 cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLACUNA_BENCH=ON >/dev/null
-cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna_stages lacuna_formats
+cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench lacuna_stages lacuna_formats
 lacuna=$build/lacuna
 
 if ((peers)); then
@@ -100,7 +100,7 @@ make_scan() {
   count=$(awk -v m="$millions" 'BEGIN { printf "%.0f", m * 1e6 }')
   scan=$work/waves-${millions}M-$kind-positions-$order-order.ply
   [[ -e $scan ]] && return
-  "$lacuna" synth surface "$scan" --kind waves --density-factor 4 --points "$count" --positions "$kind" \
+  "$build/lacuna-bench" synth surface "$scan" --kind waves --density-factor 4 --points "$count" --positions "$kind" \
     --order "$order" --holes "$((count / 10000 + 1))"
 }
 

@@ -22,7 +22,7 @@ TEXT
 check_odr() {
   cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF -DLACUNA_SHARED=OFF \
     -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON "-DCMAKE_CXX_FLAGS=-Werror=odr -Werror=lto-type-mismatch"
-  cmake --build build-odr --parallel "$(nproc)" --target lacuna
+  cmake --build build-odr --parallel "$(nproc)" --target lacuna lacuna-bench
 }
 
 # ThreadSanitizer knows the order of tasks only where oneTBB was built for it. Debian's was not.

@@ -30,7 +30,7 @@ if ! grep --quiet --word-regexp rdtscp /proc/cpuinfo; then
   echo "instructions: not counted, since valgrind cannot run the program on this processor (no rdtscp)"
   exit 0
 fi
-"$build/lacuna" synth surface "$work/scan.ply" --kind waves --density-factor 4 --points 400000 --positions random \
+"$build/lacuna-bench" synth surface "$work/scan.ply" --kind waves --density-factor 4 --points 400000 --positions random \
   --holes 41 >/dev/null
 valgrind --quiet --tool=callgrind --callgrind-out-file="$work/calls" \
   "$build/lacuna" detect "$work/scan.ply" --out "$work/out" --quiet --threads 1

@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes packages in build-package/ for the Debian that it runs on, and prints their names: lacuna, lacuna-gis,
-# liblacuna0.1, liblacuna-dev and python3-lacuna. Takes further arguments for CMake.
+# Makes packages in build-package/ for the Debian that it runs on, and prints their names: lacuna, lacuna-bench,
+# lacuna-gis, liblacuna0.1, liblacuna-dev and python3-lacuna. Takes further arguments for CMake.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tools/packages.sh
 
 tools/install.sh
+install_packages help2man
 build=build-package
 cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DLACUNA_TESTS=OFF \
-  -DLACUNA_ZSH_DIR=zsh/vendor-completions -DLACUNA_PYTHON_DIR=lib/python3/dist-packages \
-  -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >&2
+  -DLACUNA_PYTHON_DIR=lib/python3/dist-packages -DPython3_EXECUTABLE=/usr/bin/python3 "$@" >&2
 cmake --build "$build" --parallel "$(nproc)" >&2
+make_manual() {
+  help2man --no-info --help-option=--help-all --name="$2" "$build/$1" | gzip -9n >"$build/$1.1.gz"
+}
+make_manual lacuna "find holes in scanned surfaces"
+make_manual lacuna-bench "benchmark for programs that find holes in scanned surfaces"
 rm -f "$build"/*.deb
 (cd "$build" && cpack -G DEB) >&2
 ls "$build"/*.deb

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program `lacuna`: its subcommands and what its exit codes mean.
+// The program `lacuna`: its commands.
 #pragma once
 
 namespace lacuna::tools {
 
-// 0: done; 1: failed, one line on stderr; 2: wrong usage, one line on stderr; 128 + n: ended by signal n.
+// Returns the exit code, as tools/run/run_program.hpp says.
 int run(int argc, char** argv);
 
 }  // namespace lacuna::tools

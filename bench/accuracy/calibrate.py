@@ -6,7 +6,7 @@ scans of the fit. Likewise it prints how well the program's own confidence holds
 bench/accuracy/README.md has more.
 
 The scans of the fit are none of run.py's. `lacuna_track_features` finds the loops of every level, and what is known of
-each. Whether a loop is true is known from `lacuna evaluate`. Logistic regression gives the coefficients."""
+each. Whether a loop is true is known from `lacuna-bench evaluate`. Logistic regression gives the coefficients."""
 
 import argparse
 import csv
@@ -147,7 +147,7 @@ def is_lidar(group):
 @dataclass
 class Loop:
     group: str  # of the set
-    verdict: str  # of `lacuna evaluate`
+    verdict: str  # of `lacuna-bench evaluate`
     confidence: float  # of the program
     terms: tuple = ()  # what the coefficients belong to
 
@@ -159,7 +159,7 @@ class Loop:
 def verdicts(arguments, case, result):
     """One for each loop of a folder of `lacuna detect`, or of loops as text."""
     positions = [] if case.truth == case.scan else ["--scan", case.scan]
-    matches = json.loads(run([arguments.lacuna, "evaluate", result, case.truth, "--json", *positions,
+    matches = json.loads(run([arguments.bench, "evaluate", result, case.truth, "--json", *positions,
                               "--min-vertices", case.min_vertices]))["loop_matches"]
     return [match["verdict"] for match in matches]
 
@@ -298,7 +298,8 @@ def print_section(title, loops, confidence):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lacuna", type=Path, required=True, help="the program")
+    parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
+    parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
     parser.add_argument("--features", type=Path, required=True, help="lacuna_track_features, of the same build")
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")

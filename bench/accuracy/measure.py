@@ -7,7 +7,7 @@ import subprocess
 
 from sets import run
 
-# Numbers of loops from `lacuna evaluate`. All are columns of the CSV; all but the first are columns of the table.
+# Numbers of loops from `lacuna-bench evaluate`. All are columns of the CSV; all but the first are columns of the table.
 COUNTS = ("true", "found", "false", "joined", "parted", "step", "repeated")
 PCL_NEIGHBOURS = [15, 30]
 PCL_DEGREES = [90, 120]
@@ -25,7 +25,7 @@ def known_methods(lacuna):
 def evaluate(arguments, case, method, result):
     """`result` is a folder of `lacuna detect`, or loops as text. Loops as text have no boundary points."""
     positions = [] if case.truth == case.scan else ["--scan", case.scan]
-    scores = json.loads(run([arguments.lacuna, "evaluate", result, case.truth, "--json", *positions,
+    scores = json.loads(run([arguments.bench, "evaluate", result, case.truth, "--json", *positions,
                              "--min-vertices", case.min_vertices]))
     row = {"group": case.group, "set": case.name, "points": scores["points"], "method": method,
            "min_vertices": case.min_vertices}

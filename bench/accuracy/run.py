@@ -29,7 +29,8 @@ def write_csv(results, file):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--lacuna", type=Path, required=True, help="the program")
+    parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
+    parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
     parser.add_argument("--pcl", type=Path, help="pcl_boundary_points of bench/peers; without it PCL does not run")
     parser.add_argument("--cgal", type=Path, help="cgal_border_loops of bench/peers; without it CGAL does not run")
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")

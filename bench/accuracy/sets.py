@@ -57,10 +57,10 @@ def run(command):
 
 
 def synth(arguments, group, name, kind, options):
-    """Made by `lacuna synth KIND`."""
+    """Made by `lacuna-bench synth KIND`."""
     scan = arguments.work / "sets" / f"{name}.ply"
     return Set(group, name, scan, scan.with_suffix(".loops.txt"), 16,
-               lambda: run([arguments.lacuna, "synth", kind, scan, *options]))
+               lambda: run([arguments.bench, "synth", kind, scan, *options]))
 
 
 def surface(arguments, group, name, options):
@@ -73,7 +73,7 @@ def from_dense(arguments, group, name, options, points, write):
 
     def make():
         dense = arguments.work / "dense.ply"
-        run([arguments.lacuna, "synth", "surface", dense, "--spacing", 0.005, "--points", points, "--jitter", 0.5,
+        run([arguments.bench, "synth", "surface", dense, "--spacing", 0.005, "--points", points, "--jitter", 0.5,
              *options])
         write(dense, dense.with_suffix(".loops.txt"), scan)
 
@@ -146,7 +146,7 @@ def spacing_of(arguments, truth):
     """The accuracy on the scan whose truth this is."""
     none = arguments.work / "none.loops.txt"
     none.write_text("# no loops\n", encoding="utf-8")
-    return json.loads(run([arguments.lacuna, "evaluate", none, truth, "--json"]))["spacing"]
+    return json.loads(run([arguments.bench, "evaluate", none, truth, "--json"]))["spacing"]
 
 
 def cut_mesh(arguments, file, seed):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Uneven scans, thinned from a surface of `lacuna synth surface`."""
+"""Uneven scans, thinned from a surface of `lacuna-bench synth surface`."""
 
 import os
 import random

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a
-// text that `lacuna evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
+// text that `lacuna-bench evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
 #include "bench/peers/border_loops.hpp"
 #include "bench/peers/read_ply.hpp"
 
@@ -80,10 +80,11 @@ void run(const char* scan, const fs::path& file, double radius, int fewest) {
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::fprintf(stderr,
-                 "usage: %s SCAN.ply OUT.loops.txt RADIUS FEWEST\n"
-                 "RADIUS: the largest of a triangle, in units of the scan; FEWEST: points of a loop that is written\n",
-                 argv[0]);
+    std::fprintf(
+        stderr,
+        "usage: %s SCAN.ply OUT.loops.txt RADIUS FEWEST\n"
+        "RADIUS: the largest of a triangle, in units of the scan; FEWEST: points of a loop that is written\n",
+        argv[0]);
     return 2;
   }
   try {

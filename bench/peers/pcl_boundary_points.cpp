@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boundary points that the Point Cloud Library flags, as a result that `lacuna evaluate` reads.
+// The boundary points that the Point Cloud Library flags, as a result that `lacuna-bench evaluate` reads.
 #include "bench/peers/pcl_steps.hpp"
 
 #include <cstdio>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the holes of scan files and writes what `lacuna detect` writes: detect_files OUT SCAN...
+#include <lacuna/lacuna.hpp>
+#include <lacuna/lacuna_io.hpp>
+
 #include <cstdio>
 #include <filesystem>
 #include <vector>
-
-#include <lacuna/lacuna.hpp>
-#include <lacuna/lacuna_io.hpp>
 
 int main(int count, char** arguments) {
   try {

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the pictures of README.md, choosing.md and examples.md into this folder, and prints what `lacuna evaluate` says
-# of each synthetic scan.
+# Draws the pictures of README.md, choosing.md and examples.md into this folder, and prints what
+# `lacuna-bench evaluate` says of each synthetic scan.
 #
-#     docs/pictures/draw.sh build/lacuna [FOLDER]
+#     docs/pictures/draw.sh build/lacuna build/lacuna-bench [FOLDER]
 #
 # FOLDER has the real scans: autzen_trim.laz and dragon_30scans_793k.ply, 30 registered scans of Stanford's
 # dragon. Without it, their pictures stay.
 set -euo pipefail
 
 lacuna=$(realpath "$1")
-scans=${2:+$(realpath "$2")}
+bench=$(realpath "$2")
+scans=${3:+$(realpath "$3")}
 pictures=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -22,7 +23,7 @@ detect() {
   shift 2
   "$lacuna" detect "$scan" --out "$result" --quiet "$@"
   local truth=${scan%.*}.loops.txt
-  [[ ! -e $truth ]] || echo "$result: $("$lacuna" evaluate "$result" "$truth" | head -n 1)"
+  [[ ! -e $truth ]] || echo "$result: $("$bench" evaluate "$result" "$truth" | head -n 1)"
 }
 
 render() {
@@ -33,7 +34,7 @@ render() {
 
 small=(--view top --size 280x280)
 
-"$lacuna" synth surface rough.ply --kind plane --points 16000 --holes 7 --hole-radius 3 8 --positions random \
+"$bench" synth surface rough.ply --kind plane --points 16000 --holes 7 --hole-radius 3 8 --positions random \
   --noise 0.3 --seed 3 > log
 for k in 8 15 40; do
   detect "k-$k" rough.ply --k "$k"
@@ -48,13 +49,13 @@ detect weight-halfdisc rough.ply --weight-angle 0 --weight-shape 0
 detect weight-shape rough.ply --weight-angle 0 --weight-halfdisc 0
 for criterion in angle halfdisc shape; do render "weight-$criterion" "${small[@]}"; done
 
-"$lacuna" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3 > log
+"$bench" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3 > log
 for eps in 0 0.035; do
   detect "eps-$eps" step.ply --eps "$eps"
   render "eps-$eps" "${small[@]}"
 done
 
-"$lacuna" synth scan room.ply --stations 1 --points 400000 --seed 2 > log
+"$bench" synth scan room.ply --stations 1 --points 400000 --seed 2 > log
 detect room room.ply
 render room --hide-above 2.5 --size 900x560
 

@@ -3,39 +3,48 @@
 // across tiles, and finds loops in the components.
 #pragma once
 
-#include "engine/boundary/candidates.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/loops/loop_points.hpp"
-#include "engine/loops/raw_loops.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/evaluate/tile_outputs.hpp"
+#include "engine/evaluate/totals.hpp"
+#include "engine/loops/loops.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
 
 #include <cstdint>
+#include <memory>
 
 namespace lacuna {
 
 struct FoundLoops {
-  RawLoops loops;                 // sorted
+  Loops loops;                    // sorted
   std::uint64_t edges = 0;        // of the boundary graph
   std::uint64_t components = 0;   // of the boundary graph, with an edge
   std::int64_t minimum_loop = 0;  // e, in effect; 0: the method has none
 };
 
-class BoundaryMethod : public TileConsumer {
+// The steps of a level, each called once, in this order.
+class BoundaryMethod {
  public:
-  explicit BoundaryMethod(LoopPointLists points) : loop_points_(std::move(points)) {}
+  virtual ~BoundaryMethod() = default;
 
-  // All tiles are taken. Consumes the edges: to be called once.
-  virtual FoundLoops find_loops(const Totals& totals, Job& job) = 0;
-  // The candidates that belong to the boundary, in addition to the points on loops. `on_loop`: these.
-  virtual RowSet boundary_candidates(const Candidates& candidates, const RowSet& coherent,
-                                     const RowSet& on_loop, Job& job) const = 0;
+  // Puts out the boundary edges of a tile, as far as the tile alone can find them. From any thread.
+  virtual void emit(const EvaluatedTile& tile, TileOutput& output) const = 0;
+  // Completes the boundary edges with what tiles need of each other.
+  virtual void complete_edges(const TileOutputs& outputs) = 0;
+  // Finds the loops that lie inside one tile, and joins the components of the boundary graph across tiles.
+  virtual void stitch(const TileOutputs& outputs, const Totals& totals) = 0;
+  // Finds the loops of the components that cross tiles. Returns all loops.
+  virtual FoundLoops find_loops(const TileOutputs& outputs) = 0;
 
-  // All points that the loops may pass through.
-  const LoopPointLists& loop_points() const { return loop_points_; }
-
- protected:
-  LoopPointLists loop_points_;
+  // The candidates that belong to the boundary, in addition to the points on loops. `on_loop`: these points.
+  virtual RowSet boundary_candidates(const TileOutputs& outputs, const RowSet& coherent,
+                                     const RowSet& on_loop) const = 0;
 };
+
+// The method that the config names. `tiling` and `job` must outlive it.
+std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job);
+
+// An owned point as loops have it.
+StoredLoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned);
 
 }  // namespace lacuna

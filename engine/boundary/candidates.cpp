@@ -3,8 +3,9 @@
 
 #include "engine/run/rounds.hpp"
 
-#include <algorithm>
-#include <utility>
+#include <mutex>
+#include <span>
+#include <vector>
 
 namespace lacuna {
 namespace {
@@ -16,14 +17,21 @@ std::vector<Candidate> without_points(std::span<const StoredCandidate> stored) {
   return candidates;
 }
 
+// Other tiles with gap neighbours of a tile's candidates, ascending.
+std::vector<TileIndex> tiles_around(std::span<const StoredCandidate> candidates, TileIndex tile,
+                                    const Tiling& tiling) {
+  std::vector<Row> foreign;
+  for (const StoredCandidate& c : candidates) {
+    for (const Row gap : {c.candidate.gap_near, c.candidate.gap_far}) {
+      if (!tiling.tiles[tile].owns(gap)) foreign.push_back(gap);
+    }
+  }
+  return tiling.tiles_of(foreign);
+}
+
 }  // namespace
 
-Candidates::Candidates(const TileStore& store, const Job& job)
-    : tiling_(store.tiling()),
-      lists_(job.file("candidates"), tiling_.tiles.size(), job.memory.spills / 12),
-      dependents_(tiling_.tiles.size()) {}
-
-void Candidates::emit(const EvaluatedTile& tile, TileOutput& output) const {
+void emit_candidates(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<StoredCandidate> candidates;
   for (const LocalIndex p : tile.candidates) {
     const Evaluation& e = tile.evaluations[p];
@@ -31,46 +39,38 @@ void Candidates::emit(const EvaluatedTile& tile, TileOutput& output) const {
     const std::vector<Row>& rows = tile.points.rows;
     candidates.push_back({{rows[p], rows[e.gap_near], rows[e.gap_far]}, tile.stored(p), tile.probability(p)});
   }
-  output.add("candidates", std::move(candidates));
+  output.add(kCandidates, candidates);
 }
 
-void Candidates::absorb(TileIndex tile, const TileOutput& output) {
-  add(tile, output.read<StoredCandidate>("candidates"));
-}
-
-void Candidates::add(TileIndex tile, std::span<const StoredCandidate> candidates) {
-  lists_.append(tile, candidates);
-  std::vector<Row> foreign;
-  for (const StoredCandidate& c : candidates) {
-    for (const Row gap : {c.candidate.gap_near, c.candidate.gap_far}) {
-      if (!tiling_.tiles[tile].owns(gap)) foreign.push_back(gap);
-    }
-  }
-  const std::lock_guard lock(mutex_);
-  for (const TileIndex other : tiling_.tiles_of(foreign)) dependents_[other].push_back(tile);
-}
-
-RowSet Candidates::coherent(Job& job) const {
-  const std::size_t tiles = tiling_.tiles.size();
-  Phase phase(job, "coherence", tiling_.points());
-  RowSet boundary(tiling_.row_count());
-  job.arena.for_each(tiles, [&](std::size_t t) {
-    for (const StoredCandidate& c : lists_.read(t)) boundary.insert(c.candidate.row);
-    phase.advance(tiling_.tiles[t].points);
+RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job) {
+  const std::size_t tiles = tiling.tiles.size();
+  Phase phase(job, "coherence", tiling.points());
+  RowSet boundary(tiling.row_count());
+  std::vector<std::vector<TileIndex>> dependents(tiles);  // of each tile: those that depend on its candidates
+  std::mutex mutex;
+  job.arena.for_each(tiles, [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
+    const std::vector<StoredCandidate> candidates = outputs.read(kCandidates, t);
+    for (const StoredCandidate& c : candidates) boundary.insert(c.candidate.row);
+    const std::vector<TileIndex> around = tiles_around(candidates, t, tiling);
+    const std::lock_guard lock(mutex);
+    for (const TileIndex other : around) dependents[other].push_back(t);
+    phase.advance(tiling.tiles[t].points);
   });
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
     job.arena.for_each(rounds.tiles().size(), [&](std::size_t i) {
       const TileIndex t = rounds.tiles()[i];
-      if (remove_incoherent(without_points(lists_.read(t)), boundary)) rounds.request(dependents_[t]);
+      if (remove_incoherent(without_points(outputs.read(kCandidates, t)), boundary))
+        rounds.request(dependents[t]);
     });
   }
   return boundary;
 }
 
-RowSet Candidates::between(const RowSet& on_loop, Job& job) const {
-  RowSet between(tiling_.row_count());
-  job.arena.for_each(tiling_.tiles.size(), [&](std::size_t t) {
-    for (const StoredCandidate& c : lists_.read(t)) {
+RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling, Job& job) {
+  RowSet between(tiling.row_count());
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    for (const StoredCandidate& c : outputs.read(kCandidates, static_cast<TileIndex>(t))) {
       if (on_loop.contains(c.candidate.gap_near) && on_loop.contains(c.candidate.gap_far))
         between.insert(c.candidate.row);
     }

@@ -4,6 +4,7 @@
 #include "engine/bucket/cell_index.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/set_aside.hpp"
+#include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
@@ -144,7 +145,25 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
   filler.finish();
 }
 
+// Raw points of tiles are all written. Those that are set aside may be copies of a few.
+std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
+  std::uint64_t points = 0;
+  for (const Tile& tile : plan.tiles) points += tile.raw;
+  return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
+}
+
 }  // namespace
+
+TilePlan plan_tiles(SurveyedScan& survey, std::optional<TileGuide> guide, const Job& job) {
+  if (guide && survey.grid.shift != guide->grid.shift) guide.reset();
+  const std::uint64_t points = survey.points - survey.dropped;
+  const std::uint64_t tile_points = guide ? guide->tile_points : job.tile_points(points);
+  TilePlan plan =
+      split_tiles(std::move(survey.cells), survey.grid, points, tile_points, guide ? &*guide : nullptr);
+  plan.cell_points = guide ? guide->cell_points : job.cell_points(points);
+  require_space(job.workspace, least_store_bytes(plan, survey.precision()));
+  return plan;
+}
 
 TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
                       Precision precision, StoreFiles files, Job& job) {

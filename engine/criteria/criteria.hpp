@@ -14,7 +14,7 @@ namespace lacuna {
 struct Criterion {
   std::string name;
   std::string weight_key;  // "weight_NAME", the parameter
-  std::string column;      // "scalar_NAME", in points.ply
+  std::string column;      // "scalar_NAME", in PLY
   double default_weight;
   std::string help;  // of the parameter
 };

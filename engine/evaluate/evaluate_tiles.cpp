@@ -3,18 +3,15 @@
 
 #include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
-#include "engine/halo/distance_bound.hpp"
+#include "engine/evaluate/totals.hpp"
 #include "engine/halo/eps_balls.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -104,9 +101,10 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
   return points;
 }
 
-// Rows as parts have them: those of other tiles do not matter.
-TileContent content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals,
-                       const Tiling& tiling, double eps, double unit) {
+// All that the output of a tile depends on, save for the config: its points and those around it.
+// Rows are in their sealed form, which does not depend on other tiles.
+Digest content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals, const Tiling& tiling,
+                  double eps, double unit) {
   std::vector<Row> foreign(points.rows.begin() + points.owned, points.rows.end());
   for (Row& row : foreign) row = to_stored_row(row, tiling);
   const std::array<double, 2> lengths = {eps, unit};
@@ -128,6 +126,12 @@ LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
   return largest;
 }
 
+std::uint64_t points_of(std::span<const TileIndex> tiles, const Tiling& tiling) {
+  std::uint64_t points = 0;
+  for (const TileIndex t : tiles) points += tiling.tiles[t].points;
+  return points;
+}
+
 // Returns for each owned point whether it has foreign neighbours. Few do, and these lie near each other.
 std::vector<std::uint8_t> border_of(const TilePoints& points, const Neighbourhoods& neighbourhoods) {
   constexpr std::size_t kRun = 64;
@@ -145,128 +149,14 @@ std::vector<std::uint8_t> border_of(const TilePoints& points, const Neighbourhoo
   return is_border;
 }
 
-// A power of two so small that no edge is lost: 2^-60 of the scan's extent.
-double length_unit(double extent) {
-  return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
-}
-
-// The sums of a tile as its output has them.
-struct TileSums {
-  std::uint64_t points, neighbours, candidates, undefined_normals;
-  ProbabilityBins probabilities;
-  std::uint64_t edge_length_low;
-  std::int64_t edge_length_high;
-};
-struct DistanceBin {
-  std::uint64_t bin, count;
-};
-
-void emit_sums(const Totals& sums, TileOutput& output) {
-  std::vector<TileSums> stored(1);
-  stored.front() = {.points = sums.points,
-                    .neighbours = sums.neighbours,
-                    .candidates = sums.candidates,
-                    .undefined_normals = sums.undefined_normals,
-                    .probabilities = sums.probabilities,
-                    .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
-                    .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
-  output.add("sums", std::move(stored));
-  std::vector<DistanceBin> bins;
-  for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
-  output.add("distances", std::move(bins));
-}
-
-// One sweep for the candidates and the tile's sums: the evaluations do not fit in the cache.
-Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
-              double extent, std::vector<LocalIndex>& candidates) {
-  Totals totals(extent);
-  totals.points = evaluations.size();
-  totals.neighbours = neighbourhoods.indices.size();
-  std::vector<std::uint32_t> distances(LengthBins::bin_of(std::numeric_limits<double>::infinity()));
-  for (LocalIndex p = 0; p < evaluations.size(); ++p) {
-    const Evaluation& e = evaluations[p];
-    if (e.probability > threshold) candidates.push_back(p);
-    ++totals.probabilities[std::min(kProbabilityBins - 1,
-                                    static_cast<std::size_t>(e.probability * kProbabilityBins))];
-    totals.undefined_normals += !e.normal.allFinite();
-    if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
-      ++distances[LengthBins::bin_of(e.mean_distance)];
-    const double length =
-        e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / totals.length_unit;
-    constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
-    totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
-  }
-  totals.candidates = candidates.size();
-  for (std::uint32_t bin = 0; bin < distances.size(); ++bin)
-    if (distances[bin] > 0) totals.distances.counts[bin] = distances[bin];
-  return totals;
-}
-
 }  // namespace
 
-std::uint32_t LengthBins::bin_of(double length) {
-  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(length) >> kShift);
-}
-
-double LengthBins::start_of(std::uint32_t bin) {
-  return std::bit_cast<double>(std::uint64_t{bin} << kShift);
-}
-
-double LengthBins::median() const {
-  std::uint64_t all = 0, before = 0;
-  for (const auto& [bin, count] : counts) all += count;
-  for (const auto& [bin, count] : counts) {
-    if (2 * (before + count) >= all) {
-      const double part =
-          (static_cast<double>(all) / 2 - static_cast<double>(before)) / static_cast<double>(count);
-      return start_of(bin) + part * (start_of(bin + 1) - start_of(bin));
-    }
-    before += count;
-  }
-  return 0;
-}
-
-double LengthBins::sum_of_squares() const {
-  double sum = 0;
-  for (const auto& [bin, count] : counts)
-    sum += static_cast<double>(count) * start_of(bin) * start_of(bin + 1);
-  return sum;
-}
-
-Totals::Totals(double extent) : length_unit(lacuna::length_unit(extent)) {}
-
-void Totals::add(const TileOutput& output) {
-  for (const TileSums& sums : output.read<TileSums>("sums")) {
-    points += sums.points;
-    neighbours += sums.neighbours;
-    candidates += sums.candidates;
-    undefined_normals += sums.undefined_normals;
-    edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
-    for (std::size_t bin = 0; bin < kProbabilityBins; ++bin) probabilities[bin] += sums.probabilities[bin];
-  }
-  for (const DistanceBin& bin : output.read<DistanceBin>("distances"))
-    distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
-}
-
-double Totals::mean_neighbours() const {
-  return points == 0 ? 0 : static_cast<double>(neighbours) / static_cast<double>(points);
-}
-
-double Totals::mean_edge_length() const {
-  if (neighbours == 0) return 0;
-  return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
-}
-
-double Totals::surface_area() const {
-  return std::numbers::pi * 2.25 * distances.sum_of_squares() / (mean_neighbours() + 2.5);
-}
-
-void evaluate_tiles(
-    const TileStore& store, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo, double eps,
-    double extent, std::span<TileConsumer* const> consumers, Job& job,
-    const std::function<void(TileIndex, const TileOutput&)>& take,
-    const std::function<std::optional<TileOutput>(TileIndex, const TileContent&)>& find_known) {
+void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
+                    std::span<const TileConsumer> consumers, TileOutputs& outputs, Job& job) {
+  const TileStore& store = level.store;
   const Tiling& tiling = store.tiling();
+  const double eps = eps_length(job.config.neighbourhood, level.extent);
+  Phase phase(job, "evaluate", points_of(tiles, tiling));
   std::vector<std::uint64_t> needs(tiles.size());
   job.arena.for_each(needs.size(), [&](std::size_t i) {
     const Tile& tile = tiling.tiles[tiles[i]];
@@ -283,10 +173,10 @@ void evaluate_tiles(
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
     const std::vector<Eigen::Vector3d> normals = store.normals(index);
-    TileContent content{};
-    if (!job.kept.empty()) {
-      content = content_of(points, normals, tiling, eps, length_unit(extent));
-      if (const std::optional<TileOutput> known = find_known(index, content)) return take(index, *known);
+    Digest content{};
+    if (outputs.is_kept()) {
+      content = content_of(points, normals, tiling, eps, Totals(level.extent).length_unit);
+      if (outputs.add_earlier(index, content)) return phase.advance(tile.points);
     }
     const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
@@ -296,16 +186,23 @@ void evaluate_tiles(
 
     std::vector<LocalIndex> candidates;
     const Totals sums =
-        sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, extent, candidates);
+        sum_up(evaluations, neighbourhoods, job.config.coherence.threshold, level.extent, candidates);
     const std::vector<std::uint8_t> is_border = border_of(points, neighbourhoods);
-    const EvaluatedTile evaluated{index,       tile,   points,     neighbourhoods,
-                                  evaluations, values, candidates, is_border};
+    const EvaluatedTile evaluated{.index = index,
+                                  .tile = tile,
+                                  .points = points,
+                                  .neighbourhoods = neighbourhoods,
+                                  .evaluations = evaluations,
+                                  .criteria = values,
+                                  .candidates = candidates,
+                                  .is_border = is_border};
     TileOutput output;
-    output.set_content(content);
-    emit_sums(sums, output);
-    for (const TileConsumer* const consumer : consumers) consumer->emit(evaluated, output);
-    take(index, output);
+    emit_totals(sums, output);
+    for (const TileConsumer& emit : consumers) emit(evaluated, output);
+    outputs.add(index, std::move(output), content);
+    phase.advance(tile.points);
   });
+  outputs.finish();
 }
 
 }  // namespace lacuna

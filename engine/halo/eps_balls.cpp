@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/eps_balls.hpp"
 
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/run/error.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/halo.hpp"
 
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/block_search.hpp"
 #include "engine/neighbours/stored_search.hpp"
 #include "engine/store/outbox.hpp"

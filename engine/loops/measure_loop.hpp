@@ -2,27 +2,13 @@
 // measure_loop: what a user sorts and filters loops by.
 #pragma once
 
-#include "engine/model/ids.hpp"
+#include "engine/loops/loops.hpp"
 #include "engine/model/loop.hpp"
-#include "engine/store/point_column.hpp"
 #include "engine/store/scratch.hpp"
 
-#include <array>
-#include <cstdint>
 #include <span>
 
 namespace lacuna {
-
-// A point of a loop as plain data: a loop may be larger than memory.
-struct StoredLoopPoint {
-  StoredPoint point;
-  std::array<float, 3> surface;
-  float probability;
-};
-
-inline LoopPoint loaded(const StoredLoopPoint& p) {
-  return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
-}
 
 // Hole or outer boundary: the loop's points are moved towards the surface (by the mean of their neighbours).
 // If the area that the loop encloses grows, the surface lies outside: a hole. If it shrinks, inside: an outer

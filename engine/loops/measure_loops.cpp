@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/measure_loops.hpp"
 
+#include "engine/loops/measure_loop.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -14,17 +16,17 @@ double lattice_edge(double mean_edge_length) {
 
 }  // namespace
 
-MeasuredLoops measure_loops(TrackedLoops tracked, double mean_edge_length, Job& job) {
-  Phase phase(job, "measure", tracked.loops.offsets.back());
-  std::vector<LoopMeasures> measures(tracked.loops.size());
+MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
+                            Job& job) {
+  Phase phase(job, "measure", loops.points());
+  std::vector<LoopMeasures> measures(loops.size());
   const double edge = lattice_edge(mean_edge_length);
-  for_each_loop(tracked.loops, job,
-                [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch& scratch) {
-                  measures[i] = measure_loop(loop, edge, scratch);
-                  measures[i].track = tracked.tracks[i];
-                  phase.advance(loop.size());
-                });
-  return {std::move(tracked.loops), std::move(measures)};
+  for_each_loop(loops, job, [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+    measures[i] = measure_loop(loop, edge, scratch);
+    measures[i].track = tracks[i];
+    phase.advance(loop.size());
+  });
+  return {std::move(loops), std::move(measures)};
 }
 
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config) {

@@ -3,23 +3,25 @@
 #pragma once
 
 #include "engine/config/config.hpp"
-#include "engine/loops/placed_loops.hpp"
+#include "engine/loops/loops.hpp"
 #include "engine/model/loop.hpp"
 #include "engine/run/job.hpp"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace lacuna {
 
 // In order of (first id, length, ids).
 struct MeasuredLoops {
-  PlacedLoops loops;
+  ChosenLoops loops;
   std::vector<LoopMeasures> measures;
 };
 
-// `mean_edge_length` sets the lattice of LoopMeasures::tiles.
-MeasuredLoops measure_loops(TrackedLoops tracked, double mean_edge_length, Job& job);
+// `tracks`: of each loop. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
+MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
+                            Job& job);
 
 // The loops that the selection reports.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);

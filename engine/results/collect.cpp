@@ -92,7 +92,7 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBounda
   detection->summary = std::move(findings.summary);
   for (const std::size_t loop : findings.selected) detection->loops.push_back(findings.loops.measures[loop]);
 
-  const auto loops = std::make_shared<const PlacedLoops>(std::move(findings.loops.loops));
+  const auto loops = std::make_shared<const ChosenLoops>(std::move(findings.loops.loops));
   detection->for_each_loop_point = [loops, selected = std::move(findings.selected)](std::size_t loop,
                                                                                     const auto& visit) {
     loops->for_each_point(selected[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
@@ -132,12 +132,12 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBounda
 }
 
 // A tile's points that are coherent or belong to the boundary, each once.
-std::vector<Mark> marks_of_tile(const Candidates& candidates, const Findings& findings, const Tile& tile,
-                                TileIndex t) {
+std::vector<Mark> marks_of_tile(std::span<const StoredCandidate> candidates, const Findings& findings,
+                                const Tile& tile, TileIndex t) {
   std::vector<Mark> marks;
   for (const PointOnLoop& p : findings.on_loops.points.read(t))
     marks.push_back({p.owned, p.loop, p.probability, kBoundary, p.point});
-  for (const StoredCandidate& c : candidates.read(t)) {
+  for (const StoredCandidate& c : candidates) {
     const Row row = c.candidate.row;
     const std::uint32_t flags = (findings.coherent.contains(row) ? kCoherent : 0) |
                                 (findings.boundary_candidates.contains(row) ? kBoundary : 0);
@@ -164,7 +164,7 @@ StoredBoundary stored(const Mark& mark) {
 
 }  // namespace
 
-std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates,
+std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
                                            const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
@@ -173,17 +173,17 @@ std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& 
     Phase phase(job, "collect", tiling.points());
     BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
     std::mutex mutex;
-    job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+    job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+      const auto t = static_cast<TileIndex>(i);
       const Tile& tile = tiling.tiles[t];
-      const std::vector<Mark> tile_marks =
-          marks_of_tile(candidates, findings, tile, static_cast<TileIndex>(t));
+      const std::vector<Mark> tile_marks = marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
       const std::lock_guard lock(mutex);
       for (const Mark& mark : tile_marks) {
         summary.counts.coherent += (mark.flags & kCoherent) != 0;
         summary.counts.boundary_points += (mark.flags & kBoundary) != 0;
         sorted.add(stored(mark));
       }
-      store.for_each_duplicate(static_cast<TileIndex>(t), [&](const Duplicate& d) {
+      store.for_each_duplicate(t, [&](const Duplicate& d) {
         const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
                                          [](const Mark& m, LocalIndex p) { return m.owned < p; });
         if (of == tile_marks.end() || of->owned != d.of) return;

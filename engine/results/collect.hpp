@@ -34,7 +34,7 @@ struct Findings {
 };
 
 // Fills in the counts of boundary points.
-std::unique_ptr<Detection> collect_results(Findings findings, const Candidates& candidates,
+std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
                                            const TileStore& store, Job& job);
 
 }  // namespace lacuna

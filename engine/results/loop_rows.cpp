@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/loop_rows.hpp"
 
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/outbox.hpp"
 
@@ -26,7 +26,7 @@ void for_each_tile_at(const Tiling& tiling, const Eigen::Vector3d& place, Visit&
 }
 
 // Sends every point on a loop to the tiles that may have it.
-void send_points(const PlacedLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
+void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
                  AppendLists<PointOnLoop>& sent) {
   Outbox<PointOnLoop> outbox(sent);
   std::size_t next_selected = 0;
@@ -58,7 +58,7 @@ std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const Til
 
 }  // namespace
 
-LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> selected,
+LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
                         const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.memory.spills / 4);
@@ -73,7 +73,7 @@ LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> s
     found.points.append(t, points);
     count += points.size();
   });
-  if (count != loops.offsets.back()) fail_inconsistent("a loop passes through a point that is not stored");
+  if (count != loops.points()) fail_inconsistent("a loop passes through a point that is not stored");
   return found;
 }
 

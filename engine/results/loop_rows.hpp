@@ -30,7 +30,7 @@ struct LoopRows {
 
 // `selected`: the loops that are reported, ascending. The points of a loop are input points, at whatever
 // level it was found. So each is found by its place and its id. Cost: one pass over the tiles that have any.
-LoopRows find_loop_rows(const PlacedLoops& loops, std::span<const std::size_t> selected,
+LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
                         const TileStore& store, Job& job);
 
 }  // namespace lacuna

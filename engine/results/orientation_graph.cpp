@@ -58,6 +58,11 @@ class SignedUnionFind {
 
 using EdgeSort = SortedRuns<OrientationEdge>;
 
+// What a tile puts out.
+constexpr RecordStream<StoredNormal> kNormals{"normals"};
+constexpr RecordStream<OrientationEdge> kForest{"orientation"};
+constexpr RecordStream<OrientationCrossing> kCrossings{"orientation crossings"};
+
 void add_crossings(std::vector<OrientationCrossing> crossings, const Column<StoredNormal>& normals,
                    const TileStore& store, TileIndex t, EdgeSort& edges) {
   if (crossings.empty()) return;
@@ -82,16 +87,10 @@ bool points_down(const StoredNormal& n) {
 
 }  // namespace
 
-OrientationGraph::OrientationGraph(const TileStore& store, const Job& job)
-    : store_(store),
-      forests_(job.file("orientation"), store.tiling().tiles.size(), job.memory.spills / 16),
-      crossings_(job.file("orientation-crossings"), store.tiling().tiles.size(), job.memory.spills / 16),
-      normals_(job.file("oriented-normals")) {}
-
-void OrientationGraph::emit(const EvaluatedTile& tile, TileOutput& output) const {
+void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<StoredNormal> normals;
   for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
-  output.add("normals", std::move(normals));
+  output.add(kNormals, normals);
 
   std::vector<OrientationEdge> edges;
   std::vector<OrientationCrossing> crossings;
@@ -110,25 +109,22 @@ void OrientationGraph::emit(const EvaluatedTile& tile, TileOutput& output) const
       }
     }
   }
-  output.add("orientation", spanning_forest(std::move(edges), value(tile.tile.first_row), points.owned));
-  output.add("orientation crossings", std::move(crossings));
+  output.add(kForest, spanning_forest(std::move(edges), value(tile.tile.first_row), points.owned));
+  output.add(kCrossings, crossings);
 }
 
-void OrientationGraph::absorb(TileIndex tile, const TileOutput& output) {
-  normals_.write(value(store_.tiling().tiles[tile].first_row), output.read<StoredNormal>("normals"));
-  forests_.append(tile, output.read<OrientationEdge>("orientation"));
-  crossings_.append(tile, output.read<OrientationCrossing>("orientation crossings"));
-}
-
-RowSet OrientationGraph::opposed_normals(Job& job) {
-  const Tiling& tiling = store_.tiling();
+RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job) {
+  const Tiling& tiling = store.tiling();
   Phase phase(job, "orient", tiling.points());
+  Column<StoredNormal> normals_by_row(job.file("oriented-normals"));
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
+    normals_by_row.write(value(tiling.tiles[t].first_row), outputs.read(kNormals, t));
+  });
   EdgeSort edges(job.file("orientation-edges"), job.memory.global / 3);
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-    forests_.for_each(t, [&](const OrientationEdge& edge) { edges.add(edge); });
-    forests_.drop(t);
-    add_crossings(crossings_.read(t), normals_, store_, t, edges);
-    crossings_.drop(t);
+    for (const OrientationEdge& edge : outputs.read(kForest, t)) edges.add(edge);
+    add_crossings(outputs.read(kCrossings, t), normals_by_row, store, t, edges);
     phase.advance(tiling.tiles[t].points);
   }
 
@@ -147,8 +143,8 @@ RowSet OrientationGraph::opposed_normals(Job& job) {
   const auto for_each_normal = [&](auto&& visit) {
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::uint64_t first = value(tiling.tiles[t].first_row);
-      const std::vector<StoredPoint> points = store_.points(t);
-      const std::vector<StoredNormal> normals = normals_.read(first, points.size());
+      const std::vector<StoredPoint> points = store.points(t);
+      const std::vector<StoredNormal> normals = normals_by_row.read(first, points.size());
       for (std::size_t p = 0; p < points.size(); ++p) {
         if (vector(normals[p]).allFinite()) visit(first + p, points[p], normals[p]);
       }

@@ -5,7 +5,6 @@
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/model/orientation.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/append_lists.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -23,26 +22,13 @@ void for_each_row(OrientationCrossing& record, Visit&& visit) {
 }
 
 // An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So of the edges
-// inside a tile only its own spanning forest goes on.
-class OrientationGraph final : public TileConsumer {
- public:
-  OrientationGraph(const TileStore& store, const Job& job);
+// inside a tile only its own spanning forest is put out, with the normals and the edges between tiles.
+void emit_orientation(const EvaluatedTile& tile, TileOutput& output);
 
-  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
-  void absorb(TileIndex tile, const TileOutput& output) override;
-
-  // All tiles are taken. Rows whose normal has to be turned round. The minimum spanning tree of G is built
-  // from the tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries
-  // the sign. In every component, the normal of the topmost point (largest z, then lowest id) points up. Its
-  // first coordinate of z, y, x that is not 0 is positive. Memory: the global budget. Consumes the edges: to
-  // be called once.
-  RowSet opposed_normals(Job& job);
-
- private:
-  const TileStore& store_;
-  AppendLists<OrientationEdge> forests_;        // by tile
-  AppendLists<OrientationCrossing> crossings_;  // by tile
-  Column<StoredNormal> normals_;                // by row
-};
+// Returns the rows whose normal has to be turned round. The minimum spanning tree of G is built from the
+// tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries the sign. In
+// every component, the normal of the topmost point (largest z, then lowest id) points up. Its first
+// coordinate of z, y, x that is not 0 is positive. Memory: the global budget.
+RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job);
 
 }  // namespace lacuna

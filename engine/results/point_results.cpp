@@ -7,15 +7,17 @@
 #include <utility>
 
 namespace lacuna {
+namespace {
 
-PointResults::PointResults(std::uint64_t ids, const TileStore& store, const Job& job)
-    : store_(store),
-      criteria_(criteria().size()),
-      lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {}
+constexpr RecordStream<std::byte> kResults{
+    "results"};  // a result and its criteria, for one point after the other
 
-void PointResults::emit(const EvaluatedTile& tile, TileOutput& output) const {
+}  // namespace
+
+void emit_point_results(const EvaluatedTile& tile, TileOutput& output) {
+  const std::size_t criteria_count = criteria().size();
   std::vector<std::byte> records;
-  records.reserve(tile.points.owned * record_bytes());
+  records.reserve(tile.points.owned * (sizeof(StoredResult) + criteria_count * sizeof(float)));
   const auto put = [&](const void* data, std::size_t bytes) {
     const auto* const first = static_cast<const std::byte*>(data);
     records.insert(records.end(), first, first + bytes);
@@ -25,17 +27,29 @@ void PointResults::emit(const EvaluatedTile& tile, TileOutput& output) const {
     for (int axis = 0; axis < 3; ++axis)
       result.normal[axis] = static_cast<float>(tile.evaluations[p].normal[axis]);
     put(&result, sizeof result);
-    for (const double value : tile.criteria.subspan(p * criteria_, criteria_)) {
+    for (const double value : tile.criteria.subspan(p * criteria_count, criteria_count)) {
       const auto criterion = static_cast<float>(value);
       put(&criterion, sizeof criterion);
     }
   }
-  output.add("results", std::move(records));
+  output.add(kResults, records);
 }
 
-void PointResults::absorb(TileIndex tile, const TileOutput& output) {
+PointResults::PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store,
+                           const Job& job)
+    : store_(store),
+      criteria_(criteria().size()),
+      lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {
+  const std::vector<Tile>& tiles = store.tiling().tiles;
+  std::vector<std::uint64_t> needs;
+  for (const Tile& tile : tiles) needs.push_back(tile.points * record_bytes());
+  job.arena.for_each_within_budget(needs, job.memory.tiles,
+                                   [&](std::size_t t) { take(outputs, static_cast<TileIndex>(t)); });
+}
+
+void PointResults::take(const TileOutputs& outputs, TileIndex tile) {
   constexpr std::size_t kTogether = 1 << 14;
-  const std::span<const std::byte> records = output.read<std::byte>("results");
+  const std::vector<std::byte> records = outputs.read(kResults, tile);
   std::vector<Duplicate> copies;  // each point of the tile, as a copy of itself, and its copies
   const auto add = [&](const Duplicate& copy) {
     if (copies.size() >= kTogether) append(tile, records, copies);  // there may be more than fit in memory

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of every point of the input, for points.ply.
+// Results of every point of the input, for the annotated scan.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -26,14 +26,14 @@ struct StoredResult {
 // Ids per block of results.
 inline constexpr std::uint64_t kResultBlock = 1 << 17;
 
-// By block of ids. Duplicates have the results of the point that they are copies of.
-class PointResults final : public TileConsumer {
- public:
-  // `ids`: points of the input.
-  PointResults(std::uint64_t ids, const TileStore& store, const Job& job);
+// Puts out the results of all points of a tile.
+void emit_point_results(const EvaluatedTile& tile, TileOutput& output);
 
-  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
-  void absorb(TileIndex tile, const TileOutput& output) override;
+// By block of ids. Duplicates have the results of the point that they are copies of.
+class PointResults {
+ public:
+  // Takes the results of all tiles. `ids`: points of the input.
+  PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, const Job& job);
 
   std::size_t blocks() const { return lists_.lists(); }
   // visit(result, criteria), in any order.
@@ -54,6 +54,7 @@ class PointResults final : public TileConsumer {
 
  private:
   std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
+  void take(const TileOutputs& outputs, TileIndex tile);
   // The results of the copies of points; clears `copies`. `records`: of all points of the tile, without rows.
   void append(TileIndex tile, std::span<const std::byte> records, std::vector<Duplicate>& copies);
 

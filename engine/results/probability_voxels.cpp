@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/probability_voxels.hpp"
 
-#include "engine/results/voxel_sizes.hpp"
 #include "engine/store/column_writer.hpp"
-#include "engine/store/sorted_runs.hpp"
+#include "engine/store/openvdb.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,21 +17,47 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{128} << 20;
 
-// A voxel of the finest size, and the points of one tile in it.
-struct TileVoxel {
-  CellCoord coord{};
-  float probability = 0;
-  std::uint32_t points = 0;
-};
+using Tree = openvdb::FloatTree;
+using Upper = Tree::RootNodeType::ChildNodeType;
+using Lower = Upper::ChildNodeType;
+using Leaf = Tree::LeafNodeType;
 
-struct AlongZ {
-  bool operator()(const TileVoxel& a, const TileVoxel& b) const {
-    return comes_before_along_z(a.coord, b.coord);
+// The largest probability in each voxel. While the tree takes more than `most_bytes`, voxels double, and
+// merge. More voxels never take fewer nodes, so the order of the voxels does not change the result.
+class MergingVoxels {
+ public:
+  explicit MergingVoxels(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+  // `voxel`: of the finest size.
+  void add(const CellCoord& voxel, float probability) {
+    raise({voxel[0] >> doublings_, voxel[1] >> doublings_, voxel[2] >> doublings_}, probability);
+    while (bytes_ > most_bytes_ && doublings_ < kMostDoublings) merge();
   }
-};
+  int doublings() const { return doublings_; }
+  const Tree& tree() const { return *tree_; }
 
-// Voxels in any order of equal ones have the same largest probability and the same number of points.
-using VoxelSort = SortedRuns<TileVoxel, AlongZ>;
+ private:
+  static constexpr int kMostDoublings = 24;
+
+  void raise(const openvdb::Coord& coord, float probability) {
+    if (tree_->probeConstLeaf(coord) == nullptr) {
+      bytes_ += sizeof(Leaf) + Leaf::SIZE * sizeof(float);
+      if (tree_->probeConstNode<Lower>(coord) == nullptr) bytes_ += sizeof(Lower);
+      if (tree_->probeConstNode<Upper>(coord) == nullptr) bytes_ += sizeof(Upper);
+    }
+    tree_->setValueOn(coord, std::max(tree_->getValue(coord), probability));
+  }
+  void merge() {
+    const auto smaller = std::exchange(tree_, std::make_unique<Tree>(0.0F));
+    bytes_ = 0;
+    ++doublings_;
+    for (auto voxel = smaller->cbeginValueOn(); voxel; ++voxel) raise(voxel.getCoord() >> 1, *voxel);
+  }
+
+  std::uint64_t most_bytes_, bytes_ = 0;
+  int doublings_ = 0;
+  std::unique_ptr<Tree> tree_ = std::make_unique<Tree>(0.0F);
+};
 
 // Returns the shift of doubled voxels; the middle is within the first node of 4096^3 voxels after it.
 std::int32_t shift_of(int doublings) {
@@ -53,130 +78,60 @@ CellGrid final_lattice(CellGrid grid, int doublings) {
   return grid;
 }
 
-// The voxels of one tile, each once. Voxels without end have no place in a grid of OpenVDB: their points are
-// left out.
-std::vector<TileVoxel> voxels_of(const std::vector<StoredPoint>& points,
-                                 const std::vector<float>& probabilities, const CellGrid& grid) {
-  std::vector<TileVoxel> voxels;
+// The voxel of each point in `box`. Voxels without end have no place in a grid of OpenVDB.
+std::vector<ProbabilityVoxel> voxels_of(const std::vector<StoredPoint>& points,
+                                        const std::vector<float>& probabilities, const CellGrid& grid,
+                                        const Eigen::AlignedBox3d& box) {
+  std::vector<ProbabilityVoxel> voxels;
   voxels.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const CellCoord voxel = grid.cell_of(points[i].position());
-    if (!grid.is_endless(voxel)) voxels.push_back({voxel, probabilities[i], 1});
+    if (box.contains(points[i].position()) && !grid.is_endless(voxel))
+      voxels.push_back({voxel, probabilities[i]});
   }
-  std::sort(voxels.begin(), voxels.end(), AlongZ());
-  std::size_t kept = 0;
-  for (const TileVoxel& voxel : voxels) {
-    if (kept > 0 && same_cell(voxels[kept - 1].coord, voxel.coord)) {
-      TileVoxel& same = voxels[kept - 1];
-      same.probability = std::max(same.probability, voxel.probability);
-      ++same.points;
-    } else {
-      voxels[kept++] = voxel;
-    }
-  }
-  voxels.resize(kept);
   return voxels;
 }
 
-// visit(voxel), each once, along the Z curve, after `doublings`; coordinates still those of `sort`, divided.
-template <class Visit>
-void for_each_voxel(VoxelSort& sort, int doublings, Visit&& visit) {
-  struct Large {
-    CellCoord coord;
-    float probability;
-    std::uint64_t points;
-  };
-  std::optional<Large> last;
-  sort.for_each([&](const TileVoxel& small) {
-    const CellCoord coord = {small.coord[0] >> doublings, small.coord[1] >> doublings,
-                             small.coord[2] >> doublings};
-    if (last && same_cell(last->coord, coord)) {
-      last->probability = std::max(last->probability, small.probability);
-      last->points += small.points;
-      return;
-    }
-    if (last) visit(*last);
-    last = Large{coord, small.probability, small.points};
-  });
-  if (last) visit(*last);
-}
+constexpr RecordStream<float> kProbabilities{"probabilities"};  // of all points of a tile
 
 }  // namespace
 
-void ProbabilityVoxels::emit(const EvaluatedTile& tile, TileOutput& output) const {
+void emit_probabilities(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<float> probabilities(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
-  output.add("probabilities", std::move(probabilities));
-
-  std::map<std::int64_t, std::uint64_t> exponents;
-  for (const Evaluation& e : tile.evaluations) {
-    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) ++exponents[std::ilogb(e.mean_distance)];
-  }
-  output.add("exponents", std::vector<DistanceExponent>(exponents.begin(), exponents.end()));
+  output.add(kProbabilities, probabilities);
 }
 
-void ProbabilityVoxels::absorb(TileIndex tile, const TileOutput& output) {
-  probabilities_.write(value(tiling_.tiles[tile].first_row), output.read<float>("probabilities"));
-  const std::span<const DistanceExponent> exponents = output.read<DistanceExponent>("exponents");
-  const std::lock_guard lock(mutex_);
-  for (const auto& [exponent, points] : exponents) exponents_[exponent] += points;
-}
-
-// Returns the exponent of the median; 0 without any.
-int ProbabilityVoxels::typical_exponent() const {
-  std::uint64_t all = 0, before = 0;
-  for (const auto& [exponent, points] : exponents_) all += points;
-  for (const auto& [exponent, points] : exponents_) {
-    before += points;
-    if (2 * before >= all) return static_cast<int>(exponent);
-  }
-  return 0;
-}
-
-ProbabilityGrid ProbabilityVoxels::finish(const TileStore& store, const Eigen::Vector3d& middle,
-                                          Job& job) const {
+ProbabilityGrid probability_voxels(const TileOutputs& outputs, double typical_distance,
+                                   const Eigen::AlignedBox3d& box, const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Phase phase(job, "voxels", tiling.points());
-  const CellGrid finest = finest_lattice(typical_exponent(), middle);
-  VoxelSort sort(job.file("voxel-sort"), job.memory.global / 3);
-  std::mutex mutex;
+  const Eigen::Vector3d middle = box.isEmpty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(box.center());
+  const CellGrid finest = finest_lattice(typical_distance > 0 ? std::ilogb(typical_distance) : 0, middle);
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * 64);
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+  std::mutex mutex;
+  ProbabilityGrid grid{{}, Column<ProbabilityVoxel>(job.file("voxels"))};
+  MergingVoxels merging(std::min(kMostBytes, job.memory.global));
+  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
     const Tile& tile = tiling.tiles[t];
-    const std::vector<TileVoxel> voxels =
-        voxels_of(store.points(static_cast<TileIndex>(t)),
-                  probabilities_.read(value(tile.first_row), tile.points), finest);
+    const std::vector<ProbabilityVoxel> voxels =
+        voxels_of(store.points(t), outputs.read(kProbabilities, t), finest, box);
     const std::lock_guard lock(mutex);
-    sort.add(voxels);
+    for (const ProbabilityVoxel& voxel : voxels) merging.add(voxel.coord, voxel.probability);
+    grid.lattice.points_left_out += tile.points - voxels.size();
     phase.advance(tile.points);
   });
 
-  std::uint64_t placed = 0;
-  VoxelSizes sizes(tiling.points());
-  for_each_voxel(sort, 0, [&](const auto& voxel) {
-    sizes.add(voxel.coord, voxel.points);
-    placed += voxel.points;
-  });
-  sizes.finish();
-  const int doublings = sizes.doublings_within(std::min(kMostBytes, job.memory.global));
-
-  const std::int32_t shift = shift_of(doublings);
-  ProbabilityGrid grid{{.grid = final_lattice(finest, doublings)},
-                       Column<ProbabilityVoxel>(job.file("voxels"))};
-  grid.lattice.points_left_out = tiling.points() - placed;
+  const std::int32_t shift = shift_of(merging.doublings());
+  grid.lattice.grid = final_lattice(finest, merging.doublings());
+  grid.lattice.voxels = merging.tree().activeVoxelCount();
   ColumnWriter<ProbabilityVoxel> writer(grid.voxels);
-  std::span<const CellCoord> nodes = sizes.kept_nodes(doublings);
-  for_each_voxel(sort, doublings, [&](const auto& voxel) {
-    const CellCoord node = VoxelSizes::node_of(voxel.coord, 0);
-    while (!nodes.empty() && comes_before_along_z(nodes.front(), node)) nodes = nodes.subspan(1);
-    if (nodes.empty() || !same_cell(nodes.front(), node)) {
-      grid.lattice.points_left_out += voxel.points;
-      return;
-    }
-    ++grid.lattice.voxels;
-    writer.add({{voxel.coord[0] - shift, voxel.coord[1] - shift, voxel.coord[2] - shift}, voxel.probability});
-  });
+  for (auto voxel = merging.tree().cbeginValueOn(); voxel; ++voxel) {
+    const openvdb::Coord coord = voxel.getCoord();
+    writer.add({{coord[0] - shift, coord[1] - shift, coord[2] - shift}, *voxel});
+  }
   writer.finish();
   return grid;
 }

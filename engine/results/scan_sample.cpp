@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/scan_sample.hpp"
 
+#include "engine/store/append_lists.hpp"
 #include "engine/store/outbox.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -52,54 +53,52 @@ void order(std::vector<StoredSample>& samples) {
 
 }  // namespace
 
-ScanSample::ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job)
-    : store_(store),
-      most_points_(most_points),
-      ids_(ids),
-      candidates_(job.file("sample-keys"), store.tiling().tiles.size(), job.memory.spills / 8) {}
+void ScanSample::KeyBins::take(std::vector<DrawnPoint>& points, std::uint64_t most_points) {
+  std::erase_if(points, [&](const DrawnPoint& point) { return bin_of(point.key) > last; });
+  for (const DrawnPoint& point : points) ++counts[bin_of(point.key)];
+  keys += points.size();
+  // A bin goes where those before it are enough.
+  while (!counts.empty() && keys - counts.rbegin()->second >= most_points) {
+    keys -= counts.rbegin()->second;
+    counts.erase(std::prev(counts.end()));
+  }
+  if (keys >= most_points) last = counts.rbegin()->first;
+}
 
-// Keys of all points: an update may keep this output, and draw its sample from fewer points.
-void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  std::vector<Candidate> samples;
-  samples.reserve(tile.points.owned);
+void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
+  std::vector<DrawnPoint> points;
+  points.reserve(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     const Evaluation& e = tile.evaluations[p];
     const Eigen::Vector3f normal = e.normal.cast<float>();
-    samples.push_back(
+    points.push_back(
         {key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
   }
-  output.add("sample", std::move(samples));
-}
-
-void ScanSample::absorb(TileIndex tile, const TileOutput& output) {
-  const std::span<const Candidate> emitted = output.read<Candidate>("sample");
-  std::vector<Candidate> candidates(emitted.begin(), emitted.end());
-  const std::lock_guard lock(mutex_);
-  std::erase_if(candidates, [&](const Candidate& candidate) { return bin_of(candidate.key) > last_bin_; });
-  candidates_.append(tile, candidates);
-  for (const Candidate& candidate : candidates) ++bins_[bin_of(candidate.key)];
-  binned_ += candidates.size();
-  // A bin goes where those before it are enough.
-  while (!bins_.empty() && binned_ - bins_.rbegin()->second >= most_points_) {
-    binned_ -= bins_.rbegin()->second;
-    bins_.erase(std::prev(bins_.end()));
+  if (!is_kept_) {
+    const std::lock_guard lock(mutex_);
+    bins_.take(points, most_points_);
   }
-  if (binned_ >= most_points_) last_bin_ = bins_.rbegin()->first;
+  output.add(kDrawnPoints, points);
 }
 
-// The largest key of the sample. Only those of the last bin are to be ordered.
-double ScanSample::last_key(Job& job) const {
-  if (binned_ <= most_points_) return std::numeric_limits<double>::max();
+// The largest key of the sample. Only the keys of the last bin are to be ordered.
+double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const {
+  KeyBins bins;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    std::vector<DrawnPoint> points = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
+    bins.take(points, most_points_);
+  }
+  if (bins.keys <= most_points_) return std::numeric_limits<double>::max();
   SortedRuns<double> of_last_bin(job.file("sample-last"), job.memory.spills / 8);
-  for (std::size_t t = 0; t < candidates_.lists(); ++t) {
-    candidates_.for_each(t, [&](const Candidate& candidate) {
-      if (bin_of(candidate.key) == last_bin_) of_last_bin.add(candidate.key);
-    });
+  for (std::size_t t = 0; t < tiles; ++t) {
+    for (const DrawnPoint& point : outputs.read(kDrawnPoints, static_cast<TileIndex>(t))) {
+      if (bin_of(point.key) == bins.last) of_last_bin.add(point.key);
+    }
   }
   // All of several equal keys are in the sample, or none.
-  const double first_of_bin = std::bit_cast<double>(std::uint64_t{last_bin_} << 48);
+  const double first_of_bin = std::bit_cast<double>(std::uint64_t{bins.last} << 48);
   double last = std::nextafter(first_of_bin, -1), key_before = last;
-  std::uint64_t taken = binned_ - of_last_bin.size();  // all of the bins before
+  std::uint64_t taken = bins.keys - of_last_bin.size();  // all of the bins before
   of_last_bin.for_each([&](double key) {
     if (key != key_before && taken <= most_points_) last = key_before;
     key_before = key;
@@ -108,18 +107,21 @@ double ScanSample::last_key(Job& job) const {
   return last;
 }
 
-Column<StoredSample> ScanSample::finish(Job& job) {
+Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store,
+                                      Job& job) {
   Phase phase(job, "sample", 0);
-  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids_ / kBlock + 1, job.memory.spills / 8);
-  const double last = last_key(job);
-  job.arena.for_each(candidates_.lists(), [&](std::size_t t) {
+  const std::size_t tiles = store.tiling().tiles.size();
+  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids / kBlock + 1, job.memory.spills / 8);
+  const double last = last_key(outputs, tiles, job);
+  job.arena.for_each(tiles, [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
     Outbox<StoredSample> outbox(blocks);
-    std::vector<Candidate> sampled = candidates_.read(t);
-    std::erase_if(sampled, [&](const Candidate& candidate) { return candidate.key > last; });
+    std::vector<DrawnPoint> sampled = outputs.read(kDrawnPoints, t);
+    std::erase_if(sampled, [&](const DrawnPoint& point) { return point.key > last; });
     auto next = sampled.begin();
-    LocalIndex point = 0;
-    store_.for_each_point(static_cast<TileIndex>(t), [&](const StoredPoint& p) {
-      if (next == sampled.end() || next->point != point++) return;
+    LocalIndex owned = 0;
+    store.for_each_point(t, [&](const StoredPoint& p) {
+      if (next == sampled.end() || next->owned != owned++) return;
       outbox.add(static_cast<TileIndex>(value(p.id) / kBlock), {p, next->probability, next->normal});
       ++next;
     });

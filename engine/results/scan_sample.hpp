@@ -5,7 +5,6 @@
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -13,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <vector>
 
 namespace lacuna {
 
@@ -28,36 +28,43 @@ struct StoredSample {
 // it has fewer points than wanted. A weight is the area that the point stands for: the square of its mean
 // distance to its neighbours. Near a boundary it is up to four times that, by its probability. The sample
 // depends on the points alone, not on tiles or threads.
-class ScanSample final : public TileConsumer {
+class ScanSample {
  public:
-  // As a tile puts it out, in ascending point.
-  struct Candidate {
+  // `is_kept`: outputs are kept. Then they have the keys of all points, since an update may draw its sample
+  // from fewer points.
+  ScanSample(std::uint64_t most_points, bool is_kept) : most_points_(most_points), is_kept_(is_kept) {}
+
+  // Puts out the points of a tile that may be in the sample. From any thread.
+  void emit(const EvaluatedTile& tile, TileOutput& output);
+  // Returns the sample in ascending id, once all tiles are evaluated. `ids`: all ids are below.
+  Column<StoredSample> draw(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, Job& job);
+
+ private:
+  // A point that may be in the sample.
+  struct DrawnPoint {
     double key;
     float probability;
     std::array<float, 3> normal;
-    LocalIndex point;
+    LocalIndex owned;
     std::uint32_t padding;
   };
+  static constexpr RecordStream<DrawnPoint> kDrawnPoints{"sample"};  // in ascending owned index
 
-  // `ids`: all ids are below.
-  ScanSample(std::uint64_t most_points, std::uint64_t ids, const TileStore& store, const Job& job);
+  // The smallest keys so far, by bins that have the order of the keys.
+  struct KeyBins {
+    std::uint32_t last = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
+    std::map<std::uint32_t, std::uint64_t> counts;
+    std::uint64_t keys = 0;  // in all bins
 
-  void emit(const EvaluatedTile& tile, TileOutput& output) const override;
-  void absorb(TileIndex tile, const TileOutput& output) override;
+    // Removes the points whose keys lie behind the last bin, and counts the others.
+    void take(std::vector<DrawnPoint>& points, std::uint64_t most_points);
+  };
+  double last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const;
 
-  // In ascending id. Once every tile was taken; to be called once.
-  Column<StoredSample> finish(Job& job);
-
- private:
-  double last_key(Job& job) const;
-
-  const TileStore& store_;
-  const std::uint64_t most_points_, ids_;
+  const std::uint64_t most_points_;
+  const bool is_kept_;
   std::mutex mutex_;
-  std::uint32_t last_bin_ = ~std::uint32_t{0};  // no key of the sample lies in a bin behind it
-  std::map<std::uint32_t, std::uint64_t> bins_;  // of keys: how many there are, up to the last bin
-  std::uint64_t binned_ = 0;                     // in all bins
-  AppendLists<Candidate> candidates_;            // of each tile: points of the sample, and others
+  KeyBins bins_;
 };
 
 }  // namespace lacuna

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,10 +37,6 @@ struct Job {
   Memory memory;
   std::vector<PhaseTime> phases;
   bool is_in_phase = false;
-  std::filesystem::path kept;     // the folder of the run's sealed parts; empty: none is kept
-  std::string made_from;          // what they are made from, as text
-  std::filesystem::path earlier;  // those of the run before an update; empty: there are none
-  bool is_unit = false;           // one of several processes that make parts of the run: it removes none
 
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.

@@ -13,9 +13,15 @@ constexpr std::uint64_t kLeastBudget = 1 << 16;
 }  // namespace
 
 AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
-    : file_(std::move(path)), lists_(lists) {
-  const std::uint64_t table = lists * sizeof(List);
-  budget_ = std::max(budget - std::min(table, budget), kLeastBudget);
+    : file_(std::move(path)), budget_(budget) {
+  add_lists(lists);
+}
+
+void AppendBytes::add_lists(std::size_t count) {
+  const std::lock_guard lock(*mutex_);
+  lists_.resize(lists_.size() + count);
+  const std::uint64_t table = count * sizeof(List);
+  budget_ = std::max(budget_ - std::min(table, budget_), kLeastBudget);
 }
 
 void AppendBytes::append(std::size_t index, std::span<const std::byte> bytes) {

@@ -29,6 +29,8 @@ class AppendBytes {
  public:
   AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget);
 
+  // Adds empty lists behind the others. May be called while other threads append.
+  void add_lists(std::size_t count);
   // May be called from any thread; the bytes of one call stay together.
   void append(std::size_t list, std::span<const std::byte> bytes);
   std::uint64_t size(std::size_t list) const;  // bytes appended so far

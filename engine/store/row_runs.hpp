@@ -40,6 +40,17 @@ std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row>
   return records;
 }
 
+// Writes the records of rows that ascend. Rows between those of one run get zeros.
+template <class Record>
+void write_rows(Column<Record>& column, std::span<const Row> rows, std::span<const Record> records) {
+  for_each_run(rows, [&](std::size_t begin, std::size_t end) {
+    const std::uint64_t first = value(rows[begin]);
+    std::vector<Record> run(value(rows[end - 1]) + 1 - first);
+    for (std::size_t i = begin; i < end; ++i) run[value(rows[i]) - first] = records[i];
+    column.write(first, run);
+  });
+}
+
 // Replaces the records of rows that ascend and were written. No other thread writes rows between them.
 template <class Record>
 void replace_rows(Column<Record>& column, std::span<const Row> rows, std::span<const Record> records) {

@@ -171,22 +171,17 @@ std::vector<std::string> PartReader::streams(std::uint64_t key) const {
   return names;
 }
 
-PartReader::AlignedBytes PartReader::bytes(std::string_view stream, std::uint64_t key) const {
-  AlignedBytes bytes;
-  for (const Extent& extent : extents(stream, key)) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + extent.bytes);
-    file_.read(extent.offset, std::span(bytes).subspan(before));
-  }
+std::uint64_t PartReader::size(std::string_view stream, std::uint64_t key) const {
+  std::uint64_t bytes = 0;
+  for (const Extent& extent : extents(stream, key)) bytes += extent.bytes;
   return bytes;
 }
 
-std::uint64_t PartReader::size(std::uint64_t key) const {
-  std::uint64_t bytes = 0;
-  for (const std::string& stream : streams(key)) {
-    for (const Extent& extent : extents(stream, key)) bytes += extent.bytes;
+void PartReader::read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const {
+  for (const Extent& extent : extents(stream, key)) {
+    file_.read(extent.offset, to.first(extent.bytes));
+    to = to.subspan(extent.bytes);
   }
-  return bytes;
 }
 
 std::span<const PartReader::Extent> PartReader::extents(std::string_view stream, std::uint64_t key) const {

@@ -23,8 +23,6 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/cache_aligned_allocator.h>
-
 namespace lacuna {
 
 Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
@@ -69,10 +67,9 @@ class PartReader {
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
-  std::uint64_t size(std::uint64_t key) const;  // bytes in all streams
-  // Aligned for any record.
-  using AlignedBytes = std::vector<std::byte, tbb::cache_aligned_allocator<std::byte>>;
-  AlignedBytes bytes(std::string_view stream, std::uint64_t key) const;
+  std::uint64_t size(std::string_view stream, std::uint64_t key) const;  // bytes; 0 where there is no entry
+  // to: `size` bytes.
+  void read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const;
   // Empty where there is no entry. Throws `Error` where the bytes are no whole number of records.
   template <class Record>
   std::vector<Record> records(std::string_view stream, std::uint64_t key) const;

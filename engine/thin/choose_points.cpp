@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/thin/choose_points.hpp"
 
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/outbox.hpp"
 #include "engine/thin/lattice.hpp"

@@ -5,16 +5,12 @@
 
 namespace lacuna {
 
-LevelLoops level_loops(const Level& level, const Totals& totals, const FoundLoops& found,
-                       const BoundaryMethod& boundary, Job& job) {
-  LevelLoops loops{.edge = level.edge,
-                   .cell_edge = level.edge > 0 ? level.edge : totals.median_distance() / kDistanceOverSpacing,
-                   .points = totals.points,
-                   .surface_area = totals.surface_area(),
-                   .loops = place_loops(found.loops, boundary.loop_points(), level.store.tiling(), job),
-                   .evidence = {}};
-  for (std::size_t i = 0; i < found.loops.size(); ++i) loops.evidence.push_back(found.loops.evidence(i));
-  return loops;
+LevelLoops level_loops(Loops loops, double edge, const Totals& totals) {
+  return {.edge = edge,
+          .cell_edge = edge > 0 ? edge : totals.median_distance() / kDistanceOverSpacing,
+          .points = totals.points,
+          .surface_area = totals.surface_area(),
+          .loops = std::move(loops)};
 }
 
 }  // namespace lacuna

@@ -2,14 +2,10 @@
 // The loops of one level, as tracking takes them.
 #pragma once
 
-#include "engine/boundary/boundary_method.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/levels/level.hpp"
-#include "engine/loops/placed_loops.hpp"
-#include "engine/run/job.hpp"
+#include "engine/evaluate/totals.hpp"
+#include "engine/loops/loops.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace lacuna {
 
@@ -18,12 +14,10 @@ struct LevelLoops {
   double cell_edge = 0;      // of the lattice on which its loops are compared with others
   std::uint64_t points = 0;  // distinct ones of the level
   double surface_area = 0;   // as its points sample it
-  PlacedLoops loops;
-  std::vector<LoopEvidence> evidence;  // of each loop
+  Loops loops;
 };
 
-// Nothing else of the level is needed from then on.
-LevelLoops level_loops(const Level& level, const Totals& totals, const FoundLoops& found,
-                       const BoundaryMethod& boundary, Job& job);
+// `edge`: of the level's lattice; 0: it has every point.
+LevelLoops level_loops(Loops loops, double edge, const Totals& totals);
 
 }  // namespace lacuna

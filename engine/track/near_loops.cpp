@@ -42,7 +42,7 @@ constexpr double kMostSteps = 16;
 // visit(cell) for each cell that the closed loop passes through at steps of an edge or less; some several
 // times.
 template <class Visit>
-void draw(const PlacedLoops& loops, std::size_t loop, double edge, Visit&& visit) {
+void draw(const Loops& loops, std::size_t loop, double edge, Visit&& visit) {
   std::optional<CellOfLattice> last;
   const auto pass = [&](const Eigen::Vector3d& p) {
     const CellOfLattice cell{std::floor(p.x() / edge), std::floor(p.y() / edge), std::floor(p.z() / edge)};

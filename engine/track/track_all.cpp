@@ -15,7 +15,7 @@ std::vector<TrackedLoop> loops_of(std::span<const LevelLoops> levels) {
   std::vector<TrackedLoop> loops;
   for (std::uint32_t l = 0; l < levels.size(); ++l) {
     for (std::uint32_t i = 0; i < levels[l].loops.size(); ++i) {
-      const LoopEvidence& e = levels[l].evidence[i];
+      const LoopEvidence& e = levels[l].loops.evidence(i);
       loops.push_back({.level = l,
                        .loop = i,
                        .first = l,
@@ -74,7 +74,7 @@ void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops, J
     for_each_loop(level.loops, job,
                   [&](std::size_t i, std::span<const StoredLoopPoint> points, Scratch& scratch) {
                     TrackedLoop& loop = loops[first + i];
-                    const double spacing = level.evidence[i].spacing;
+                    const double spacing = level.loops.evidence(i).spacing;
                     const auto [perimeter, area] = shape_of(points, scratch);
                     loop.evidence.width = 2 * area / perimeter / spacing;
                     loop.evidence.roundness = roundness(perimeter, area, loop.evidence.width);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/track/track_loops.hpp"
 
-#include "engine/store/column_writer.hpp"
 #include "engine/track/confidence.hpp"
 #include "engine/track/near_loops.hpp"
 #include "engine/track/track_all.hpp"
@@ -21,7 +20,7 @@ std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const
   constexpr double kLevelCost = 0.4;  // of a level, in log-odds: fine curves are closer to the hole
   std::vector<double> ranks;
   for (const TrackedLoop& loop : loops) {
-    const bool is_coarse = levels[loop.level].evidence[loop.loop].is_coarse;
+    const bool is_coarse = levels[loop.level].loops.evidence(loop.loop).is_coarse;
     ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * (loop.level + 0.5 * is_coarse));
   }
   return ranks;
@@ -73,51 +72,42 @@ std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<co
   return chosen;
 }
 
-// Whether the points of a loop come before those of another: by first id, then short ones first, then by all
-// ids.
-bool comes_first(const PlacedLoops& a, std::size_t i, const PlacedLoops& b, std::size_t j) {
-  ColumnReader<StoredLoopPoint> of_a(a.points), of_b(b.points);
-  const auto id_a = [&](std::uint64_t k) { return of_a[a.offsets[i] + k].point.id; };
-  const auto id_b = [&](std::uint64_t k) { return of_b[b.offsets[j] + k].point.id; };
-  if (id_a(0) != id_b(0)) return id_a(0) < id_b(0);
-  if (a.count(i) != b.count(j)) return a.count(i) < b.count(j);
-  for (std::uint64_t k = 1; k < a.count(i); ++k) {
-    if (id_a(k) != id_b(k)) return id_a(k) < id_b(k);
-  }
-  return false;
+// All of them stand.
+TrackedLoops all_loops(std::vector<LevelLoops> levels) {
+  TrackedLoops tracked;
+  const auto count = static_cast<std::uint32_t>(levels.front().loops.size());
+  for (std::uint32_t loop = 0; loop < count; ++loop) tracked.loops.chosen.push_back({0, loop});
+  tracked.loops.levels.push_back(std::move(levels.front().loops));
+  tracked.tracks.resize(count);
+  return tracked;
 }
 
 }  // namespace
 
 TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
-  if (job.config.loops.method == LoopMethod::kPaper) {
-    std::vector<LoopTrack> tracks(levels.front().loops.size());
-    return {std::move(levels.front().loops), std::move(tracks)};
-  }
+  if (job.config.loops.method == LoopMethod::kPaper) return all_loops(std::move(levels));
   Phase phase(job, "track", 0);
   const std::vector<NearLoops> pairs = near_loops(levels, job);
   const std::vector<TrackedLoop> loops = track_all(levels, pairs, job);
   std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
+  // At most one of several loops with the same points stands.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
-    return comes_first(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
-                       loops[y].loop);
+    return compare_points(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
+                          loops[y].loop) < 0;
   });
 
-  TrackedLoops tracked{.loops = {.points = Column<StoredLoopPoint>(job.file("tracked-loops"))}, .tracks = {}};
-  ColumnWriter<StoredLoopPoint> writer(tracked.loops.points);
+  TrackedLoops tracked;
   for (const std::uint32_t i : chosen) {
     const TrackedLoop& loop = loops[i];
-    const LevelLoops& level = levels[loop.level];
-    level.loops.for_each_point(loop.loop, [&](const StoredLoopPoint& p) { writer.add(p); });
-    tracked.loops.offsets.push_back(tracked.loops.offsets.back() + level.loops.count(loop.loop));
+    tracked.loops.chosen.push_back({loop.level, loop.loop});
     tracked.tracks.push_back({.confidence = probability_of(loop.log_odds),
                               .persistence = loop.evidence.persistence,
                               .first_scale = levels[loop.first].edge,
                               .last_scale = levels[loop.last].edge});
   }
-  writer.finish();
+  for (LevelLoops& level : levels) tracked.loops.levels.push_back(std::move(level.loops));
   return tracked;
 }
 

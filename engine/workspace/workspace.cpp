@@ -175,10 +175,6 @@ std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
   return split(part->records<char>("made from", 0), '\n');
 }
 
-bool is_of_this_program(const std::vector<std::string>& made_from) {
-  return !made_from.empty() && made_from.front() == kProgram;
-}
-
 StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
@@ -234,27 +230,28 @@ void remove_part(const fs::path& file) {
   if (error) throw Error(file.string() + ": cannot be removed: " + error.message());
 }
 
-void open_workspace(const PointSource& scan, Job& job) {
-  const fs::path folder = job.config.run.workspace;
-  if (folder.empty()) return;
+Workspace open_workspace(const PointSource& scan, const Config& given, bool is_unit) {
+  const fs::path folder = given.run.workspace;
+  if (folder.empty()) return {};
   const Lines identity = scan.identity();
   if (identity.empty())
     throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
-  const Lines now = made_from(identity, job.config);
+  const Lines now = made_from(identity, given);
   const std::optional<Lines> before = made_from_of(folder);
   if (before && *before != now) {
-    throw Error(folder.string() + ": the workspace of another run: \"" + first_other(*before, now) +
-                "\" there, \"" + first_other(now, *before) +
-                "\" here; allowed: the same input and parameters, another folder, or --restart");
+    throw Error(
+        folder.string() + ": the workspace of another run: \"" + first_other(*before, now) + "\" there, \"" +
+        first_other(now, *before) +
+        "\" here; allowed: the same input and parameters, or another folder; lacuna clean removes this one");
   }
   if (!is_workspace(folder)) refuse_others(folder);
   for (const fs::path& file : workspace_files(folder)) {
-    if (!job.is_unit && file.extension() == kUnsealed) remove_part(file);
+    if (!is_unit && file.extension() == kUnsealed) remove_part(file);
   }
   if (!before) {
     std::string inputs;
     for (const std::string& name : scan.names()) inputs += name + '\0';
-    Config config = job.config;
+    Config config = given;
     config.run.workspace.clear();  // which may be another path for another machine
     PartWriter part(folder / kRun);
     for (const auto& [stream, text] : {std::pair<std::string_view, std::string>{"made from", joined(now)},
@@ -264,9 +261,11 @@ void open_workspace(const PointSource& scan, Job& job) {
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }
-  job.kept = folder;
-  if (is_workspace(earlier_parts(folder))) job.earlier = earlier_parts(folder);
-  job.made_from = joined(now);
+  const bool is_update = is_workspace(earlier_parts(folder));
+  return {.folder = folder,
+          .made_from = joined(now),
+          .earlier = is_update ? earlier_parts(folder) : fs::path(),
+          .is_unit = is_unit};
 }
 
 }  // namespace lacuna

@@ -7,7 +7,6 @@
 
 #include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
-#include "engine/run/job.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +17,20 @@
 
 namespace lacuna {
 
-// Opens the workspace that the config names, for this input, and sets `kept` and `made_from` of the job. What
-// a stopped run has left unfinished is removed. Throws `Error` where the folder is no workspace, or that of
-// another input or of other parameters, with the first difference.
-void open_workspace(const PointSource& scan, Job& job);
+// Where a run keeps its sealed parts.
+struct Workspace {
+  std::filesystem::path folder;   // empty: nothing is kept
+  std::string made_from;          // input and parameters of the parts, a line each
+  std::filesystem::path earlier;  // the parts of the run before an update; empty: there are none
+  bool is_unit = false;           // one of several processes that make parts of the run: it removes none
+
+  bool is_kept() const { return !folder.empty(); }
+};
+
+// Opens the workspace that the config names, for this input. Removes what a stopped run has left unfinished;
+// a unit does not. Throws `Error` where the folder is not a workspace, or belongs to another input or other
+// parameters, with the first difference.
+Workspace open_workspace(const PointSource& scan, const Config& config, bool is_unit = false);
 
 // Further parameters on which the evaluation of a tile depends, a line each.
 std::string evaluation_parameters(const Config& config);
@@ -44,7 +53,6 @@ StoredRun read_run(const std::filesystem::path& folder);
 // What the parts are made from, a line each. None where the part of the run is damaged: the run makes it
 // again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
-bool is_of_this_program(const std::vector<std::string>& made_from);  // so that it can read the run
 
 // A line of text as a part of its own; none where there is no such part.
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/crs/crs_lookup.hpp"
 
-#include "io/results/gdal_session.hpp"
+#include "io/crs/gdal_session.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "io/crs/degrees.hpp"
 
 #include "io/crs/crs_lookup.hpp"
-#include "io/gis_module.hpp"
+#include "io/crs/gis_module.hpp"
 
 #include <spdlog/spdlog.h>
 

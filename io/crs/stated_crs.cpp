@@ -4,9 +4,9 @@
 #include "engine/run/error.hpp"
 #include "io/crs/crs_lookup.hpp"
 #include "io/crs/crs_text.hpp"
-#include "io/gis_module.hpp"
-#include "io/input_file.hpp"
-#include "io/length_unit.hpp"
+#include "io/crs/gis_module.hpp"
+#include "io/crs/length_unit.hpp"
+#include "io/files/input_file.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/e57/e57_columns.hpp"
 
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
-#include "io/vectors.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <array>

@@ -16,7 +16,7 @@
 #pragma once
 
 #include "io/e57/e57_header.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>

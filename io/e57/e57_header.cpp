@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/e57/e57_header.hpp"
 
-#include "io/little_endian.hpp"
+#include "io/files/little_endian.hpp"
 
 #include <bit>
 #include <cstring>

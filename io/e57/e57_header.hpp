@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/e57/paged_file.hpp"
-#include "io/pose.hpp"
+#include "io/rows/pose.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "io/e57/e57_place.hpp"
 
 #include "engine/simd/maths.hpp"
-#include "io/little_endian.hpp"
+#include "io/files/little_endian.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -2,8 +2,8 @@
 // Points and normals of an E57 scan, from its own coordinates to those of the file.
 #pragma once
 
-#include "io/pose.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/pose.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <array>
 #include <cstddef>

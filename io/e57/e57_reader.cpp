@@ -5,8 +5,8 @@
 #include "io/e57/e57_header.hpp"
 #include "io/e57/e57_place.hpp"
 #include "io/e57/e57_points.hpp"
-#include "io/little_endian.hpp"
-#include "io/scalar.hpp"
+#include "io/files/little_endian.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <cassert>

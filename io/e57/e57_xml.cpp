@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/e57/e57_header.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "io/e57/e57_header.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,7 @@
 // do not. ASTM E2807-11; libE57Format reads and writes the checksum in this byte order.
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Fields at fixed places in the bytes of a LAS header or record.
 #pragma once
 
-#include "io/little_endian.hpp"
+#include "io/files/little_endian.hpp"
 
 #include <algorithm>
 #include <cstddef>

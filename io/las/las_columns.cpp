@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_columns.hpp"
 
+#include "io/files/little_endian.hpp"
+#include "io/files/property_name.hpp"
 #include "io/las/las_extra.hpp"
 #include "io/las/las_fields.hpp"
-#include "io/little_endian.hpp"
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

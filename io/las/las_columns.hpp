@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/las/las_header.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <span>

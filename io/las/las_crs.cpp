@@ -2,8 +2,8 @@
 #include "io/las/las_crs.hpp"
 
 #include "io/crs/crs_text.hpp"
-#include "io/length_unit.hpp"
-#include "io/little_endian.hpp"
+#include "io/crs/length_unit.hpp"
+#include "io/files/little_endian.hpp"
 
 #include <algorithm>
 

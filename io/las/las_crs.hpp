@@ -20,7 +20,7 @@ class LasCrs {
   std::string text() const;
   // Whether positions are longitude and latitude.
   bool is_geographic() const;
-  // "m", "ft", "us-ft"; empty: not known (io/length_unit.hpp).
+  // "m", "ft", "us-ft"; empty: not known (io/crs/length_unit.hpp).
   std::string length_unit() const;
 
  private:

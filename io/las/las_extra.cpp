@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_extra.hpp"
 
-#include "io/little_endian.hpp"
-#include "io/scalar.hpp"
+#include "io/files/little_endian.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <span>
 
 namespace lacuna::io {
@@ -26,9 +24,7 @@ constexpr std::array<LasExtraType, 11> kTypes = {{{0, Scalar::kUint8},
                                                   {4, Scalar::kFloat32},
                                                   {8, Scalar::kFloat64}}};
 constexpr std::uint8_t kUint64 = 7, kInt64 = 8, kFloat = 9, kDouble = 10, kLastType = 30;
-constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kNoDataAt = 40, kMinAt = 64,
-                      kScaleAt = 112, kDescriptionAt = 160;
-constexpr std::uint8_t kHasNoData = 1, kHasMin = 2, kHasMax = 4;  // options
+constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kDescriptionAt = 160;
 
 std::uint8_t type_of(Scalar type) {
   switch (type) {
@@ -57,6 +53,11 @@ void put_text(LasExtraBytes& extra, std::size_t at, std::string_view text) {
   std::memcpy(&extra.descriptor[at], text.data(), std::min(text.size(), kText));
 }
 
+void rename(LasExtraBytes& extra, std::string_view name) {
+  extra.name = name.substr(0, kText);
+  put_text(extra, kNameAt, extra.name);
+}
+
 // Returns the type of one value, for types of several.
 std::uint8_t base_type(const LasExtraBytes& extra) {
   return static_cast<std::uint8_t>((extra.type - 1) % 10 + 1);
@@ -81,33 +82,6 @@ std::size_t las_extra_size(const LasExtraBytes& extra) {
   return kTypes[base_type(extra)].bytes * ((extra.type - 1u) / 10 + 1);
 }
 
-std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra) {
-  std::vector<std::byte> bytes(las_extra_size(extra));
-  if (extra.type == 0) return bytes;
-  const std::uint8_t type = base_type(extra);
-  const std::size_t size = kTypes[type].bytes;
-  for (std::size_t at = 0, value = 0; at < bytes.size(); at += size, ++value) {
-    if (type == kFloat) store(&bytes[at], std::numeric_limits<float>::quiet_NaN());
-    if (type == kDouble) store(&bytes[at], std::numeric_limits<double>::quiet_NaN());
-    if (type < kFloat && (extra.options & kHasNoData) != 0)
-      std::memcpy(&bytes[at], &extra.descriptor[kNoDataAt + 8 * value], size);  // stored in eight bytes
-  }
-  return bytes;
-}
-
-std::optional<double> las_no_data(const LasExtraBytes& extra) {
-  if (extra.type == 0 || extra.type > kDouble || (extra.options & kHasNoData) == 0) return std::nullopt;
-  const std::byte* const from = &extra.descriptor[kNoDataAt];  // as eight bytes
-  const double value = extra.type == kFloat ? static_cast<double>(static_cast<float>(load<double>(from)))
-                                            : load_las_value(extra.type, from);
-  return std::isnan(value) ? std::nullopt : std::optional(value);
-}
-
-bool is_same_kind(const LasExtraBytes& a, const LasExtraBytes& b) {
-  return a.type == b.type && a.scale == b.scale && a.offset == b.offset &&
-         (a.type != 0 || a.options == b.options) && las_no_data(a) == las_no_data(b);
-}
-
 LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description) {
   LasExtraBytes extra{.name = {}, .type = type_of(type), .options = 0, .scale = 1, .offset = 0};
   extra.descriptor[kTypeAt] = static_cast<std::byte>(extra.type);
@@ -122,24 +96,6 @@ LasExtraBytes las_extra_without_type(std::size_t bytes) {
   extra.descriptor[kOptionsAt] = static_cast<std::byte>(bytes);
   rename(extra, bytes == 1 ? "extra_0" : "extra");
   return extra;
-}
-
-void rename(LasExtraBytes& extra, std::string_view name) {
-  extra.name = name.substr(0, kText);
-  put_text(extra, kNameAt, extra.name);
-}
-
-LasExtraBytes as_double(const LasExtraBytes& extra) {
-  LasExtraBytes made = las_extra_of(extra.name, Scalar::kFloat64, "");
-  std::copy_n(extra.descriptor.begin() + kDescriptionAt, kText, made.descriptor.begin() + kDescriptionAt);
-  return made;
-}
-
-void forget_range(LasExtraBytes& extra) {
-  if (extra.type == 0) return;
-  extra.options &= static_cast<std::uint8_t>(~(kHasMin | kHasMax));
-  extra.descriptor[kOptionsAt] = static_cast<std::byte>(extra.options);
-  std::fill(extra.descriptor.begin() + kMinAt, extra.descriptor.begin() + kScaleAt, std::byte{0});
 }
 
 bool is_lacuna_extra(const LasExtraBytes& extra) {

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "io/las/las_header.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,25 +26,10 @@ double load_las_value(std::uint8_t type, const std::byte* from);
 // Bytes in a point: of one, two or three values, or without a type. 0: a type that is not known.
 std::size_t las_extra_size(const LasExtraBytes& extra);
 
-// The fill value in the points of a file that lacks the dimension. It is NaN for floats, else the "no data"
-// value of the descriptor, else 0.
-std::vector<std::byte> las_extra_missing(const LasExtraBytes& extra);
-
-// The "no data" value of type 1 to 10, without scale and offset; none: the descriptor has none, or NaN.
-std::optional<double> las_no_data(const LasExtraBytes& extra);
-
-// Whether equal bytes have the same meaning for both.
-bool is_same_kind(const LasExtraBytes& a, const LasExtraBytes& b);
-
 // One value for each point. Names and descriptions are cut to 32 bytes.
 LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description);
 // 1 to 255 bytes that nothing describes.
 LasExtraBytes las_extra_without_type(std::size_t bytes);
-void rename(LasExtraBytes& extra, std::string_view name);
-// One value of the same name and description, in double.
-LasExtraBytes as_double(const LasExtraBytes& extra);
-// Takes away the least and the largest value, which are those of one file.
-void forget_range(LasExtraBytes& extra);
 
 // How the descriptions of a run's results begin, so that the next run replaces them.
 inline constexpr std::string_view kLacunaDescription = "Lacuna: ";

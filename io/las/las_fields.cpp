@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_fields.hpp"
 
+#include <optional>
+
 namespace lacuna::io {
+namespace {
+
+// Formats 6 to 10 have larger fields for returns, class and scan angle.
+bool is_extended_format(int format) {
+  return format >= 6;
+}
+
+// The first byte of each group of fields that only some formats have.
+struct LasGroups {
+  std::optional<std::size_t> gps_time, colour, infrared, waveform;
+};
 
 LasGroups las_groups(int format) {
   LasGroups groups;
@@ -11,19 +24,21 @@ LasGroups las_groups(int format) {
     next = 30;
   } else if (format == 1 || format >= 3) {
     groups.gps_time = next;
-    next += kLasTimeBytes;
+    next += 8;
   }
   if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10) {
     groups.colour = next;
-    next += kLasColourBytes;
+    next += 6;
   }
   if (format == 8 || format == 10) {
     groups.infrared = next;
-    next += kLasInfraredBytes;
+    next += 2;
   }
   if (format == 4 || format == 5 || format == 9 || format == 10) groups.waveform = next;
   return groups;
 }
+
+}  // namespace
 
 std::vector<LasField> las_fields(int format) {
   std::vector<LasField> fields;
@@ -81,16 +96,6 @@ std::vector<LasField> las_fields(int format) {
     whole("wave_z", Scalar::kFloat32, at + 25);
   }
   return fields;
-}
-
-int las_format_with(bool is_extended, bool has_time, bool has_colour, bool has_infrared, bool has_waveform) {
-  const bool has_colours = has_colour || has_infrared;
-  if (is_extended || has_infrared) {
-    if (has_waveform) return has_colours ? 10 : 9;
-    return has_infrared ? 8 : has_colour ? 7 : 6;
-  }
-  if (has_waveform) return has_colours ? 5 : 4;
-  return has_colours ? (has_time ? 3 : 2) : has_time ? 1 : 0;
 }
 
 }  // namespace lacuna::io

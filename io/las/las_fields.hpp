@@ -2,11 +2,10 @@
 // Where the fields of each point format are in a record (ASPRS LAS specification 1.4 R15, section 2.6).
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace lacuna::io {
@@ -22,21 +21,5 @@ struct LasField {
 // All but the coordinates, which are the first twelve bytes, in the order of their columns. `format`: 0
 // to 10.
 std::vector<LasField> las_fields(int format);
-
-// The first byte of each group of fields that only some formats have.
-struct LasGroups {
-  std::optional<std::size_t> gps_time, colour, infrared, waveform;
-};
-inline constexpr std::size_t kLasTimeBytes = 8, kLasColourBytes = 6, kLasInfraredBytes = 2,
-                             kLasWaveformBytes = 29;
-LasGroups las_groups(int format);
-
-// Formats 6 to 10 have larger fields for returns, class and scan angle.
-constexpr bool is_extended_format(int format) {
-  return format >= 6;
-}
-
-// The smallest format that has the groups; infrared comes with colours, and only with extended fields.
-int las_format_with(bool is_extended, bool has_time, bool has_colour, bool has_infrared, bool has_waveform);
 
 }  // namespace lacuna::io

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_header.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/las/las_records.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // points. Source: ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7.
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/las/las_crs.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 // The raw point records of a LAS file, compressed or not, front to back.
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/las/las_header.hpp"
 
 #include <cstddef>

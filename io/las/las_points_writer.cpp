@@ -2,8 +2,8 @@
 #include "io/las/las_points_writer.hpp"
 
 #include "engine/run/parallel.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // The point records of a LAS file on their way to the disk, compressed or not, front to back.
 #pragma once
 
+#include "io/files/output_file.hpp"
 #include "io/laz/laz.hpp"
-#include "io/results/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "io/las/las_reader.hpp"
 
 #include "engine/run/parallel.hpp"
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 #include "io/las/las_columns.hpp"
 #include "io/las/las_header.hpp"
 #include "io/las/las_points.hpp"

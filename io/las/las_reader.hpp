@@ -2,7 +2,7 @@
 // LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS LAS specification 1.4 R15).
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -3,8 +3,8 @@
 // them. Source: ASPRS LAS specification 1.4 R15, sections 2.5 to 2.7.
 #pragma once
 
+#include "io/files/output_file.hpp"
 #include "io/las/las_header.hpp"
-#include "io/results/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,23 +14,20 @@
 
 namespace lacuna::io {
 
-// "LASF_Projection" and "LASF_Spec" are the users of the records that the specification defines.
-inline constexpr std::string_view kLasProjection = "LASF_Projection", kLasSpecification = "LASF_Spec";
-inline constexpr std::uint16_t kLasExtraBytes = 4, kLasWellKnownText = 2112, kLasGeoKeys = 34735;
+// The user of records that the specification defines.
+inline constexpr std::string_view kLasSpecification = "LASF_Spec";
+inline constexpr std::uint16_t kLasExtraBytes = 4;
 // That of LASzip says how points are compressed.
 inline constexpr std::string_view kLaszip = "laszip encoded";
 inline constexpr std::uint16_t kLaszipLayout = 22204;
-inline constexpr std::size_t kLasRecordHead = 54, kMostLasRecordData = 65535;  // not extended ones
+inline constexpr std::size_t kLasRecordHead = 54;  // bytes, of records that are not extended
 
-// What stands before the data of a record.
-std::string las_record_head(bool is_extended, std::string_view user, std::uint16_t number,
-                            std::uint64_t bytes, std::string_view description);
+// What stands before the data of a record that is not extended.
+std::string las_record_head(std::string_view user, std::uint16_t number, std::uint16_t bytes,
+                            std::string_view description);
 
 // Copies a record of the file byte for byte. Returns the number of these. Throws `Error`.
 std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordPlace& record,
                               OutputFile& out);
-
-// "EPSG:N" or "EPSG:N+M" as a directory of GeoTIFF keys (GeoTIFF 1.1, 7.1); empty: no such code.
-std::string geo_keys(std::string_view crs);
 
 }  // namespace lacuna::io

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of where chunks begin (LAZ, "Chunk table").
+#include "io/files/little_endian.hpp"
 #include "io/laz/integer_coder.hpp"
 #include "io/laz/laz.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/files/little_endian.hpp"
 #include "io/laz/layer_encoder.hpp"
 #include "io/laz/layered.hpp"
 #include "io/laz/layered_channels.hpp"
 #include "io/laz/point14_encoder.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // The layers of a chunk of point formats 6 to 8 (LAZ, compressor 3).
 #pragma once
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/arithmetic_decoder.hpp"
-#include "io/little_endian.hpp"
 
 #include <optional>
 #include <utility>

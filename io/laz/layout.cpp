@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The record of the LAS header that says how points are compressed (LAZ, "LASzip VLR").
+#include "io/files/little_endian.hpp"
 #include "io/laz/laz.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "io/little_endian.hpp"
 
 #include <string>
 

@@ -2,11 +2,11 @@
 // What the decoder and the encoder of POINT14 have in common: a point's fields, and the state of a channel.
 #pragma once
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/contexts.hpp"
 #include "io/laz/gps_time.hpp"
 #include "io/laz/integer_coder.hpp"
 #include "io/laz/streaming_median.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/pointwise.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/gps_time.hpp"
 #include "io/laz/point10.hpp"
 #include "io/laz/rgb.hpp"
 #include "io/laz/version1.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/version1.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/wrapped.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // OBJ, the text format of Wavefront: the vertices of a mesh.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

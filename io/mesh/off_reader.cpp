@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/mesh/off_reader.hpp"
 
-#include "io/line_words.hpp"
-#include "io/scalar.hpp"
+#include "io/files/line_words.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <cassert>

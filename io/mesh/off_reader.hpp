@@ -2,7 +2,7 @@
 // OFF, the text format of Geomview: the vertices of a mesh.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

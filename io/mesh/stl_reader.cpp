@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/mesh/stl_reader.hpp"
 
-#include "io/line_words.hpp"
-#include "io/scalar.hpp"
+#include "io/files/line_words.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>
@@ -68,13 +68,6 @@ class BinaryStl final : public ScanReader {
       if (left_ % 3 == 0) in_.skip(kNormalBytes);
       in_.read(batch.bytes.data() + row * kVertexBytes, kVertexBytes);
       if (left_ % 3 == 1) in_.skip(kTriangleBytes - kNormalBytes - 3 * kVertexBytes);
-    }
-    if constexpr (std::endian::native == std::endian::big) {
-      for (const Property& property : layout_.properties) {
-        swap_bytes(
-            {.data = batch.bytes.data() + property.offset, .stride = kVertexBytes, .type = property.type},
-            batch.count);
-      }
     }
     return batch.count > 0;
   }

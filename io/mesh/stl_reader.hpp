@@ -2,7 +2,7 @@
 // STL, triangles without shared vertices: ASCII and binary.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

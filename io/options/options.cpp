@@ -13,7 +13,7 @@ namespace {
 // In the order of their enumerations.
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
 constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
-constexpr std::string_view kPointsFormats[] = {"input", "ply", "las", "pcd", "csv", "laz"};
+constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
 bool is_gis(const OutputConfig& output) {
   return output.gpkg || output.geojson || output.shp;
@@ -90,19 +90,14 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "Coordinate reference system of the scan, over what its files state; empty: as they state it."},
       {"input", "unit", named(input.unit, kUnits), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
        "Unit of the coordinates, over what the files state; input: as they, or --crs, state it."},
-      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 5,
-       "input, ply, las, pcd, csv or laz",
-       "Format of the annotated scan and of cut-outs; input: that of the scan, PLY where it cannot be "
-       "written.",
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2,
+       "input, ply or csv",
+       "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        no_points_files},
       {"output", "normals", &output.normals, 0, 1, "true or false",
        "Add the estimated normals to the annotated scan, unless a scan brings its own.", no_points},
       {"output", "obj", &output.obj, 0, 1, "true or false",
-       "Write loops.obj too: the loops as polylines, for CAD and Blender."},
-      {"output", "dxf", &output.dxf, 0, 1, "true or false",
-       "Write loops.dxf too: the loops as closed 3D polylines, for CAD."},
-      {"output", "vtp", &output.vtp, 0, 1, "true or false",
-       "Write loops.vtp too: the loops with their measures, for ParaView and VTK."},
+       "Write loops.obj too: the loops as polylines, for CAD, ParaView and Blender."},
       {"output", "gpkg", &output.gpkg, 0, 1, "true or false",
        "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS."},
       {"output", "geojson", &output.geojson, 0, 1, "true or false",
@@ -125,8 +120,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone."},
       {"output", "local_coordinates", &output.local_coordinates, 0, 1, "true or false",
-       "Coordinates of PLY and PCD files are 32-bit floats relative to an offset, which their headers "
-       "state."},
+       "Coordinates of PLY files are 32-bit floats relative to an offset, which their headers state."},
       {"output", "report", &output.report, 0, 1, "true or false",
        "Write report.html too: the scan and its holes in 3D, for a browser."},
   };

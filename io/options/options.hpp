@@ -41,14 +41,13 @@ struct InputConfig {
   LengthUnit unit = LengthUnit::kInput;
 };
 
-// How the annotated scan is written.
-enum class PointsFormat : std::uint8_t { kInput, kPly, kLas, kPcd, kCsv, kLaz };
+// How the annotated scan is written: file by file, or as one file.
+enum class PointsFormat : std::uint8_t { kInput, kPly, kCsv };
 
 struct OutputConfig {
   PointsFormat points_format = PointsFormat::kInput;
   bool normals = false;                // with nx ny nz where they were estimated
-  bool obj = false, dxf = false;       // write the loops for CAD
-  bool vtp = false;                    // for VTK and ParaView
+  bool obj = false;                    // write the loops for CAD
   bool gpkg = false, geojson = false;  // for GIS: GeoPackage, GeoJSON
   bool shp = false;                    // Shapefile
   bool lids = false;                   // triangulated lids of the holes
@@ -57,7 +56,7 @@ struct OutputConfig {
   std::string stations;                // file of where scanners stood; empty: as the scans say
   double cut_outs = 0;                 // write the points within this distance of each hole; 0: off
   bool no_coordinates = false;         // loops of holes.json have ids alone
-  bool local_coordinates = false;      // PLY and PCD: floats relative to an offset
+  bool local_coordinates = false;      // PLY: floats relative to an offset
   bool report = false;                 // write report.html
 };
 

@@ -7,7 +7,7 @@
 // http://oldhome.schmorp.de/marc/liblzf.html
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_fields.hpp"
 
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <array>
 #include <bit>
@@ -118,16 +118,6 @@ void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLa
     }
     from += field.bytes();
     to += converted_bytes(field);
-  }
-}
-
-void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count) {
-  const std::size_t stride = header.row_bytes();
-  std::size_t offset = 0;
-  for (const PcdField& field : header.fields) {
-    for (std::size_t i = 0; i < field.count; ++i, offset += field.size) {
-      swap_bytes({.data = raw + offset, .stride = stride, .type = scalar_of(field)}, count);
-    }
   }
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/pcd/pcd_header.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +33,5 @@ RowLayout pcd_layout(const InputFile& in, const PcdHeader& header);
 // From `batch.count` rows as the header describes them, in the machine's byte order, to those of the layout.
 void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLayout& layout,
                       RowBatch& batch);
-
-// Reverses the bytes of every value.
-void swap_pcd_rows(const PcdHeader& header, std::byte* raw, std::size_t count);
 
 }  // namespace lacuna::io

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_header.hpp"
 
-#include "io/line_words.hpp"
-#include "io/number.hpp"
-#include "io/scan_reader.hpp"
+#include "io/files/line_words.hpp"
+#include "io/files/number.hpp"
+#include "io/rows/scan_reader.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <set>
@@ -69,32 +67,12 @@ void parse_data(Parser& parser, LineWords& words) {
   parser.fail("unknown encoding " + in_quotes(name) + "; allowed are ascii, binary and binary_compressed");
 }
 
-// Nothing depends on the quaternion, so that one which is not complete is that of no turn.
-void parse_direction(Parser& parser, LineWords& words) {
-  std::array<double, 4> quaternion{};
-  std::size_t count = 0;
-  for (std::string_view word; words.next(word) && count < 4; ++count) {
-    if (!parse_number(word, quaternion[count])) return;
-  }
-  if (count == 4) std::copy(quaternion.begin(), quaternion.end(), parser.header.viewpoint.begin() + 3);
-}
-
-// What follows the "#".
-void parse_comment(Parser& parser, LineWords& words) {
-  std::vector<std::string_view> rest;
-  for (std::string_view word; rest.size() < kOffsetWords + 1 && words.next(word);) rest.push_back(word);
-  read_offset(parser.in, rest, parser.header.offset);
-}
-
 // False at the end of the header.
 bool parse_line(Parser& parser, std::string_view line) {
   LineWords words(parser.in, line);
   std::string_view keyword;
   if (!words.next(keyword)) return true;
-  if (keyword.starts_with('#')) {
-    parse_comment(parser, words);
-    return true;
-  }
+  if (keyword.starts_with('#')) return true;
   if (keyword == "COLUMNS") keyword = "FIELDS";  // its name in some old files
   if (!parser.seen.insert(std::string(keyword)).second) {
     parser.fail("a second line " + in_quotes(keyword) + "; one is allowed");
@@ -130,8 +108,7 @@ bool parse_line(Parser& parser, std::string_view line) {
     parse_data(parser, words);
     return false;
   } else if (keyword == "VIEWPOINT") {
-    for (std::size_t i = 0; i < 3; ++i) parser.header.viewpoint[i] = words.number<double>(kViewpoint);
-    parse_direction(parser, words);
+    for (double& coordinate : parser.header.viewpoint) coordinate = words.number<double>(kViewpoint);
   } else {
     parser.fail(
         "unknown keyword " + in_quotes(keyword) +
@@ -196,9 +173,7 @@ std::size_t PcdHeader::row_bytes() const {
 }
 
 std::optional<Eigen::Vector3d> PcdHeader::scanner() const {
-  const Eigen::Vector3d place = Eigen::Vector3d::Map(viewpoint.data());
-  if (place.isZero(0)) return std::nullopt;
-  return offset ? place + *offset : place;
+  return viewpoint.isZero(0) ? std::nullopt : std::optional(viewpoint);
 }
 
 std::size_t PcdHeader::padding_bytes() const {
@@ -219,30 +194,7 @@ PcdHeader read_pcd_header(InputFile& in) {
   }
   require_types(parser);
   parser.header.rows = count_rows(parser);
-  const bool is_image = parser.width && parser.height;
-  parser.header.width = is_image ? *parser.width : parser.header.rows;
-  parser.header.height = is_image ? *parser.height : 1;
   return std::move(parser.header);
-}
-
-std::string print_pcd_header(const PcdHeader& header) {
-  std::string fields, sizes, types, counts, viewpoint;
-  for (const PcdField& field : header.fields) {
-    fields += ' ' + field.name;
-    sizes += ' ' + std::to_string(field.size);
-    types += std::string(" ") + field.type;
-    counts += ' ' + std::to_string(field.count);
-  }
-  for (const double number : header.viewpoint) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    viewpoint += ' ' + std::string(digits.data(), end);
-  }
-  const std::string offset = header.offset ? "# " + print_offset(*header.offset) + '\n' : "";
-  return std::string(kPcdMark) + offset + "VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" +
-         types + "\nCOUNT" + counts + "\nWIDTH " + std::to_string(header.width) + "\nHEIGHT " +
-         std::to_string(header.height) + "\nVIEWPOINT" + viewpoint + "\nPOINTS " +
-         std::to_string(header.rows) + "\nDATA " + pcd_name(header.encoding) + '\n';
 }
 
 }  // namespace lacuna::io

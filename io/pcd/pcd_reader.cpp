@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_reader.hpp"
 
-#include "io/number.hpp"
-#include "io/offset_reader.hpp"
+#include "io/files/number.hpp"
 #include "io/pcd/pcd_fields.hpp"
 #include "io/pcd/pcd_rows.hpp"
 
@@ -28,7 +27,6 @@ class PcdReader final : public ScanReader {
     const auto place = rows_.header().scanner();
     return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
   }
-  const LocalOffset& offset() const { return rows_.header().offset; }
   std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
@@ -60,9 +58,7 @@ bool looks_like_pcd(const FileStart& start) {
 }
 
 std::unique_ptr<ScanReader> open_pcd(const std::filesystem::path& file, const ReadOptions&) {
-  auto reader = std::make_unique<PcdReader>(file);
-  const LocalOffset offset = reader->offset();
-  return with_offset(std::move(reader), offset);
+  return std::make_unique<PcdReader>(file);
 }
 
 }  // namespace lacuna::io

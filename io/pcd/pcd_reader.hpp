@@ -2,7 +2,7 @@
 // PCD, the point clouds of PCL: ASCII, binary and compressed, versions .5 to .7.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

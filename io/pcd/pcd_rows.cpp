@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_rows.hpp"
 
-#include "io/line_words.hpp"
+#include "io/files/line_words.hpp"
 #include "io/pcd/pcd_fields.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cstring>
 
@@ -50,13 +49,10 @@ std::size_t PcdRows::next(std::vector<std::byte>& rows, std::size_t max_rows) {
   rows.resize(count * row_bytes_);
   if (header_.encoding == PcdEncoding::kAscii) {
     for (std::size_t row = 0; row < count; ++row) read_text_row(rows.data() + row * row_bytes_);
+  } else if (header_.encoding == PcdEncoding::kBinary) {
+    in_.read(rows.data(), rows.size());
   } else {
-    if (header_.encoding == PcdEncoding::kBinary) {
-      in_.read(rows.data(), rows.size());
-    } else {
-      read_columns(rows.data(), count);
-    }
-    if constexpr (std::endian::native == std::endian::big) swap_pcd_rows(header_, rows.data(), count);
+    read_columns(rows.data(), count);
   }
   left_ -= count;
   return count;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/number.hpp"
+#include "io/files/number.hpp"
 #include "io/ply/ply_rows.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <cstring>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_rows.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

@@ -36,7 +36,7 @@ void require_size(const InputFile& in, const PlyHeader& header) {
 }
 
 bool is_swapped(PlyFormat format) {
-  return (format == PlyFormat::kLittleEndian) != (std::endian::native == std::endian::little);
+  return format != PlyFormat::kLittleEndian;
 }
 
 void read_rows(InputFile& in, PlyFormat format, const PlyElement& element, std::uint64_t count,

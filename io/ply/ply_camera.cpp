@@ -3,7 +3,7 @@
 
 #include "io/ply/ply_body.hpp"
 #include "io/ply/ply_rows.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_header.hpp"
 
-#include "io/number.hpp"
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/files/number.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <mutex>
 #include <set>

@@ -2,9 +2,9 @@
 // The header of a PLY file: what its elements are made of. https://paulbourke.net/dataformats/ply/
 #pragma once
 
-#include "io/input_file.hpp"
-#include "io/local_offset.hpp"
-#include "io/scan_reader.hpp"
+#include "io/files/input_file.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstdint>
 #include <optional>

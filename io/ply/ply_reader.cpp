@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_reader.hpp"
 
-#include "io/input_file.hpp"
-#include "io/offset_reader.hpp"
+#include "io/files/input_file.hpp"
 #include "io/ply/ply_body.hpp"
 #include "io/ply/ply_camera.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/offset_reader.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <cassert>

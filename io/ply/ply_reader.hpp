@@ -2,7 +2,7 @@
 // PLY, ASCII and binary: the points are the rows of element "vertex".
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ply/ply_writer.hpp"
 
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <array>
 #include <bit>

@@ -2,9 +2,9 @@
 // Binary little endian PLY, as a stream of values.
 #pragma once
 
-#include "io/local_offset.hpp"
+#include "io/files/output_file.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/results/output_file.hpp"
+#include "io/rows/local_offset.hpp"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 // Bytes as text (RFC 4648), in one line.
 #pragma once
 
-#include "io/results/output_file.hpp"
+#include "io/files/output_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "io/report/marks.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/results/json.hpp"
+#include "io/loops/json.hpp"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 // Which loop of a result each mark belongs to.
 #pragma once
 
+#include "io/loops/json.hpp"
 #include "io/report/marks.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/json.hpp"
 
 #include <span>
 

@@ -2,9 +2,9 @@
 #include "io/report/render.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_colours.hpp"
 #include "io/report/percentile.hpp"
-#include "io/results/loop_colours.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
   const float nearer = 3 * scene.points.spacing;
   const Scene::Loops& loops = scene.loops;
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const auto [red, green, blue, index] = io::colour_of(loops.measures[loop].kind);
+    const auto [red, green, blue] = io::colour_of(loops.measures[loop].kind);
     const Eigen::Vector3f colour(red, green, blue);
     const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
     for (std::size_t i = first; i < end; ++i) {
@@ -176,8 +176,9 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
   const bool is_number = parse_number(name, id);
   const auto found = std::find(ids.begin(), ids.end(), id);
   if (!is_number || found == ids.end()) {
-    throw UsageError("view '" + std::string(name) + "': oblique, top, front, side or the id of a loop is allowed" +
-                (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
+    throw UsageError("view '" + std::string(name) +
+                     "': oblique, top, front, side or the id of a loop is allowed" +
+                     (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
   }
   const auto loop = static_cast<std::size_t>(found - ids.begin());
   const LoopMeasures& measures = scene.loops.measures[loop];

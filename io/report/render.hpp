@@ -2,8 +2,8 @@
 // A picture of a scan and its holes, drawn by the processor alone.
 #pragma once
 
+#include "io/files/output_set.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/output_set.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/export.hpp"
+#include "io/files/output_set.hpp"
 #include "io/report/marks.hpp"
-#include "io/results/output_set.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -2,11 +2,10 @@
 #include "io/report/report_page.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_measures.hpp"
 #include "io/report/base64.hpp"
 #include "io/report/page.hpp"
-#include "io/results/loop_measures.hpp"
-#include "io/results/results.hpp"
 
 #include <algorithm>
 #include <array>

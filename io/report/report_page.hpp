@@ -2,9 +2,9 @@
 // The page of a report, with a scene as its data.
 #pragma once
 
+#include "io/files/output_file.hpp"
 #include "io/report/match_marks.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/output_file.hpp"
 
 namespace lacuna::io {
 

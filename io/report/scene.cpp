@@ -3,11 +3,11 @@
 
 #include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
+#include "io/formats.hpp"
 #include "io/report/scene_colours.hpp"
-#include "io/results/results.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "io/rows/vectors.hpp"
 #include "io/stations/next_stations.hpp"
-#include "io/vectors.hpp"
 
 #include <algorithm>
 #include <array>

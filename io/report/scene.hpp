@@ -2,7 +2,8 @@
 // What a report and a picture show: a sample of the scan and the loops, from the folder of a run's results.
 #pragma once
 
-#include "io/results/json.hpp"
+#include "engine/model/loop.hpp"
+#include "io/loops/json.hpp"
 #include "io/stations/cause.hpp"
 
 #include <array>

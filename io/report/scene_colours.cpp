@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/scene_colours.hpp"
 
-#include "io/property_name.hpp"
+#include "io/files/property_name.hpp"
 #include "io/report/percentile.hpp"
-#include "io/scalar.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>

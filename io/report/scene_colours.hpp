@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/report/scene.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <vector>

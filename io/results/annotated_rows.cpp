@@ -2,20 +2,16 @@
 #include "io/results/annotated_rows.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "engine/run/error.hpp"
-#include "io/scalar.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
 namespace lacuna::io {
 namespace {
-
-constexpr std::size_t kBlockRows = std::size_t{1} << 14;
 
 // For each of the columns: the property of that name; null where a file has none.
 std::vector<const Property*> find_sources(const RowLayout& from, std::span<const Property> columns) {
@@ -27,73 +23,6 @@ std::vector<const Property*> find_sources(const RowLayout& from, std::span<const
     sources.push_back(found == by_name.end() ? nullptr : found->second);
   }
   return sources;
-}
-
-class JoinedRows final : public InputRows {
- public:
-  JoinedRows(const FileScan& scan, RowLayout joined, std::size_t first, std::size_t end,
-             const LocalOffset& offset)
-      : scan_(scan), joined_(std::move(joined)), file_(first), end_(end) {
-    LocalOffset added;
-    if (offset) added = -*offset;
-    for (const Property& column : joined_.properties) summands_.push_back(component_of(added, column.name));
-  }
-
-  std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
-    for (; file_ < end_; ++file_, reader_.reset()) {
-      if (!reader_) {
-        reader_ = scan_.open(file_);
-        sources_ = find_sources(reader_->layout(), joined_.properties);
-      }
-      if (!reader_->next(rows_, std::min(max_rows, scan_.batch_rows(file_)))) continue;
-      block.resize(rows_.count * stride);
-      copy_columns(stride, block.data());
-      return rows_.count;
-    }
-    return 0;
-  }
-
-  void positions(std::vector<Eigen::Vector3d>& positions) const override {
-    positions.clear();
-    load_vectors(rows_, reader_->layout(), kPositionNames, positions);
-  }
-
- private:
-  void copy_columns(std::size_t stride, std::byte* out) const {
-    for (std::size_t i = 0; i < joined_.properties.size(); ++i) {
-      const Property& to = joined_.properties[i];
-      const Column column{.data = out + to.offset, .stride = stride, .type = to.type};
-      if (sources_[i] == nullptr) {
-        fill_missing(column, rows_.count);
-        continue;
-      }
-      const ConstColumn source{.data = rows_.bytes.data() + sources_[i]->offset,
-                               .stride = reader_->layout().stride,
-                               .type = sources_[i]->type};
-      copy_column(source, summands_[i], column, rows_.count);
-    }
-  }
-
-  const FileScan& scan_;
-  RowLayout joined_;
-  std::vector<const Property*> sources_;         // in the reader's layout, one for each column
-  std::vector<std::optional<double>> summands_;  // likewise; none: the column stays as it is
-  std::size_t file_, end_;
-  std::unique_ptr<ScanReader> reader_;
-  RowBatch rows_;
-};
-
-void copy_results(std::span<const PointResult> results, std::span<const ResultColumn> columns,
-                  std::size_t stride, std::byte* out) {
-  if (results.empty()) return;
-  for (const ResultColumn& column : columns) {
-    const std::size_t bytes = size_of(column.type);
-    const auto* from = reinterpret_cast<const std::byte*>(results.data()) + column.offset;
-    for (std::size_t row = 0; row < results.size(); ++row) {
-      std::memcpy(out + row * stride, from + row * sizeof(PointResult), bytes);
-    }
-    out += bytes;
-  }
 }
 
 }  // namespace
@@ -140,7 +69,7 @@ std::size_t bytes_of(std::span<const ResultColumn> results) {
   return bytes;
 }
 
-RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_left_out) {
+RowLayout join_layouts(std::span<const RowLayout> layouts, const LeftOut& is_left_out) {
   std::vector<std::pair<std::string, Scalar>> joined;
   std::unordered_map<std::string_view, std::size_t> place_of;  // in `joined`
   for (const RowLayout& layout : layouts) {
@@ -158,34 +87,58 @@ RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_
   return packed_layout(joined);
 }
 
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, const LocalOffset& offset) {
-  return std::make_unique<JoinedRows>(scan, std::move(joined), 0, scan.files().size(), offset);
-}
-
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
-                                       std::size_t end) {
-  return std::make_unique<JoinedRows>(scan, std::move(joined), first, end, std::nullopt);
-}
-
-void for_each_annotated_block(
-    const Detection& detection, InputRows& input, std::size_t input_bytes,
-    std::span<const ResultColumn> results, const std::string& name,
-    const std::function<void(std::vector<std::byte>& block, std::size_t rows)>& visit) {
-  const std::size_t stride = input_bytes + bytes_of(results);
-  std::vector<std::byte> block;
-  const auto fail_changed = [&] {
-    throw Error(name + ": the input has changed during the run; it must stay as it is");
-  };
-  detection.for_each_result_block([&](PointId, std::span<const PointResult> left) {
-    while (!left.empty()) {
-      const std::size_t rows = input.next(std::min(left.size(), kBlockRows), stride, block);
-      if (rows == 0) fail_changed();
-      copy_results(left.first(rows), results, stride, block.data() + input_bytes);
-      visit(block, rows);
-      left = left.subspan(rows);
+void copy_results(std::span<const PointResult> results, std::span<const ResultColumn> columns,
+                  std::size_t stride, std::byte* out) {
+  if (results.empty()) return;
+  for (const ResultColumn& column : columns) {
+    const std::size_t bytes = size_of(column.type);
+    const auto* from = reinterpret_cast<const std::byte*>(results.data()) + column.offset;
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      std::memcpy(out + row * stride, from + row * sizeof(PointResult), bytes);
     }
-  });
-  if (input.next(1, stride, block) != 0) fail_changed();
+    out += bytes;
+  }
+}
+
+JoinedRows::JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset)
+    : scan_(scan), joined_(std::move(joined)), file_(files.first), end_(files.end) {
+  LocalOffset added;
+  if (offset) added = -*offset;
+  for (const Property& column : joined_.properties) summands_.push_back(component_of(added, column.name));
+}
+
+std::size_t JoinedRows::next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) {
+  for (; file_ < end_; ++file_, reader_.reset()) {
+    if (!reader_) {
+      reader_ = scan_.open(file_);
+      sources_ = find_sources(reader_->layout(), joined_.properties);
+    }
+    if (!reader_->next(rows_, std::min(max_rows, scan_.batch_rows(file_)))) continue;
+    block.resize(rows_.count * stride);
+    copy_columns(stride, block.data());
+    return rows_.count;
+  }
+  return 0;
+}
+
+void JoinedRows::positions(std::vector<Eigen::Vector3d>& positions) const {
+  positions.clear();
+  load_vectors(rows_, reader_->layout(), kPositionNames, positions);
+}
+
+void JoinedRows::copy_columns(std::size_t stride, std::byte* out) const {
+  for (std::size_t i = 0; i < joined_.properties.size(); ++i) {
+    const Property& to = joined_.properties[i];
+    const Column column{.data = out + to.offset, .stride = stride, .type = to.type};
+    if (sources_[i] == nullptr) {
+      fill_missing(column, rows_.count);
+      continue;
+    }
+    const ConstColumn source{.data = rows_.bytes.data() + sources_[i]->offset,
+                             .stride = reader_->layout().stride,
+                             .type = sources_[i]->type};
+    copy_column(source, summands_[i], column, rows_.count);
+  }
 }
 
 }  // namespace lacuna::io

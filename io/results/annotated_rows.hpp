@@ -3,14 +3,15 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
 #include "io/options/options.hpp"
-#include "io/scan_reader.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,36 +37,48 @@ bool is_earlier_quality(const RowLayout& layout, std::size_t index);
 bool is_earlier_result(const RowLayout& layout, std::size_t index, std::span<const ResultColumn> results);
 std::size_t bytes_of(std::span<const ResultColumn> results);  // packed
 
-// The rows of all files of a scan once more, in order, in the form that a format needs.
+// Copies the results of rows to `out` and on, `stride` bytes apart, packed.
+void copy_results(std::span<const PointResult> results, std::span<const ResultColumn> columns,
+                  std::size_t stride, std::byte* out);
+
+// Rows of files of a scan once more, in order, in the form that a format needs.
 class InputRows {
  public:
   virtual ~InputRows() = default;
   // The next rows, at most `max_rows`, each at the beginning of `stride` bytes of `block`, which gets the
   // size of them all. Returns their number; 0 at the end. Throws `Error`.
   virtual std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) = 0;
-  // Sets the positions of the rows last returned, in the scan: those of FileScan::open.
-  virtual void positions(std::vector<Eigen::Vector3d>& positions) const = 0;
-  // The indices of rows last returned that the format cannot hold, ascending: they have no finite position.
-  virtual std::span<const std::size_t> left_out() const { return {}; }
+};
+
+// The files [first, end) of a scan.
+struct FileRange {
+  std::size_t first, end;
 };
 
 // The union of the files' properties by name, in order of first appearance, packed. A property is double
 // where types differ, and NaN or 0 in the rows of a file that has none. `is_left_out` says which do not
 // count, by the index of a property.
 using LeftOut = std::function<bool(const RowLayout& layout, std::size_t index)>;
-RowLayout join_layouts(const std::vector<RowLayout>& layouts, const LeftOut& is_left_out);
-// The joined rows of the files [first, end).
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined, std::size_t first,
-                                       std::size_t end);
-// Those of all files. Positions are relative to the offset, if there is one: x y z are floats then.
-std::unique_ptr<InputRows> joined_rows(const FileScan& scan, RowLayout joined,
-                                       const LocalOffset& offset = {});
+RowLayout join_layouts(std::span<const RowLayout> layouts, const LeftOut& is_left_out);
 
-// Calls visit(block, rows): rows of `input_bytes`, then the results, packed; all blocks in order, none larger
-// than a few MiB for rows of usual size. Throws `Error`, with `name`, if rows and results differ in number.
-void for_each_annotated_block(
-    const Detection& detection, InputRows& input, std::size_t input_bytes,
-    std::span<const ResultColumn> results, const std::string& name,
-    const std::function<void(std::vector<std::byte>& block, std::size_t rows)>& visit);
+// The joined rows of files. Positions are relative to the offset, if there is one: x y z are floats then.
+class JoinedRows final : public InputRows {
+ public:
+  JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset);
+  std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override;
+  // Sets the positions of the rows last returned, in the scan: those of FileScan::open.
+  void positions(std::vector<Eigen::Vector3d>& positions) const;
+
+ private:
+  void copy_columns(std::size_t stride, std::byte* out) const;
+
+  const FileScan& scan_;
+  RowLayout joined_;
+  std::vector<const Property*> sources_;         // in the reader's layout, one for each column
+  std::vector<std::optional<double>> summands_;  // likewise; none: the column stays as it is
+  std::size_t file_, end_;
+  std::unique_ptr<ScanReader> reader_;
+  RowBatch rows_;
+};
 
 }  // namespace lacuna::io

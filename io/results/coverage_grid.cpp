@@ -3,8 +3,8 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
-#include "io/row_filter.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/vectors.hpp"
+#include "io/scan/row_filter.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
 #include "io/options/options.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "io/results/coverage_tif.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/results/gdal_session.hpp"
+#include "io/crs/gdal_session.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/cut_outs.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
-#include "io/pcd/pcd_header.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/results/box_tree.hpp"
 #include "io/results/local_coordinates.hpp"
@@ -12,11 +10,9 @@
 #include "io/results/row_lists.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,26 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kFormats = {PointsFormat::kPly, PointsFormat::kLas, PointsFormat::kLaz,
-                                 PointsFormat::kPcd, PointsFormat::kCsv};
-
 constexpr std::string_view kPrefix = "hole-";
 
-FileMark mark_of(PointsFormat format) {
-  switch (format) {
-    case PointsFormat::kLas:
-    case PointsFormat::kLaz:
-      return points_las_mark();
-    case PointsFormat::kPcd:
-      return kPcdMark;
-    case PointsFormat::kCsv:
-      return {",lacuna_hole", FileMark::kInFirstLine};
-    default:
-      return kPlyMark;
-  }
+FileMark mark_of(FileFormat format) {
+  return format == FileFormat::kCsv ? FileMark(",lacuna_hole", FileMark::kInFirstLine) : FileMark(kPlyMark);
 }
 
-std::string name_of_cut_out(std::uint64_t loop, PointsFormat format) {
+std::string name_of_cut_out(std::uint64_t loop, FileFormat format) {
   std::string name(kPrefix);
   name += std::to_string(loop);
   return name += extension_of(format);
@@ -56,7 +39,7 @@ std::string name_of_cut_out(std::uint64_t loop, PointsFormat format) {
 
 struct CutOutName {
   std::uint64_t loop;
-  PointsFormat format;
+  FileFormat format;
 };
 
 std::optional<CutOutName> parse_name(const std::string& name) {
@@ -64,7 +47,7 @@ std::optional<CutOutName> parse_name(const std::string& name) {
   CutOutName parsed{};
   const char* const end = name.data() + name.size();
   if (std::from_chars(name.data() + kPrefix.size(), end, parsed.loop).ec != std::errc{}) return std::nullopt;
-  for (const PointsFormat format : kFormats) {
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kCsv}) {
     parsed.format = format;
     if (name == name_of_cut_out(parsed.loop, format)) return parsed;
   }
@@ -72,43 +55,23 @@ std::optional<CutOutName> parse_name(const std::string& name) {
 }
 
 // visit(name, parsed) for what has the name of a cut-out.
-void for_each_name(const fs::path& folder,
-                   const std::function<void(const std::string&, const CutOutName&)>& visit) {
-  const fs::path cut_outs = folder / kCutOutsFolder;
-  std::error_code error;
-  if (fs::symlink_status(cut_outs, error).type() != fs::file_type::directory) return;
-  for (const auto& entry : fs::directory_iterator(cut_outs, error)) {
-    const std::string name = entry.path().filename();
+template <class Visit>
+void for_each_name(const fs::path& folder, const Visit& visit) {
+  for (const std::string& name : names_in(folder / kCutOutsFolder)) {
     if (const auto parsed = parse_name(name)) visit(name, *parsed);
   }
-  if (error) throw Error(cut_outs.string() + ": cannot be read: " + error.message());
 }
 
-PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, PointsFormat format,
+PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, FileFormat format,
                    const LocalOffset& offset) {
   PointsPlan plan{.scan = scan,
                   .config = config,
+                  .files = {0, scan.files().size()},
                   .results = {},
                   .offset = offset,
-                  .keeps_earlier = true,
-                  .name = std::string(kCutOutsFolder) + "/*" + extension_of(format)};
-  if (format == PointsFormat::kCsv) plan.results.push_back({kCutOutColumn, Scalar::kUint32, 0});
+                  .name = {}};
+  if (format == FileFormat::kCsv) plan.results.push_back({kCutOutColumn, Scalar::kUint32, 0});
   return plan;
-}
-
-std::unique_ptr<PointsForm> form_of(const PointsPlan& plan, PointsFormat format) {
-  switch (format) {
-    case PointsFormat::kLas:
-      return las_form(plan);
-    case PointsFormat::kLaz:
-      return laz_form(plan);
-    case PointsFormat::kPcd:
-      return pcd_form(plan);
-    case PointsFormat::kCsv:
-      return csv_form(plan);
-    default:
-      return ply_form(plan);
-  }
 }
 
 Eigen::AlignedBox3d box_of(const Detection& detection, std::size_t loop, double margin) {
@@ -119,9 +82,9 @@ Eigen::AlignedBox3d box_of(const Detection& detection, std::size_t loop, double 
 }
 
 // Puts each row into the lists of the boxes that have it.
-void collect(const PointsForm& form, const BoxTree& boxes, RowLists& lists) {
+void collect(const JoinedForm& form, const BoxTree& boxes, RowLists& lists) {
   constexpr std::size_t kRows = std::size_t{1} << 14;
-  const std::unique_ptr<InputRows> rows = form.open();
+  const std::unique_ptr<JoinedRows> rows = form.open_joined();
   const std::size_t stride = form.row_bytes();
   std::vector<std::byte> block;
   std::vector<Eigen::Vector3d> positions;
@@ -168,13 +131,8 @@ void write_rows(const RowLists& lists, std::size_t list, std::size_t row_bytes, 
 void check_cut_outs(const FileScan& scan, const FilesConfig& config, const fs::path& folder,
                     Overwrite overwrite) {
   const bool is_wanted = config.output.cut_outs > 0;
-  const PointsFormat format = points_format(scan, config.output);
-  if (is_wanted) {
-    const PointsPlan plan = plan_of(scan, config.output, format, {});
-    if (format == PointsFormat::kLas) check_las_form(plan);
-    if (format == PointsFormat::kLaz) check_laz_form(plan);
-    check_subfolder(folder / kCutOutsFolder);
-  }
+  const FileFormat format = joined_format(scan, config.output);
+  if (is_wanted) check_subfolder(folder / kCutOutsFolder);
   for_each_name(folder, [&](const std::string& name, const CutOutName& parsed) {
     const fs::path file = folder / kCutOutsFolder / name;
     const bool is_needed = is_wanted && parsed.format == format;
@@ -186,7 +144,7 @@ void check_cut_outs(const FileScan& scan, const FilesConfig& config, const fs::p
 void write_cut_outs(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                     const fs::path& folder, OutputSet& set, std::size_t most_holes) {
   const bool is_wanted = config.output.cut_outs > 0;
-  const PointsFormat format = points_format(scan, config.output);
+  const FileFormat format = joined_format(scan, config.output);
   const auto is_written = [&](const CutOutName& name) {
     return is_wanted && name.format == format && name.loop < detection.loops.size() &&
            detection.loops[name.loop].kind == LoopKind::kHole;
@@ -200,14 +158,13 @@ void write_cut_outs(const Detection& detection, const FileScan& scan, const File
   const std::uint64_t memory = Memory::share(config.run.memory_limit).spills;
   most_holes = std::clamp<std::uint64_t>(memory / (2 * kLeastBlock), 1, most_holes);
   const PointsPlan plan = plan_of(scan, config.output, format, local_offset(detection, config.output));
-  std::unique_ptr<PointsForm> form;
+  const auto form = format == FileFormat::kCsv ? csv_form(plan) : ply_form(plan);
   for (std::size_t loop = 0; loop < detection.loops.size();) {
     std::vector<std::size_t> holes;
     for (; loop < detection.loops.size() && holes.size() < most_holes; ++loop) {
       if (detection.loops[loop].kind == LoopKind::kHole) holes.push_back(loop);
     }
     if (holes.empty()) break;
-    if (!form) form = form_of(plan, format);
     std::vector<Eigen::AlignedBox3d> boxes;
     for (const std::size_t hole : holes) boxes.push_back(box_of(detection, hole, config.output.cut_outs));
     const std::size_t block = std::clamp<std::uint64_t>(memory / 2 / holes.size(), kLeastBlock, kMostBlock);
@@ -217,13 +174,12 @@ void write_cut_outs(const Detection& detection, const FileScan& scan, const File
                    holes.size(), block);
     collect(*form, BoxTree(std::move(boxes)), lists);
     for (std::size_t i = 0; i < holes.size(); ++i) {
-      set.write_in(folder, kCutOutsFolder, name_of_cut_out(holes[i], format), mark_of(format),
-                   [&](OutputFile& out) {
-                     const std::uint64_t rows = lists.size(i) / form->row_bytes();
-                     const auto writer = form->writer(out, rows, PointsPart::kSelection);
-                     write_rows(lists, i, form->row_bytes(), bytes_of(plan.results),
-                                static_cast<std::uint32_t>(holes[i]), *writer);
-                   });
+      const auto out =
+          set.open_in(folder, kCutOutsFolder, name_of_cut_out(holes[i], format), mark_of(format));
+      const auto writer = form->writer(*out, lists.size(i) / form->row_bytes());
+      write_rows(lists, i, form->row_bytes(), bytes_of(plan.results), static_cast<std::uint32_t>(holes[i]),
+                 *writer);
+      out->close_unsynced();
     }
   }
 }

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
+#include "io/files/output_set.hpp"
 #include "io/options/options.hpp"
-#include "io/results/output_set.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -21,15 +21,15 @@ inline constexpr const char* kCutOutColumn = "lacuna_hole";
 void check_cut_outs(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                     Overwrite overwrite);
 
-// Adds `cut-outs/hole-12.laz` and so on to the set, one for each hole, by its index among the loops. Drops
+// Adds `cut-outs/hole-12.ply` and so on to the set, one for each hole, by its index among the loops. Drops
 // those of earlier runs. Without config.output.cut_outs it only drops.
 //
 // A cut-out has the rows of the scan in the bounds of the loop, widened by config.output.cut_outs on all
 // sides. They are in the order of the input. Filters leave none out. All columns of the input stay, also
-// those of earlier results. The format is that of points_format() (io/results/points.hpp).
+// those of earlier results. The format is joined_format() (io/results/points.hpp).
 //
 // Reads every file once for each `most_holes` holes, or for as many as fit in memory. Their rows go to one
-// temporary file first, since PLY and PCD begin with the number of rows. So two files are open at a time,
+// temporary file first, since PLY begins with the number of rows. So two files are open at a time,
 // besides the scan. Memory: 400 bytes a hole, and an eighth of the memory limit in each pass. Cost: linear
 // in the points of the scan and in those that are written. The bytes do not depend on the passes. Throws
 // `Error`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_library.hpp"
 
-#include "io/gis_module.hpp"
+#include "io/crs/gis_module.hpp"
 #include "io/results/coverage_tif.hpp"
 
 #include <mutex>

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
+#include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
 #include "io/results/loops_gis.hpp"
-#include "io/results/output_file.hpp"
+#include "io/scan/file_scan.hpp"
 
 namespace lacuna::io {
 
-// Throws `Error` if lacuna_gis.so is missing (io/gis_module.hpp). Cheap: loads nothing.
+// Throws `Error` if lacuna_gis.so is missing (io/crs/gis_module.hpp). Cheap: loads nothing.
 void check_gis_library();
 
 // Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_marks.hpp"
 
+#include "io/loops/loop_measures.hpp"
 #include "io/results/coverage_tif.hpp"
-#include "io/results/loop_measures.hpp"
 #include "io/results/loops_gis.hpp"
 
 namespace lacuna::io {

@@ -2,7 +2,7 @@
 // How files for GIS are recognised that an earlier run wrote. These formats have no comments at their start.
 #pragma once
 
-#include "io/results/output_set.hpp"
+#include "io/files/output_set.hpp"
 
 #include <string_view>
 

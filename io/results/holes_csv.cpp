@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/digits.hpp"
-#include "io/results/loop_measures.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_measures.hpp"
 #include "io/results/results.hpp"
 
 #include <cmath>

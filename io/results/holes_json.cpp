@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/json.hpp"
+#include "io/loops/json.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <functional>
 #include <string>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
+#include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
-#include "io/results/output_file.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <filesystem>
 #include <string_view>

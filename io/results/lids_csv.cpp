@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/digits.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/lids_reader.hpp"
 #include "io/results/lids.hpp"
-#include "io/results/lids_reader.hpp"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/parallel.hpp"
+#include "io/files/number.hpp"
 #include "io/lids/make_lid.hpp"
-#include "io/results/digits.hpp"
+#include "io/loops/lids_reader.hpp"
 #include "io/results/lids.hpp"
-#include "io/results/lids_reader.hpp"
 
 #include <algorithm>
 #include <string>

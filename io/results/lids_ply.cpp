@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "io/loops/lids_reader.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/results/lids.hpp"
-#include "io/results/lids_reader.hpp"
 #include "io/results/local_coordinates.hpp"
 
 #include <limits>

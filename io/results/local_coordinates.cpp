@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/local_coordinates.hpp"
 
-#include "io/scalar.hpp"
-#include "io/vectors.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <cmath>
 

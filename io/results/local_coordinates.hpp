@@ -4,9 +4,9 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
 #include "io/options/options.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <vector>
 

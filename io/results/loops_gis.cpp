@@ -2,8 +2,8 @@
 #include "io/results/loops_gis.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/results/gdal_session.hpp"
-#include "io/results/loop_measures.hpp"
+#include "io/crs/gdal_session.hpp"
+#include "io/loops/loop_measures.hpp"
 #include "io/results/shapefile_check.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/loops_obj.hpp"
 
-#include "io/results/digits.hpp"
-#include "io/results/loop_measures.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_measures.hpp"
 
 #include <cmath>
 #include <string>

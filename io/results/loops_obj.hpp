@@ -2,7 +2,8 @@
 // loops.obj: the loops as polylines of Wavefront OBJ, for CAD, Blender and Rhinoceros.
 #pragma once
 
-#include "io/results/output_file.hpp"
+#include "engine/model/detection.hpp"
+#include "io/files/output_file.hpp"
 #include "io/stations/cause.hpp"
 
 #include <string_view>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "io/loops/loop_colours.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/results/local_coordinates.hpp"
-#include "io/results/loop_colours.hpp"
 #include "io/results/results.hpp"
 
 #include <limits>

@@ -1,102 +1,277 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/points.hpp"
 
+#include "engine/run/error.hpp"
+#include "io/las/las_writer.hpp"
+#include "io/ply/ply_writer.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/results/points_form.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <map>
 #include <memory>
-#include <string>
+#include <set>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace lacuna::io {
 namespace {
 
-PointsFormat format_like(const std::string& name) {
-  const auto is = [&](std::string_view family) { return name.starts_with(family); };
-  if (is("LAS")) return PointsFormat::kLas;
-  if (is("LAZ")) return PointsFormat::kLaz;
-  if (is("PCD")) return PointsFormat::kPcd;
-  if (is("text")) return PointsFormat::kCsv;
-  return PointsFormat::kPly;
+namespace fs = std::filesystem;
+
+struct WrittenFormat {
+  std::string_view extension;
+  FileMark mark;
+  std::unique_ptr<PointsForm> (*form)(const PointsPlan& plan);
+};
+
+// In the order of FileFormat.
+const std::array<WrittenFormat, 4>& written_formats() {
+  using Form = std::unique_ptr<PointsForm>;
+  static const std::array<WrittenFormat, 4> formats = {{
+      {".ply", kPlyMark, [](const PointsPlan& plan) -> Form { return ply_form(plan); }},
+      {".csv",
+       {",scalar_boundary,scalar_coherent,scalar_loop", FileMark::kInFirstLine},
+       [](const PointsPlan& plan) -> Form { return csv_form(plan); }},
+      {".las", {kLasSoftware, kLasSoftwareAt}, las_form},
+      {".laz", {kLasSoftware, kLasSoftwareAt}, laz_form},
+  }};
+  return formats;
 }
+
+const WrittenFormat& written(FileFormat format) {
+  return written_formats().at(static_cast<std::size_t>(format));
+}
+
+// A file of the annotated scan.
+struct PointsFile {
+  std::string name;
+  FileFormat format;
+  FileRange files;  // of the scan
+};
+
+FileFormat own_format(const FileScan& scan, std::size_t file) {
+  const std::string& format = scan.formats()[file];
+  const bool has_pose = scan.poses()[file].has_value();
+  if (format.starts_with("text")) return FileFormat::kCsv;
+  if (format.starts_with("LAS") && !has_pose) return FileFormat::kLas;
+  if (format.starts_with("LAZ") && !has_pose) return FileFormat::kLaz;
+  return FileFormat::kPly;
+}
+
+bool is_in_folder(const OutputConfig& config) {
+  return config.points_format == PointsFormat::kInput;
+}
+
+std::string subfolder_of(const OutputConfig& config) {
+  return is_in_folder(config) ? kPointsFolder : "";
+}
+
+// Throws `Error` where two would have the same name.
+std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
+  if (!is_in_folder(config))
+    return {{points_name(config), joined_format(scan, config), {0, scan.files().size()}}};
+  std::vector<PointsFile> files;
+  std::map<std::string, std::size_t> inputs;  // by the name of what is written
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    const FileFormat format = own_format(scan, i);
+    std::string name = scan.files()[i].stem().string();
+    name += extension_of(format);
+    if (const auto [known, is_new] = inputs.emplace(name, i); !is_new)
+      throw Error(scan.files()[i].string() + ": its results and those of " +
+                  scan.files()[known->second].string() + " would both be " + kPointsFolder + "/" + name +
+                  "; rename one, or --points-format ply writes one file for all");
+    files.push_back({std::move(name), format, {i, i + 1}});
+  }
+  return files;
+}
+
+std::vector<PointsFile> wanted_files(const FileScan& scan, const FilesConfig& config) {
+  return config.results.points ? points_files(scan, config.output) : std::vector<PointsFile>();
+}
+
+bool has_own_quality(const RowLayout& layout) {
+  for (std::size_t i = 0; i < layout.properties.size(); ++i) {
+    if (layout.properties[i].name == kQuality && !is_earlier_quality(layout, i)) return true;
+  }
+  return false;
+}
+
+// With the quality of MeshLab in PLY, unless the input has its own.
+std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& config,
+                                     const PointsFile& file) {
+  std::vector<ResultColumn> results = result_columns(scan, config);
+  const auto layouts = std::span(scan.layouts()).subspan(file.files.first, file.files.end - file.files.first);
+  if (file.format != FileFormat::kPly || std::any_of(layouts.begin(), layouts.end(), has_own_quality))
+    return results;
+  const auto loop = std::find_if(results.begin(), results.end(),
+                                 [](const auto& result) { return result.name == kBeforeQuality; });
+  results.insert(loop + 1, {std::string(kQuality), Scalar::kFloat32, results.front().offset});
+  return results;
+}
+
+PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, const PointsFile& file,
+                   const LocalOffset& offset) {
+  std::string name = is_in_folder(config) ? std::string(kPointsFolder) + "/" + file.name : file.name;
+  return {.scan = scan,
+          .config = config,
+          .files = file.files,
+          .results = results_of(scan, config, file),
+          .offset = offset,
+          .name = std::move(name)};
+}
+
+// Calls visit(subfolder, name, mark) for each file of an earlier run that this one does not write.
+template <class Visit>
+void for_each_earlier(const fs::path& folder, const OutputConfig& config,
+                      const std::vector<PointsFile>& files, const Visit& visit) {
+  std::set<std::string, std::less<>> wanted;
+  for (const PointsFile& file : files) wanted.insert(file.name);
+  const auto visit_if = [&](const std::string& subfolder, const std::string& name) {
+    if (subfolder == subfolder_of(config) && wanted.contains(name)) return;
+    for (const WrittenFormat& format : written_formats()) {
+      if (fs::path(name).extension() != format.extension) continue;
+      if (is_own_file(folder / subfolder / name, format.mark)) visit(subfolder, name, format.mark);
+    }
+  };
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kCsv})
+    visit_if("", "points" + std::string(extension_of(format)));
+  for (const std::string& name : names_in(folder / kPointsFolder)) visit_if(kPointsFolder, name);
+}
+
+[[noreturn]] void fail_changed(const std::string& name) {
+  throw Error(name + ": the input has changed during the run; it must stay as it is");
+}
+
+// One file that is being written: rows of the input, each with its results.
+class AnnotatedFile {
+ public:
+  AnnotatedFile(const PointsPlan& plan, FileFormat format, std::unique_ptr<OutputFile> out,
+                std::uint64_t rows)
+      : results_(plan.results),
+        out_(std::move(out)),
+        form_(written(format).form(plan)),
+        input_(form_->open()),
+        writer_(form_->writer(*out_, rows)) {}
+
+  // Writes the next rows with these results. Returns their number; 0: the input has no more rows.
+  std::size_t put(std::span<const PointResult> results) {
+    constexpr std::size_t kRows = std::size_t{1} << 14;
+    const std::size_t bytes = form_->row_bytes(), stride = bytes + bytes_of(results_);
+    const std::size_t rows = input_->next(std::min(results.size(), kRows), stride, block_);
+    if (rows == 0) return 0;
+    copy_results(results.first(rows), results_, stride, block_.data() + bytes);
+    writer_->put(block_);
+    return rows;
+  }
+
+  void finish() {
+    if (input_->next(1, form_->row_bytes() + bytes_of(results_), block_) != 0)
+      fail_changed(out_->path().string());
+    writer_->finish();
+    out_->close();
+  }
+
+ private:
+  std::vector<ResultColumn> results_;
+  std::unique_ptr<OutputFile> out_;
+  std::unique_ptr<PointsForm> form_;
+  std::unique_ptr<InputRows> input_;
+  std::unique_ptr<PointsWriter> writer_;
+  std::vector<std::byte> block_;
+};
 
 }  // namespace
 
-PointsFormat points_format(const FileScan& scan, const OutputConfig& config) {
-  if (config.points_format != PointsFormat::kInput) return config.points_format;
+std::string_view extension_of(FileFormat format) {
+  return written(format).extension;
+}
+
+FileFormat joined_format(const FileScan& scan, const OutputConfig& config) {
+  if (config.points_format == PointsFormat::kCsv) return FileFormat::kCsv;
   const auto& formats = scan.formats();
-  if (formats.empty()) return PointsFormat::kPly;
-  const auto are_all = [&](auto... allowed) {
-    return std::all_of(formats.begin(), formats.end(),
-                       [&](const auto& name) { return ((format_like(name) == allowed) || ...); });
-  };
-  const PointsFormat first = format_like(formats.front());
-  if (are_all(first)) return first;
-  return are_all(PointsFormat::kLas, PointsFormat::kLaz) ? PointsFormat::kLas : PointsFormat::kPly;
+  const bool are_texts =
+      !formats.empty() &&
+      std::all_of(formats.begin(), formats.end(), [](const auto& name) { return name.starts_with("text"); });
+  return is_in_folder(config) && are_texts ? FileFormat::kCsv : FileFormat::kPly;
 }
 
-std::string extension_of(PointsFormat format) {
-  switch (format) {
-    case PointsFormat::kLas:
-      return ".las";
-    case PointsFormat::kLaz:
-      return ".laz";
-    case PointsFormat::kPcd:
-      return ".pcd";
-    case PointsFormat::kCsv:
-      return ".csv";
-    default:
-      return ".ply";
+std::string points_name(const OutputConfig& config) {
+  if (is_in_folder(config)) return std::string(kPointsFolder) + "/";
+  return config.points_format == PointsFormat::kCsv ? "points.csv" : "points.ply";
+}
+
+void check_points(const FileScan& scan, const FilesConfig& config, const fs::path& folder,
+                  Overwrite overwrite) {
+  const OutputConfig& output = config.output;
+  const std::vector<PointsFile> files = wanted_files(scan, config);
+  if (!files.empty() && is_in_folder(output)) check_subfolder(folder / kPointsFolder);
+  for (const PointsFile& file : files) {
+    written(file.format).form(plan_of(scan, output, file, {}));
+    const fs::path place = folder / subfolder_of(output) / file.name;
+    check_not_input(place, scan);
+    check_output(place, written(file.format).mark, overwrite);
   }
+  for_each_earlier(folder, output, files,
+                   [&](const std::string& subfolder, const std::string& name, const FileMark&) {
+                     check_not_input(folder / subfolder / name, scan);
+                   });
 }
 
-std::string points_file(const FileScan& scan, const OutputConfig& config) {
-  return "points" + extension_of(points_format(scan, config));
-}
-
-void write_annotated(const Detection& detection, const PointsForm& form,
-                     std::span<const ResultColumn> results, OutputFile& out) {
-  const std::unique_ptr<InputRows> rows = form.open();
-  const std::size_t stride = form.row_bytes() + bytes_of(results);
-  const auto writer = form.writer(out, detection.summary.counts.points, PointsPart::kAll);
-  const auto put = [&](std::vector<std::byte>& block, std::size_t count) {
-    std::size_t kept = 0;
-    auto left_out = rows->left_out();
-    if (left_out.empty()) return writer->put(block);
-    for (std::size_t row = 0; row < count; ++row) {
-      if (!left_out.empty() && left_out.front() == row) {
-        left_out = left_out.subspan(1);
-      } else {
-        std::memmove(&block[kept++ * stride], &block[row * stride], stride);
-      }
+void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+                  const fs::path& folder, OutputSet& set) {
+  const OutputConfig& output = config.output;
+  const std::vector<PointsFile> files = wanted_files(scan, config);
+  for_each_earlier(folder, output, files,
+                   [&](const std::string& subfolder, const std::string& name, const FileMark& mark) {
+                     set.drop_in(folder, subfolder, name, mark);
+                   });
+  if (files.empty()) return;
+  const LocalOffset offset = local_offset(detection, output);
+  std::unique_ptr<AnnotatedFile> open;
+  std::size_t next = 0;
+  const auto open_next = [&] {
+    if (open) open->finish();
+    if (next == files.size()) fail_changed((folder / points_name(output)).string());
+    const PointsFile& file = files[next++];
+    auto out = set.open_in(folder, subfolder_of(output), file.name, written(file.format).mark);
+    const std::uint64_t rows =
+        files.size() == 1 ? detection.summary.counts.points : scan.rows(file.files.first);
+    open = std::make_unique<AnnotatedFile>(plan_of(scan, output, file, offset), file.format, std::move(out),
+                                           rows);
+  };
+  open_next();
+  detection.for_each_result_block([&](PointId, std::span<const PointResult> results) {
+    while (!results.empty()) {
+      const std::size_t rows = open->put(results);
+      if (rows == 0) open_next();
+      results = results.subspan(rows);
     }
-    writer->put(std::span(block).first(kept * stride));
-  };
-  for_each_annotated_block(detection, *rows, form.row_bytes(), results, out.path().string(), put);
-  writer->finish();
+  });
+  while (next < files.size()) open_next();
+  open->finish();
 }
 
-void check_points(const FileScan& scan, const OutputConfig& config) {
-  const PointsFormat format = points_format(scan, config);
-  if (format == PointsFormat::kLas) check_points_las(scan, config);
-  if (format == PointsFormat::kLaz) check_points_laz(scan, config);
-  if (format == PointsFormat::kPcd) check_points_pcd(scan, config);
-}
-
-std::uint64_t point_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  switch (points_format(scan, config)) {
-    case PointsFormat::kLas:
-      return las_row_bytes(scan, config);
-    case PointsFormat::kLaz:
-      return laz_row_bytes(scan, config);
-    case PointsFormat::kPcd:
-      return pcd_row_bytes(scan, config);
-    case PointsFormat::kCsv:
-      return csv_row_bytes(scan, config);
-    default:
-      return ply_row_bytes(scan, config);
+PointsBytes points_bytes(const FileScan& scan, const OutputConfig& config, std::uint64_t rows) {
+  PointsBytes bytes;
+  std::uint64_t left = rows;
+  const std::vector<PointsFile> files = points_files(scan, config);
+  for (const PointsFile& file : files) {
+    const bool is_last = &file == &files.back();
+    const std::uint64_t own = is_last ? left : std::min(left, scan.rows(file.files.first));
+    left -= own;
+    const PointsPlan plan = plan_of(scan, config, file, {});
+    const auto form = written(file.format).form(plan);
+    std::uint64_t row_bytes = form->row_bytes() + bytes_of(plan.results);
+    const bool is_certain = file.format == FileFormat::kPly || file.format == FileFormat::kLas;
+    if (file.format == FileFormat::kLaz) row_bytes /= 2;
+    if (file.format == FileFormat::kCsv) row_bytes += row_bytes / 2;
+    bytes.all += own * row_bytes;
+    if (is_certain) bytes.certain += own * row_bytes;
   }
+  return bytes;
 }
 
 }  // namespace lacuna::io

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a scan as a format has them. All of them, or any selection, become a file.
+// The points of files of a scan as a format has them. All of them, or any selection, become a file.
 #pragma once
 
-#include "engine/model/detection.hpp"
-#include "io/file_scan.hpp"
-#include "io/local_offset.hpp"
+#include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
 #include "io/results/annotated_rows.hpp"
-#include "io/results/output_file.hpp"
+#include "io/rows/local_offset.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,8 +27,15 @@ class PointsWriter {
   virtual void finish() {}
 };
 
-// What a file holds: the points of the scan, or some of them.
-enum class PointsPart : std::uint8_t { kAll, kSelection };
+// What the forms are made of. The scan must outlive them.
+struct PointsPlan {
+  const FileScan& scan;
+  const OutputConfig& config;
+  FileRange files;                    // of the scan: their rows become the file
+  std::vector<ResultColumn> results;  // written behind each row
+  LocalOffset offset;                 // of PLY
+  std::string name;                   // of the file, for errors
+};
 
 // All columns of the input but those that the results replace.
 class PointsForm {
@@ -38,35 +44,41 @@ class PointsForm {
   virtual std::size_t row_bytes() const = 0;  // without results
   // All rows, from the first one on. Throws `Error`.
   virtual std::unique_ptr<InputRows> open() const = 0;
-  // Begins a file of so many rows. LAS may get fewer. `out` must outlive the writer. Throws `Error`.
-  virtual std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows,
-                                               PointsPart part) const = 0;
+  // Begins a file of so many rows. `out` must outlive the writer. Throws `Error`.
+  virtual std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows) const = 0;
 };
 
-// What the forms are made of. The scan must outlive them.
-struct PointsPlan {
-  const FileScan& scan;
-  const OutputConfig& config;
-  std::vector<ResultColumn> results;
-  LocalOffset offset;         // of PLY and PCD
-  bool keeps_earlier = true;  // LAS: results of earlier runs stay
-  std::string name;           // of the file, for errors
+// Rows of files of any formats, joined by the names of columns. `positions` of its rows can be had.
+class JoinedForm : public PointsForm {
+ public:
+  JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts);
+  std::size_t row_bytes() const final { return input_.stride; }
+  std::unique_ptr<InputRows> open() const final { return open_joined(); }
+  std::unique_ptr<JoinedRows> open_joined() const;
+
+ protected:
+  RowLayout with_results() const;  // the columns of the rows, then those of the results
+  const LocalOffset& offset() const { return offset_; }
+
+ private:
+  const FileScan& scan_;
+  FileRange files_;
+  LocalOffset offset_;
+  std::vector<ResultColumn> results_;
+  RowLayout input_;
 };
 
-std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan);
-std::unique_ptr<PointsForm> pcd_form(const PointsPlan& plan);
-std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan);
-// Reads files once where their coordinates need another scale, or are not LAS. Throws `Error`.
+// PLY, binary little endian. Properties have the names of the input.
+std::unique_ptr<JoinedForm> ply_form(const PointsPlan& plan);
+
+// A header line and a line for each row, divided by commas. Each number is the shortest text that reads back
+// as the same value of its type; `nan` where there is none.
+std::unique_ptr<JoinedForm> csv_form(const PointsPlan& plan);
+
+// LAS 1.4 and LAZ (io/las/las_writer.hpp) of one LAS or LAZ file without a pose. Results are extra bytes:
+// probability, angle and so on. Throws `Error` where the format cannot hold the points with their results.
+// Reads the header alone.
 std::unique_ptr<PointsForm> las_form(const PointsPlan& plan);
 std::unique_ptr<PointsForm> laz_form(const PointsPlan& plan);
-
-// Throws `Error` where the form cannot be made, as far as headers show it.
-void check_las_form(const PointsPlan& plan);
-void check_laz_form(const PointsPlan& plan);
-
-// Writes every row of the scan in order, each with its results, but those that the format cannot hold. Throws
-// `Error`.
-void write_annotated(const Detection& detection, const PointsForm& form,
-                     std::span<const ResultColumn> results, OutputFile& out);
 
 }  // namespace lacuna::io

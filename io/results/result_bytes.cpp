@@ -15,12 +15,11 @@ ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::u
   const OutputConfig& output = config.output;
   const std::uint64_t sample = std::min(points, static_cast<std::uint64_t>(config.results.sample_points));
   ResultBytes bytes;
-  if (config.results.points) bytes.points = rows * point_row_bytes(scan, output);
-  // Text and LAZ have rows of any size. LAS leaves out rows of other formats that have no finite position.
-  const PointsFormat format = points_format(scan, output);
-  const bool has_fixed_rows = format != PointsFormat::kCsv && format != PointsFormat::kLaz;
-  const bool is_las_of_others = format == PointsFormat::kLas && output.points_format != PointsFormat::kInput;
-  if (has_fixed_rows && !is_las_of_others) bytes.certain = bytes.points;
+  if (config.results.points) {
+    const PointsBytes annotated = points_bytes(scan, output, rows);
+    bytes.points = annotated.all;
+    bytes.certain = annotated.certain;
+  }
   bytes.sample = sample * sample_row_bytes(scan, output);
   if (output.report) bytes.report = kPage + std::min(sample, kMostInReport) * kReportPoint;
   if (config.results.voxels) bytes.voxels = points * kVoxel;

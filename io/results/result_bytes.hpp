@@ -2,8 +2,8 @@
 // What the results of a run take of the disk.
 #pragma once
 
-#include "io/file_scan.hpp"
 #include "io/options/options.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ struct ResultBytes {
   std::uint64_t voxels = 0;  // probability.vdb, at most
   std::uint64_t raster = 0;  // coverage.tif, at most: it is compressed
 
-  std::uint64_t certain = 0;  // of these: `points`, where its rows have a fixed size and none is left out
+  std::uint64_t certain = 0;  // of `points`: the files whose rows have a fixed size
 
   std::uint64_t all() const { return points + sample + report + voxels + raster; }
 };

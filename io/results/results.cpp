@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/pcd/pcd_header.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
 #include "io/report/report_page.hpp"
@@ -13,9 +12,7 @@
 #include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
-#include "io/results/loops_dxf.hpp"
 #include "io/results/loops_obj.hpp"
-#include "io/results/loops_vtp.hpp"
 #include "io/results/points.hpp"
 #include "io/stations/next_stations.hpp"
 
@@ -41,11 +38,6 @@ using S = const FileScan&;
 using C = const FilesConfig&;
 bool always(C) {
   return true;
-}
-
-template <PointsFormat format>
-bool has_points(C config) {
-  return config.results.points && config.output.points_format == format;
 }
 
 bool has_lids(C config) {
@@ -74,29 +66,12 @@ const std::vector<ResultFile>& all_results() {
        always},
       {"boundary.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); },
        always},
-      {"points.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_points_ply(d, s, c.output, out); },
-       has_points<PointsFormat::kPly>},
-      {"points.las", points_las_mark(),
-       [](D d, S s, C c, OutputFile& out) { write_points_las(d, s, c.output, out); },
-       has_points<PointsFormat::kLas>},
-      {"points.laz", points_las_mark(),
-       [](D d, S s, C c, OutputFile& out) { write_points_laz(d, s, c.output, out); },
-       has_points<PointsFormat::kLaz>},
-      {"points.pcd", kPcdMark, [](D d, S s, C c, OutputFile& out) { write_points_pcd(d, s, c.output, out); },
-       has_points<PointsFormat::kPcd>},
-      {"points.csv", points_csv_mark(),
-       [](D d, S s, C c, OutputFile& out) { write_points_csv(d, s, c.output, out); },
-       has_points<PointsFormat::kCsv>},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.results.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
        [](C c) { return c.results.voxels; }},
       {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
-      {"loops.dxf", kDxfMark, [](D d, S, C, OutputFile& out) { write_loops_dxf(d, out); },
-       [](C c) { return c.output.dxf; }},
-      {"loops.vtp", kVtpMark, [](D d, S, C, OutputFile& out) { write_loops_vtp(d, out); },
-       [](C c) { return c.output.vtp; }},
       {"loops.gpkg", geopackage_mark(),
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoPackage, out); },
        [](C c) { return c.output.gpkg; }, Writer::kLibrary},
@@ -131,13 +106,6 @@ const std::vector<ResultFile>& all_results() {
   return results;
 }
 
-// With the format of the annotated scan that `input` stands for.
-FilesConfig with_points_format(FilesConfig config, const FileScan& scan) {
-  config.output.points_format = points_format(scan, config.output);
-  return config;
-}
-
-// The format is a chosen one here and below, not `input`.
 std::vector<ResultFile> results_of(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
@@ -157,15 +125,14 @@ std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
 
 void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
-  const FilesConfig chosen = with_points_format(config, scan);
-  if (config.results.points) check_points(scan, config.output);
+  check_points(scan, config, folder, overwrite);
   check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
-  for (const ResultFile& result : results_of(chosen)) {
+  for (const ResultFile& result : results_of(config)) {
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);
   }
-  for (const ResultFile& result : unwanted_results(chosen)) {
+  for (const ResultFile& result : unwanted_results(config)) {
     if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
   }
 }
@@ -180,13 +147,15 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
 
   OutputSet set(overwrite);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) { write_cut_outs(detection, scan, config, folder, set); });
-  const FilesConfig chosen = with_points_format(config, scan);
-  const std::vector<ResultFile> results = results_of(chosen);
+  arena.for_each(1, [&](std::size_t) {
+    write_cut_outs(detection, scan, config, folder, set);
+    write_points(detection, scan, config, folder, set);
+  });
+  const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results)
     files.push_back(&set.add(folder / result.name, result.mark, result.writer));
-  for (const ResultFile& result : unwanted_results(chosen)) set.drop(folder / result.name, result.mark);
+  for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
   const auto write = [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); };
   arena.for_each(results.size(), [&](std::size_t i) {
     if (!results[i].is_of_others) write(i);

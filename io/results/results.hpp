@@ -3,10 +3,11 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/file_scan.hpp"
+#include "engine/model/detection.hpp"
+#include "io/files/output_set.hpp"
 #include "io/options/options.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/results/output_set.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 
 #include <filesystem>
@@ -22,8 +23,8 @@ LACUNA_API void check_output_folder(const FileScan& scan, const FilesConfig& con
                                     const std::filesystem::path& folder, Overwrite overwrite);
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
-// requests, as one set (io/results/output_set.hpp). The report is made of the others before any has its name.
-// A file of an earlier run that this one does not write, such as points.ply, does not belong to the new
+// requests, as one set (io/files/output_set.hpp). The report is made of the others before any has its name.
+// A file of an earlier run that this one does not write, such as loops.obj, does not belong to the new
 // results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
                                                             const FileScan& scan, const FilesConfig& config,
@@ -38,8 +39,7 @@ inline constexpr std::string_view kChangesFile = "changes.json";
 
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
-// which changes with it. What is not finite is null.
-inline constexpr std::string_view kHolesSchema = "holes 2";
+// kHolesSchema. What is not finite is null.
 void write_holes(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config,
                  OutputFile& out);
 
@@ -53,7 +53,7 @@ void write_table(const ExplainedDetection& detection, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
-// (0: hole, 1: outer), quality, red green blue (io/results/loop_colours.hpp). Element edge: vertex1 vertex2,
+// (0: hole, 1: outer), quality, red green blue (io/loops/loop_colours.hpp). Element edge: vertex1 vertex2,
 // closing each loop. Coordinates here and below: io/results/local_coordinates.hpp.
 void write_loops(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                  OutputFile& out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/machine_memory.hpp"
-#include "io/results/json.hpp"
+#include "io/loops/json.hpp"
 #include "io/results/results.hpp"
 
 #include <thread>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "io/files/property_name.hpp"
 #include "io/ply/ply_writer.hpp"
-#include "io/property_name.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"
@@ -34,12 +34,12 @@ constexpr std::array kComputed = {"nx", "ny", "nz", "scalar_probability"};
 class ColourRows {
  public:
   ColourRows(const FileScan& scan, const RowLayout& layout)
-      : stride_(layout.stride), rows_(joined_rows(scan, layout)) {}
+      : stride_(layout.stride), rows_(scan, layout, {0, scan.files().size()}, std::nullopt) {}
 
   std::span<const std::byte> find(PointId id) {
     while (value(id) >= first_ + count_) {
       first_ += count_;
-      count_ = rows_->next(kRowsAtATime, stride_, block_);
+      count_ = rows_.next(kRowsAtATime, stride_, block_);
       if (count_ == 0) throw Error("the input has changed during the run; it must stay as it is");
     }
     return std::span(block_).subspan((value(id) - first_) * stride_, stride_);
@@ -49,7 +49,7 @@ class ColourRows {
   static constexpr std::size_t kRowsAtATime = std::size_t{1} << 16;
 
   std::size_t stride_;
-  std::unique_ptr<InputRows> rows_;
+  JoinedRows rows_;
   std::vector<std::byte> block_;
   std::uint64_t first_ = 0, count_ = 0;  // id of the first row in memory, and how many there are
 };

@@ -5,8 +5,9 @@
 // a hole, ranges are shorter where something hides it. Where rays pass, they are longer, or there are none.
 #pragma once
 
-#include "io/file_scan.hpp"
+#include "engine/model/detection.hpp"
 #include "io/options/options.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"

@@ -7,7 +7,7 @@
 // wider.
 #pragma once
 
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 
 #include <array>
 #include <cstddef>

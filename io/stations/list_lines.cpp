@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/list_lines.hpp"
 
-#include "io/number.hpp"
+#include "io/files/number.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // fields. Lines that begin with # are comments. A first line without numbers is a header.
 #pragma once
 
-#include "io/input_file.hpp"
+#include "io/files/input_file.hpp"
 
 #include <filesystem>
 #include <optional>

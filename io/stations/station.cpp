@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/station.hpp"
 
-#include "io/number.hpp"
+#include "io/files/number.hpp"
+#include "io/rows/vectors.hpp"
 #include "io/stations/list_lines.hpp"
-#include "io/vectors.hpp"
 
 #include <algorithm>
 

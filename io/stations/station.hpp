@@ -2,7 +2,7 @@
 // Stations: where scanners stood, and which points each of them measured.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 
 #include "engine/model/points.hpp"
 #include "engine/run/error.hpp"
-#include "io/length_unit.hpp"
-#include "io/vectors.hpp"
+#include "io/crs/length_unit.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>

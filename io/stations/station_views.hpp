@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/run/parallel.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/field_of_view.hpp"
 #include "io/stations/path_view.hpp"

@@ -3,7 +3,7 @@
 
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
-#include "io/scalar.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 // Rows of scalars as lines of text, divided by commas, with a header line.
 #pragma once
 
-#include "io/results/output_file.hpp"
-#include "io/scan_reader.hpp"
+#include "io/files/output_file.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <span>

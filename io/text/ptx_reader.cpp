@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/text/ptx_reader.hpp"
 
-#include "io/input_file.hpp"
-#include "io/number.hpp"
-#include "io/pose.hpp"
-#include "io/scalar.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/number.hpp"
+#include "io/rows/pose.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

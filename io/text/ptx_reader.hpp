@@ -2,7 +2,7 @@
 // PTX: scans of Leica and others as text, each with its grid of rays and its pose.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

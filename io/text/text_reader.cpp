@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/text/text_reader.hpp"
 
-#include "io/input_file.hpp"
-#include "io/number.hpp"
-#include "io/property_name.hpp"
-#include "io/scalar.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/number.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>
@@ -107,8 +107,8 @@ bool has_position(const std::vector<std::string>& names) {
 constexpr std::size_t kSampleBytes = std::size_t{1} << 20;
 
 // Whether the first values of all sampled rows count up by one, as ids do. They count from 0 or 1 on, or from
-// any number where the three values behind it are no whole numbers. `first` has four fields at least; `others` are the
-// lines behind it, the last one perhaps cut.
+// any number where the three values behind it are no whole numbers. `first` has four fields at least;
+// `others` are the lines behind it, the last one perhaps cut.
 bool counts_rows(const Fields& first, std::string_view others, char separator) {
   constexpr std::size_t kFewRows = 10;
   std::array<double, 4> values{};
@@ -265,7 +265,7 @@ class TextReader final : public ScanReader {
     }
     if (!has_position(names)) {
       in_.fail_at_line(in_.line(), "no columns named x, y and z, but " + joined(names) +
-                                       "; --columns x=... y=... z=... says which they are");
+                                       "; --columns x=...,y=...,z=... says which they are");
     }
     layout_ = packed_layout(columns);
   }

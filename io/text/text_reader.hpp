@@ -2,7 +2,7 @@
 // Points as lines of text: .xyz, .txt, .csv, .pts, .asc.
 #pragma once
 
-#include "io/scan_reader.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 #include <memory>

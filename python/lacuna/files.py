@@ -55,7 +55,7 @@ def evaluate(
     tolerance: float = 2.0,
     min_vertices: int = 8,
 ) -> dict[str, Any]:
-    """Compares loops with true ones, as `lacuna evaluate` does: a PLY mesh, or loops as text. Returns its
+    """Compares loops with true ones, as `lacuna-bench evaluate` does: a PLY mesh, or loops as text. Returns its
     JSON. tolerance: in spacings of the scan."""
     with _folder_of(holes) as folder:
         names = [os.fspath(scan) for scan in scans]

@@ -263,7 +263,7 @@ class Holes:
     def save(self, folder: Union[str, os.PathLike], *, overwrite: bool = False, **params: Any) -> list[Path]:
         """Writes the files of `lacuna detect --out` to a folder, and returns their names.
 
-        params: parameters of the section `output`, such as report=True, gpkg=True, points_format="las".
+        params: parameters of the section `output`, such as report=True, gpkg=True, points_format="ply".
         overwrite: replaces files, too, that Lacuna did not write.
         """
         from .run import _checked
@@ -274,9 +274,9 @@ class Holes:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
         target = Path(folder)
         copied = self._copy_files(target)
-        cut_outs = self._folder / "cut-outs"
-        if cut_outs.is_dir():
-            copied.append(Path(shutil.copytree(cut_outs, target / cut_outs.name, dirs_exist_ok=True)))
+        for name in ("cut-outs", "points"):
+            if (self._folder / name).is_dir():
+                copied.append(Path(shutil.copytree(self._folder / name, target / name, dirs_exist_ok=True)))
         return copied
 
     def _copy_files(self, target: Path) -> list[Path]:

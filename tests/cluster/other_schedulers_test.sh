@@ -6,6 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 page=$PWD/docs/cluster.md
 program=${LACUNA_PROGRAM:-$PWD/build/lacuna}
+bench=${LACUNA_BENCH_PROGRAM:-$PWD/build/lacuna-bench}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export HOME=$work XDG_CACHE_HOME=$work/cache  # for what these programs keep of a user
@@ -17,7 +18,7 @@ block_of() { sed --quiet "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$page" | sed '1d;$d'; }
 new_folder() {
   mkdir -p "$work/$1/survey"
   cd "$work/$1"
-  "$program" synth surface survey/scan.ply --truth truth.txt --points 200000 --holes 10 --positions random >/dev/null
+  "$bench" synth surface survey/scan.ply --truth truth.txt --points 200000 --holes 10 --positions random >/dev/null
   "$program" detect survey --out expected --quiet
 }
 is_as_expected() {

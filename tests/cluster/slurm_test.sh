@@ -155,7 +155,7 @@ kill_some() {
 }
 
 scan=$work/scan.ply
-"$LACUNA" synth surface "$scan" --points "$points" --holes 40 --positions random --density-factor 30 >/dev/null
+"${LACUNA_BENCH_PROGRAM:-$PWD/build/lacuna-bench}" synth surface "$scan" --points "$points" --holes 40 --positions random --density-factor 30 >/dev/null
 nice -n 10 "$LACUNA" detect "$scan" --out "$work/expected" --quiet --threads 2 "${parameters[@]}"
 start_slurm
 began=$SECONDS

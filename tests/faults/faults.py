@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults, tried and counted: kills, calls that fail, full disks, damage, two runs at once.
 
-    tests/faults/faults.py --lacuna PROGRAM [--share 1] [--kinds kills,calls,...] [--seed 1]
+    tests/faults/faults.py --lacuna PROGRAM --bench PROGRAM [--share 1] [--kinds kills,calls,...] [--seed 1]
 
 After each fault the same command runs again. It must end with the bytes of an undisturbed run without a
 workspace, or with exit code 1 and exactly one line `lacuna: error: ...`. A results folder that has holes.json
@@ -64,8 +64,8 @@ class Run:
 class Setting:
     """What all cases share: the program, the scans, the results that are right."""
 
-    def __init__(self, program, folder, seed):
-        self.program, self.folder, self.seed = program, folder, seed
+    def __init__(self, program, bench, folder, seed):
+        self.program, self.bench, self.folder, self.seed = program, bench, folder, seed
         self.a, self.b = self.path("a.ply"), self.path("b.ply")
         self.added, self.moved = self.path("added.ply"), self.path("moved.ply")
         self.synth(self.a, "100000", "--holes", "8")
@@ -87,11 +87,11 @@ class Setting:
         return os.path.join(self.folder, name)
 
     def synth(self, file, points, *more):
-        subprocess.run([self.program, "synth", "surface", file, "--points", points, "--kind", "waves",
+        subprocess.run([self.bench, "synth", "surface", file, "--points", points, "--kind", "waves",
                         "--positions", "random", *more], check=True, stdout=subprocess.DEVNULL)
 
     def options(self, threads=1):
-        return ["--points", "--tile-points", "2000", "--threads", str(threads)]
+        return ["--points", "--points-format", "ply", "--tile-points", "2000", "--threads", str(threads)]
 
     def box(self, name):
         return ["--leave-out=" + BOX] if name == "leave-out" else []
@@ -741,6 +741,7 @@ KINDS = {"kills": kills, "kills-at-calls": kills_at_calls, "calls": calls_that_f
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--lacuna", required=True, help="the program to test")
+    parser.add_argument("--bench", required=True, help="lacuna-bench, which makes the scans")
     parser.add_argument("--share", type=float, default=1, help="of the counts, such as 0.1")
     parser.add_argument("--kinds", default=",".join(KINDS), help="default: all")
     parser.add_argument("--seed", type=int, default=1)
@@ -753,7 +754,7 @@ def main():
     folder = tempfile.mkdtemp(prefix="lacuna-faults-", dir=arguments.dir)
     count = Count()
     try:
-        setting = Setting(os.path.abspath(arguments.lacuna), folder, arguments.seed)
+        setting = Setting(os.path.abspath(arguments.lacuna), os.path.abspath(arguments.bench), folder, arguments.seed)
         jobs = []
         for kind in arguments.kinds.split(","):
             KINDS[kind](arguments.share, count, jobs.append)

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "engine/run/error.hpp"
-#include "io/scalar.hpp"
-#include "io/scan_reader.hpp"
+#include "io/formats.hpp"
+#include "io/rows/scalar.hpp"
+#include "io/rows/scan_reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>

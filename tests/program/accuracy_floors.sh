@@ -6,5 +6,5 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-"$root/tools/accuracy.sh" --lacuna "$LACUNA_PROGRAM" --no-peers --work "$scratch" --csv "$scratch/rows.csv" \
+"$root/tools/accuracy.sh" --lacuna "$LACUNA_PROGRAM" --bench "$LACUNA_BENCH_PROGRAM" --no-peers --work "$scratch" --csv "$scratch/rows.csv" \
   --data "${LACUNA_SHARED:-$root/../shared}/data" --only "$1" --floors "$root/bench/accuracy/floors.csv"

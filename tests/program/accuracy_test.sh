@@ -13,7 +13,7 @@ fail() {
 }
 
 accuracy() {
-  "$root/tools/accuracy.sh" --lacuna "$LACUNA_PROGRAM" --no-peers --work "$scratch/work" --data "$scratch/none" \
+  "$root/tools/accuracy.sh" --lacuna "$LACUNA_PROGRAM" --bench "$LACUNA_BENCH_PROGRAM" --no-peers --work "$scratch/work" --data "$scratch/none" \
     --csv "$scratch/a.csv" "$@" >"$scratch/out" 2>"$scratch/err"
 }
 
@@ -81,7 +81,7 @@ assert len(cut.positions) < n * n - 50
 write_mesh(cut, f"{sys.argv[2]}/cut.ply")
 END
 "$LACUNA_PROGRAM" detect "$scratch/cut.ply" --out "$scratch/holes" --quiet
-"$LACUNA_PROGRAM" evaluate "$scratch/holes" "$scratch/cut.ply" >"$scratch/told"
+"$LACUNA_BENCH_PROGRAM" evaluate "$scratch/holes" "$scratch/cut.ply" >"$scratch/told"
 grep -q '^found . of 2 true loops' "$scratch/told" || fail "the cut mesh has not two true loops: $(cat "$scratch/told")"
 grep -q '^found 2 of 2' "$scratch/told" || fail "the loops of the cut mesh are not found: $(cat "$scratch/told")"
 

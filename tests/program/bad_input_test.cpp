@@ -3,7 +3,7 @@
 // half-written.
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
@@ -286,7 +286,9 @@ TEST_CASE("a disk that cannot hold the points is said once they are counted, bef
     return;
   }
   const fs::path out = scratch / "out";
-  const ProgramResult result = detect_quietly(scan, out, {"--scratch", disk.path().string()});
+  // A filter may leave points out, so the headers alone do not say how many there are.
+  const ProgramResult result =
+      detect_quietly(scan, out, {"--scratch", disk.path().string(), "--drop-origin"});
   check_failure(without_warnings(result), 1,
                 "the run needs at least 1.4 MiB; --scratch names a folder on another one");
   CHECK_THAT(result.err, Catch::Matchers::Contains("the run needs about "));
@@ -312,7 +314,7 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
       more.insert(more.end(), options.begin(), options.end());
       const fs::path out = scratch / "out";
       {
-        const SmallDisk disk(scratch / "disk", std::to_string(bytes + bytes / 3));
+        const SmallDisk disk(scratch / "disk", std::to_string(bytes + bytes / 2));
         if (!disk.mounted()) {
           test::skip("cannot mount a small disk");
           return;
@@ -326,7 +328,8 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
         CHECK(detect_quietly(scan, scratch / "other", more).exit_code == 1);
       }
       std::uint64_t written = 0;
-      for (const auto& file : fs::directory_iterator(out)) written += file.file_size();
+      for (const auto& file : fs::recursive_directory_iterator(out))
+        if (file.is_regular_file()) written += file.file_size();
       const auto results = needs.at("results_bytes").get<double>();
       CHECK(static_cast<double>(written) < 1.1 * results);
       CHECK(static_cast<double>(written) >

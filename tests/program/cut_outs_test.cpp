@@ -81,25 +81,20 @@ void check_cut_outs(const fs::path& out, const std::string& scan, const std::str
 
 }  // namespace
 
-TEST_CASE("each hole has the points of the scan around it, with all attributes, in the scan's format",
-          "[results]") {
+TEST_CASE("each hole has the points of the scan around it, with all attributes", "[results]") {
   const test::ScratchFolder scratch;
   const std::string text = test::write_earth_sheet(scratch);
   check_cut_outs(detect(text, scratch / "csv", {"--cut-outs", "0.03"}), text, ".csv", 0.03);
-  for (const std::string format : {"laz", "las", "ply", "pcd"}) {
-    INFO(format);
-    const fs::path made = detect(text, scratch / format, {"--points", "--points-format", format});
-    const std::string scan = (made / ("points." + format)).string();  // has many columns
-    const std::string out = (scratch / (format + ".out")).string();
-    check_cut_outs(detect(scan, out, {"--cut-outs", "0.2"}), scan, "." + format, 0.2);
-  }
+  const fs::path made = detect(text, scratch / "ply", {"--points", "--points-format", "ply"});
+  const std::string scan = (made / "points.ply").string();  // has many columns
+  check_cut_outs(detect(scan, scratch / "out", {"--cut-outs", "0.2"}), scan, ".ply", 0.2);
 }
 
 TEST_CASE("cut-outs are the same for every tiling, number of threads, memory limit and way of a run",
           "[results]") {
   const test::ScratchFolder scratch;
   const std::string text = test::write_earth_sheet(scratch, "40000");
-  for (const std::string format : {"laz", "ply"}) {
+  for (const std::string format : {"csv", "ply"}) {
     const Strings options{"--cut-outs", "0.1", "--points-format", format};
     const auto with = [&](Strings more) {
       more.insert(more.end(), options.begin(), options.end());

@@ -24,7 +24,9 @@ fi
 
 python3 tools/check_prose.py || failed=1
 
-python3 tests/program/check_links.py *.md docs bench/*.md bench/accuracy/*.md engine/*.md engine/*/*.md || failed=1
+python3 tests/program/check_links.py *.md docs bench/*.md bench/accuracy/*.md engine/*.md engine/*/*.md io/*.md tools/*.md || failed=1
+
+python3 tests/program/check_arrows.py io || failed=1
 
 # The version is that of project() in CMakeLists.txt.
 version=$(sed -n 's/^project(lacuna VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)

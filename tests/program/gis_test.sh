@@ -5,6 +5,7 @@
 # in longitude and latitude where the system is known: converted back, it has the coordinates of the scan.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
+bench=${LACUNA_BENCH_PROGRAM:?}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export HOME=$work/home
@@ -12,7 +13,7 @@ mkdir "$HOME"
 cd "$work"
 formats=(--gpkg --geojson --shp)
 
-"$program" synth surface near.ply --points 12000 --holes 4 --hole-radius 3 6 --order random >/dev/null
+"$bench" synth surface near.ply --points 12000 --holes 4 --hole-radius 3 6 --order random >/dev/null
 # The scan in UTM, in millimetres, as LAS files with different coordinate reference systems.
 python3 - <<'END'
 import struct

@@ -15,13 +15,13 @@ fail() {
   exit 1
 }
 
-# tools/demo.sh builds the target lacuna alone. With it come all built files that are installed.
+# With the target lacuna come all built files that are installed, but lacuna-bench.
 if [[ -f $build_folder/build.ninja ]]; then
   in_build=$(ninja -C "$build_folder" -t inputs lacuna)
   installed=$(grep --only-matching --perl-regexp "\"\Q$build_folder\E/\K[^\"]*" "$build_folder/cmake_install.cmake")
   for file in $installed; do
     rule=$(ninja -C "$build_folder" -t query "$file" 2>/dev/null | sed --quiet 's/^  input: //p') || true
-    [[ $file != python/* ]] || continue  # installed where it is built
+    [[ $file != python/* && $file != lacuna-bench ]] || continue  # installed where it is built
     # A link to a library is made with it.
     [[ -z $rule || $rule == CXX_EXECUTABLE_LINKER__lacuna_* || $rule == CMAKE_SYMLINK_LIBRARY ]] || grep --quiet --line-regexp --fixed-strings "$file" <<<"$in_build" ||
       fail "$file is installed, and the target lacuna does not build it"
@@ -43,14 +43,22 @@ fi
 
 version=$("$prefix/bin/lacuna" --version)
 [[ $version == "lacuna "*.*.* ]] || fail "--version prints: $version"
-"$prefix/bin/lacuna" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
+"$prefix/bin/lacuna-bench" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
 grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"
 "$prefix/bin/lacuna" detect --print-config --config aerial >"$work/log" || fail "the installed config is not found"
-for file in share/man/man1/lacuna.1.gz share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml \
+for file in share/bash-completion/completions/lacuna share/lacuna/configs/aerial.toml \
   share/doc/lacuna/docs/usage.md share/doc/lacuna/LICENSE share/doc/lacuna/CITATION.cff; do
   [[ -s $prefix/$file ]] || fail "$file is missing"
 done
+offered() {  # what bash offers for the last of these words
+  local COMP_WORDS=("$prefix/bin/lacuna" "$@") COMP_CWORD=$# COMPREPLY=()
+  _lacuna
+  echo "${COMPREPLY[*]}"
+}
+source "$prefix/share/bash-completion/completions/lacuna"
+[[ $(offered det) == detect && $(offered detect --min-h) == --min-hole && $(offered info --help-) == --help-all ]] ||
+  fail "bash completes: $(offered det), $(offered detect --min-h), $(offered info --help-)"
 python3 tests/program/check_links.py "$prefix/share/doc/lacuna" || fail "links of the installed documents lead nowhere"
 
 if grep --quiet 'LACUNA_HARDENING:BOOL=ON' "$build_folder/CMakeCache.txt"; then

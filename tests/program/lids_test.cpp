@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of lids: read back here, and compared with each other and with holes.json of the same run.
-#include "io/ply/mesh_reader.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 namespace lacuna {
@@ -151,7 +152,7 @@ TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, 
   REQUIRE(ply.rows.size() == obj.vertices.size());
   for (std::size_t i = 0; i < ply.rows.size(); ++i)
     CHECK(Eigen::Map<const Eigen::Vector3d>(ply.rows[i].data()) == obj.vertices[i]);
-  CHECK(io::read_triangles(out / "lids.ply") == obj.triangles);
+  CHECK(evaluation::read_triangles(out / "lids.ply") == obj.triangles);
   CHECK(loops_of_faces(read_file(out / "lids.ply"), obj.triangles.size()) == obj.loops);
 }
 
@@ -188,7 +189,7 @@ TEST_CASE("a scan without holes has empty lids, and a later run without them rem
   for (int i = 0; i < 2; ++i) {  // the second one replaces those of the first
     detect(scan, out, {"--lids"});
     CHECK(read_obj(out / "lids.obj").triangles.empty());
-    CHECK(io::read_triangles(out / "lids.ply").empty());
+    CHECK(evaluation::read_triangles(out / "lids.ply").empty());
     CHECK(read_csv(out / "lids.csv").empty());
   }
   detect(scan, out, {});

@@ -109,7 +109,7 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
   const auto evaluated = [&](const std::string& result, const Strings& more) {
     Strings words = {"evaluate", result, truth_file, "--json"};
     words.insert(words.end(), more.begin(), more.end());
-    const auto run = run_program(words);
+    const auto run = test::run_bench(words);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     json found = json::parse(run.out);
@@ -129,22 +129,20 @@ TEST_CASE("detect and info read local coordinates as those of the scan") {
   const Cloud sheet = exact_sheet();
   const std::string scan = scratch.write("scan.txt", text_of(sheet));
   const fs::path out = scratch / "out";
-  for (const std::string format : {"ply", "pcd"}) {
-    detect(scan, out, {"--points", "--points-format", format, "--local-coordinates"});
-    const json expected = test::read_json(out / "holes.json");
-    const fs::path file = scratch / ("points." + format);
-    fs::copy(out / ("points." + format), file);
-    detect(file.string(), scratch / ("again-" + format), {"--points"});
-    const json again = test::read_json(scratch / ("again-" + format) / "holes.json");
-    for (const char* key : {"loops", "bounds", "strays"}) CHECK(again.at(key) == expected.at(key));
-    CHECK(again.at("offset").is_null());
-    const test::Table points = test::read_table(scratch / ("again-" + format) / ("points." + format));
-    REQUIRE(points.rows.size() == sheet.size());
-    for (std::size_t i = 0; i < sheet.size(); ++i)
-      REQUIRE(Eigen::Vector3d(points.rows[i][0], points.rows[i][1], points.rows[i][2]) == sheet.positions[i]);
-    CHECK_THAT(run_program({"info", file.string()}).out,
-               Contains("bounds        499999.8145 5399999.809 300 to 5000"));
-  }
+  detect(scan, out, {"--points", "--points-format", "ply", "--local-coordinates"});
+  const json expected = test::read_json(out / "holes.json");
+  const fs::path file = scratch / "points.ply";
+  fs::copy(out / "points.ply", file);
+  detect(file.string(), scratch / "again", {"--points"});
+  const json again = test::read_json(scratch / "again" / "holes.json");
+  for (const char* key : {"loops", "bounds", "strays"}) CHECK(again.at(key) == expected.at(key));
+  CHECK(again.at("offset").is_null());
+  const test::Table points = test::read_table(scratch / "again" / "points" / "points.ply");
+  REQUIRE(points.rows.size() == sheet.size());
+  for (std::size_t i = 0; i < sheet.size(); ++i)
+    REQUIRE(Eigen::Vector3d(points.rows[i][0], points.rows[i][1], points.rows[i][2]) == sheet.positions[i]);
+  CHECK_THAT(run_program({"info", file.string()}).out,
+             Contains("bounds        499999.8145 5399999.809 300 to 5000"));
 }
 
 TEST_CASE("files with local coordinates are the same for every tiling, and near their scan with strays") {
@@ -157,16 +155,13 @@ TEST_CASE("files with local coordinates are the same for every tiling, and near 
                           .translated({500'000.1, 5'400'000.7, 300.3});
   const Cloud stray{{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1e30, 0, 0)}, {}};
   const std::string scan = scratch.write("scan.txt", text_of(cloud.joined(stray)));
-  Strings names = {"points.ply", "points.pcd", "loops.ply", "boundary.ply", "sample.ply"};
+  Strings names = {"points.ply", "loops.ply", "boundary.ply", "sample.ply"};
   const auto files = [&](const Strings& options) {
     std::string bytes;
-    for (const char* format : {"ply", "pcd"}) {
-      Strings words = {"--points", "--points-format", format, "--local-coordinates", "--report"};
-      words.insert(words.end(), options.begin(), options.end());
-      detect(scan, scratch / "out", words);
-      for (const std::string& name : names)
-        if (fs::exists(scratch / "out" / name)) bytes += read_file(scratch / "out" / name);
-    }
+    Strings words = {"--points", "--points-format", "ply", "--local-coordinates", "--report"};
+    words.insert(words.end(), options.begin(), options.end());
+    detect(scan, scratch / "out", words);
+    for (const std::string& name : names) bytes += read_file(scratch / "out" / name);
     return bytes;
   };
   const std::string one = files({"--threads", "1", "--tile-points", "1000000"});

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes a LAS file of the points of a PLY file from `lacuna synth surface`, with values in every field.
+"""Makes a LAS file of the points of a PLY file from `lacuna-bench synth surface`, with values in every field.
 
 make_las.py IN.ply OUT.las FORMAT [FIRST [COUNT]]
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 void check_memory(const std::string& points, const std::string& limit) {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "surface.ply").string();
-  REQUIRE(test::run_program({"synth", "surface", scan, "--points", points, "--holes", "100"}).exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", points, "--holes", "100"}).exit_code == 0);
   const test::ProgramResult limited = test::run_program(
       {"detect", scan, "--out", (scratch / "limited").string(), "--quiet", "--memory-limit", limit});
   INFO(limited.err);
@@ -86,7 +86,7 @@ TEST_CASE("range images of stations stay within the memory limit, with the same 
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "room.ply").string(),
                     stations = (scratch / "room.stations.txt").string();
-  REQUIRE(test::run_program({"synth", "scan", scan, "--points", "150000", "--stations", "4"}).exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "150000", "--stations", "4"}).exit_code == 0);
   const auto detect = [&](const std::string& out, std::vector<std::string> more) {
     std::vector<std::string> words = {"detect",  scan,         "--out",  (scratch / out).string(),
                                       "--quiet", "--stations", stations, "--threads",
@@ -157,7 +157,7 @@ TEST_CASE("a loop of two hundred thousand points stays within the memory limit")
   const std::string scan = write_scan(scratch, folded_strip(100, 1000)), out = (scratch / "out").string();
   const test::ProgramResult result =
       test::run_program({"detect", scan, "--out", out, "--quiet", "--threads", "2", "--memory-limit", "64MiB",
-                         "--obj", "--dxf", "--vtp", "--min-confidence", "0"});
+                         "--obj", "--min-confidence", "0"});
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   CAPTURE(result.peak_memory >> 20);  // MiB
@@ -168,7 +168,7 @@ TEST_CASE("a loop of two hundred thousand points stays within the memory limit")
 TEST_CASE("ten million points and sixteen threads stay within 64 MiB", "[.slow]") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "surface.ply").string();
-  REQUIRE(test::run_program({"synth", "surface", scan, "--points", "10000000"}).exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "10000000"}).exit_code == 0);
   const test::ProgramResult result =
       test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--threads", "16",
                          "--memory-limit", "64MiB"});

@@ -57,7 +57,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"returns", "first"},
     {"crs", "EPSG:25832"},
     {"unit", "m"},
-    {"points_format", "pcd"},
+    {"points_format", "ply"},
     {"sample_points", "200"},
     {"coverage", "3"},
     {"cut_outs", "3"},

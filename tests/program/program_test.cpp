@@ -31,18 +31,6 @@ using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
 
-TEST_CASE("info has the density of the points on the surface", "[program]") {
-  const ScratchFolder folder;
-  const std::string scan = (folder / "s.ply").string();
-  REQUIRE(run_program({"synth", "surface", scan, "--kind", "sphere", "--holes", "0", "--points", "20000",
-                       "--spacing", "0.05"})
-              .exit_code == 0);
-  const auto json = nlohmann::json::parse(run_program({"info", "--json", scan}).out);
-  CHECK(json["density"].get<double>() == Approx(1 / (0.05 * 0.05)).epsilon(0.03));
-  CHECK_THAT(run_program({"info", scan}).out, Contains("points per square unit of surface"));
-  CHECK_THAT(run_program({"info", folder.write("b.xyz", "1 2 3\n")}).out, !Contains("density"));
-}
-
 TEST_CASE("a folder of Entwine's point tiles is the scan in its files", "[program]") {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "ept" / "ept-data");
@@ -78,7 +66,7 @@ TEST_CASE("a run counts its loops in words") {
   const ScratchFolder scratch;
   const auto summary_of = [&](const char* kind) {
     const std::string scan = (scratch / (std::string(kind) + ".ply")).string();
-    run_program({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
+    test::run_bench({"synth", "surface", scan, "--kind", kind, "--points", "10000", "--holes", "1"});
     return run_program({"detect", scan, "--out", (scratch / kind).string()}).out;
   };
   CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve; 2 longer than 0.1\n"));
@@ -87,15 +75,28 @@ TEST_CASE("a run counts its loops in words") {
 
 TEST_CASE("help is for everything and version is one line") {
   CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
-  CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info") && Contains("synth"));
-  const ProgramResult help = run_program({"detect", "--help"});
+  CHECK_THAT(run_program({"--help"}).out, Contains("detect") && Contains("info"));
+  const ProgramResult help = run_program({"detect", "--help-all"});
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
   io::FilesConfig config;
   for (const Parameter& parameter : parameters(config)) {
     if (parameter.is_constant) continue;
-    CHECK_THAT(help.out, Contains(parameter.option()) && Contains(std::string(parameter.section)));
+    CHECK_THAT(help.out, Contains(parameter.option()) && Contains(std::string(parameter.section) + ":\n"));
   }
+}
+
+TEST_CASE("--help shows the options that people use, and --help-all of the program has every command") {
+  const std::string common = run_program({"detect", "--help"}).out;
+  for (const char* option : {"--out", "--min-hole", "--report", "--points", "--help-all"})
+    CHECK_THAT(common, Contains(option));
+  for (const char* option : {"--sigma", "--print-config", "--progress"})
+    CHECK_THAT(common, !Contains(option));
+  CHECK(test::count_lines(common) < 30);
+  const std::string all = run_program({"--help-all"}).out;
+  for (const char* part :
+       {"detect", "--sigma", "--print-config", "render", "--hide-above", "clean", "WORKSPACE"})
+    CHECK_THAT(all, Contains(part));
 }
 
 TEST_CASE("wrong usage has exit code 2 and one line that names it") {
@@ -116,26 +117,26 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--memory-limit", "1MiB"}), 2, "64MiB");
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1"}), 2,
                 "eps");
-  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2,
-                "bar, plain, json, none");
+  check_failure(run_program({"detect", "a.ply", "--out", "d", "--progress", "2"}), 2, "bar, plain, none");
   check_failure(run_program({"info"}), 2, "SCAN");
-  check_failure(run_program({"synth", "sculpture"}), 2, "surface, scan");
-  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "-1"}), 2, "a whole number");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "abc"}), 2,
-                "lacuna synth surface --help");
-  check_failure(run_program({"synth", "surface", "x.las"}), 2,
+  check_failure(test::run_bench({"synth", "sculpture"}), 2, "surface, scan");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--kind", "bottle"}), 2, "torus");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "-1"}), 2, "a whole number");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "abc"}), 2,
+                "lacuna-bench synth surface --help");
+  check_failure(test::run_bench({"synth", "surface", "x.las"}), 2,
                 "x.las is not possible; allowed: a name that ends in .ply");
   check_failure(run_program({"render", "d", "--out", "x.jpg"}), 2, "allowed: a name that ends in .png");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2, "--points 0");
-  check_failure(run_program({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "0", "--holes", "0"}), 2,
+                "--points 0");
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--points", "400", "--holes", "90"}), 2,
                 "--holes 90");
-  check_failure(run_program({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--kind", "sphere", "--density-step", "4"}), 2,
                 "--density-step");
-  check_failure(run_program({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,
+  check_failure(test::run_bench({"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1"}), 2,
                 "--jitter");
-  check_failure(run_program({"synth", "scan", "d.ply", "--stations", "0"}), 2, "--stations");
-  check_failure(run_program({"synth", "scan", "d.ply", "--truth", "d.ply"}), 2, "two files");
+  check_failure(test::run_bench({"synth", "scan", "d.ply", "--stations", "0"}), 2, "--stations");
+  check_failure(test::run_bench({"synth", "scan", "d.ply", "--truth", "d.ply"}), 2, "two files");
   CHECK_FALSE(fs::exists("d"));
   CHECK_FALSE(fs::exists("x.las"));
   CHECK_FALSE(fs::exists("x.jpg"));
@@ -145,10 +146,10 @@ TEST_CASE("a value with a unit or a decimal comma is refused with what a number 
   const std::string form = "a number without a unit, with a decimal point";
   for (const std::string value : {"5cm", "0.1m", "0,5"}) {
     check_failure(run_program({"detect", "a.ply", "--out", "d", "--min-hole", value}), 2, form);
-    check_failure(run_program({"synth", "surface", "d.ply", "--spacing", value}), 2, form);
-    check_failure(run_program({"synth", "scan", "d.ply", "--field-of-view", "-30", value}), 2, form);
+    check_failure(test::run_bench({"synth", "surface", "d.ply", "--spacing", value}), 2, form);
+    check_failure(test::run_bench({"synth", "scan", "d.ply", "--field-of-view", "-30", value}), 2, form);
     check_failure(run_program({"render", "d", "--out", "d.png", "--hide-above", value}), 2, form);
-    check_failure(run_program({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
+    check_failure(test::run_bench({"evaluate", "d", "d.txt", "--tolerance", value}), 2, form);
   }
   CHECK_THAT(run_program({"detect", "a.ply", "--out", "d", "--min-hole", "-1"}).err, !Contains(form));
 }
@@ -156,7 +157,7 @@ TEST_CASE("a value with a unit or a decimal comma is refused with what a number 
 TEST_CASE("a mistyped option or command is reported with the one that may be meant") {
   check_failure(run_program({"detetc"}), 2,
                 "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect");
-  check_failure(run_program({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
+  check_failure(test::run_bench({"synth", "surfac"}), 2, "(did you mean \"surface\"?)");
   check_failure(run_program({"help", "surfac"}), 2, "unknown command \"surfac\"; allowed: detect");
   const ProgramResult mistyped = run_program({"detect", "a.ply", "--min-hol", "3", "--out", "d"});
   check_failure(mistyped, 2, "unknown option --min-hol (did you mean \"--min-hole\"?)");
@@ -167,12 +168,14 @@ TEST_CASE("a mistyped option or command is reported with the one that may be mea
 
 TEST_CASE("lacuna help COMMAND is the help of the command") {
   CHECK(run_program({"help"}).out == run_program({"--help"}).out);
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect"}, {"synth", "scan"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"detect"}, {"info"}}) {
     std::vector<std::string> asked = {"help"}, flagged = words;
     asked.insert(asked.end(), words.begin(), words.end());
     flagged.push_back("--help");
     CHECK(run_program(asked).out == run_program(flagged).out);
   }
+  CHECK(test::run_bench({"help", "synth", "scan"}).out == test::run_bench({"synth", "scan", "--help"}).out);
+  CHECK(test::run_bench({"--version"}).out == "lacuna-bench 0.1.0\n");
   CHECK(run_program({"-V"}).out == run_program({"--version"}).out);
 }
 
@@ -205,7 +208,7 @@ TEST_CASE("a printed config read again prints the same") {
   const ScratchFolder scratch;
   const ProgramResult first =
       run_program({"detect", "--print-config", "--k", "20", "--eps", "0.25", "--points", "--memory-limit",
-                   "512MiB", "--columns", "x", "y", "z", "--workspace", "/a b/c"});
+                   "512MiB", "--columns", "x,y,z", "--workspace", "/a b/c"});
   REQUIRE(first.exit_code == 0);
   CHECK_THAT(first.out, Contains("\nk = 20\n") && Contains("\npoints = true\n") &&
                             Contains("columns = \"x y z\"") && Contains("memory_limit = \"512MiB\""));
@@ -282,55 +285,6 @@ TEST_CASE("a quiet run says nothing") {
   CHECK(result.err.empty());
 }
 
-TEST_CASE("progress for programs is a JSON object per line, whose share never falls") {
-  const ScratchFolder scratch;
-  const ProgramResult result = run_program({"detect", scratch.write("scan.txt", sheet(100)), "--out",
-                                            (scratch / "out").string(), "--points", "--progress", "json"});
-  CHECK(result.exit_code == 0);
-  std::istringstream lines(result.err);
-  double share = 0, seconds = 0;
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    const auto now = nlohmann::json::parse(line);
-    CHECK(now.at("share") >= share);
-    CHECK(now.at("seconds") >= seconds);
-    share = now.at("share");
-    seconds = now.at("seconds");
-    last = now.at("stage");
-  }
-  CHECK(share == 1);
-  CHECK(last == "write");
-}
-
-TEST_CASE(
-    "a log file has the version, the command line, the times of stages and errors, each with its time") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  const std::string log = (scratch / "log.txt").string();
-  const auto detect = [&](const std::string& file, const std::string& log_file) {
-    return run_program(
-        {"detect", file, "--out", (scratch / "out").string(), "--quiet", "--log-file", log_file});
-  };
-  CHECK(detect(scan, log).exit_code == 0);
-  const std::string first = test::read_file(log);
-  CHECK_THAT(first, Contains(" info: lacuna ") && Contains(" detect " + scan + " --out ") &&
-                        Contains(" info: evaluate: done in ") && Contains(" info: write: done in "));
-  CHECK(first.substr(4, 1) == "-");
-  check_failure(detect("none\n.ply", log), 1, "none");
-  const std::string both = test::read_file(log);
-  CHECK(both.starts_with(first));
-  CHECK_THAT(both.substr(first.size()), Contains(" error: none") && Contains("cannot be opened"));
-  CHECK(test::count_lines(both.substr(first.size())) == 2);
-
-  check_failure(detect(scan, scan), 1, "scan.txt: exists, and is no log of lacuna");
-  check_failure(detect(scan, scratch.path().string()), 1, "not a regular file");
-  check_failure(detect(scan, "/proc/none"), 1, "/proc/none: cannot be opened");
-  fs::create_symlink(scratch / "made", scratch / "link");
-  check_failure(detect(scan, (scratch / "link").string()), 1, "link: is a symbolic link to nothing");
-  CHECK_FALSE(fs::exists(scratch / "made"));
-  CHECK(test::read_file(scan) == sheet(20));
-}
-
 TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {
   const ScratchFolder scratch;
   const auto output = [&](const std::string& scan, const std::string& format,
@@ -343,14 +297,13 @@ TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it 
   };
   const std::string doubles = scratch.write("scan.txt", sheet(20));
   const std::string note = "note: PCL takes the 64-bit coordinates of PLY ";
-  CHECK_THAT(output(doubles, "pcd"), Contains(note + "and PCD files for 0 0 0, Open3D those of PCD; "));
   CHECK_THAT(output(doubles, "csv"), Contains(note + "files for 0 0 0; --local-coordinates helps, or "));
   const std::string floats = scratch.write(
       "scan.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
       "end_header\n1 2 3\n");
-  CHECK_THAT(output(floats, "pcd"), Contains("written: ") && !Contains("note:"));
-  CHECK_THAT(output(doubles, "pcd", {"--local-coordinates"}), Contains("written: ") && !Contains("note:"));
+  CHECK_THAT(output(floats, "ply"), Contains("written: ") && !Contains("note:"));
+  CHECK_THAT(output(doubles, "ply", {"--local-coordinates"}), Contains("written: ") && !Contains("note:"));
 }
 
 TEST_CASE("temporary files go to a folder elsewhere, and are gone at the end") {
@@ -390,15 +343,17 @@ TEST_CASE("a file that the program did not write is refused before the work, and
                                           "100"};
   const std::string mine = scratch.write("out/points.ply", "x y z\n1 2 3\n");
   for (std::vector<std::string> arguments : {detect, synth, detect}) {
+    const test::Program program = arguments == synth ? test::Program::kBench : test::Program::kLacuna;
     const std::string before = test::read_file(mine);
-    check_failure(run_program(arguments), 1, "points.ply: exists, and this command did not write it");
+    check_failure(run_program(arguments, program), 1,
+                  "points.ply: exists, and this command did not write it");
     CHECK(test::read_file(mine) == before);
     CHECK(count_entries(scratch / "out") == (before.starts_with("ply") && arguments == synth ? 7 : 1));
     arguments.push_back("--overwrite");
-    CHECK(run_program(arguments).exit_code == 0);
+    CHECK(run_program(arguments, program).exit_code == 0);
     CHECK(test::read_file(mine) != before);
     arguments.pop_back();
-    CHECK(run_program(arguments).exit_code == 0);  // its own file
+    CHECK(run_program(arguments, program).exit_code == 0);  // its own file
     if (arguments == synth) {
       for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "holes.csv", "holes.json",
                                "run.json", "points.loops.txt", "points.stations.txt"})
@@ -486,17 +441,18 @@ TEST_CASE("a folder whose name takes a detour leaves none of it behind") {
 TEST_CASE("a signal while a scan is made leaves nothing") {
   const ScratchFolder scratch;
   const auto is_writing = [&] { return count_entries(scratch.path()) > 0; };
-  const ProgramResult result = test::run_program_until(
-      {"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"}, SIGINT, is_writing);
+  const ProgramResult result =
+      test::run_program_until({"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"},
+                              SIGINT, is_writing, test::Program::kBench);
   CHECK(result.exit_code == 128 + SIGINT);
-  CHECK(result.err == "lacuna: interrupted\n");
+  CHECK(result.err == "lacuna-bench: interrupted\n");
   CHECK(count_entries(scratch.path()) == 0);
 }
 
-TEST_CASE("names of columns are divided by blanks or commas, and end where a file is named") {
+TEST_CASE("names of columns are divided by blanks or commas") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  CHECK(run_program({"info", "--columns", "z", "y", "x", scan}).exit_code == 0);
+  CHECK(run_program({"info", "--columns", "z y x", scan}).exit_code == 0);
   CHECK(run_program({"info", "--columns", "z,y,x", scan}).exit_code == 0);
   check_failure(run_program({"info", "--columns", "a,b,c", scan}), 1, "no columns named x, y and z");
 }
@@ -525,7 +481,7 @@ TEST_CASE("info prints the size of the annotated scan, whatever the files hold")
       "property float nx\nproperty float ny\nproperty float nz\nproperty int scalar_loop\nend_header\n"
       "3 4 0 0 0 1 7\n");
   for (const std::vector<std::string>& scans : {std::vector<std::string>{text}, {ply}, {text, ply}}) {
-    for (const std::string format : {"ply", "pcd", "las"}) {
+    for (const std::string format : {"ply", "csv"}) {
       std::vector<std::string> arguments = {"info",   "--points",        "--normals",
                                             "--json", "--points-format", format};
       arguments.insert(arguments.end(), scans.begin(), scans.end());
@@ -538,18 +494,12 @@ TEST_CASE("info prints the size of the annotated scan, whatever the files hold")
       const std::string points = test::read_file(scratch / "out" / ("points." + format));
       std::size_t header = 0;
       if (format == "ply") header = points.find("end_header\n") + 11;
-      if (format == "pcd") header = points.find("DATA binary\n") + 12;
-      if (format == "las") {
-        std::uint32_t points_at = 0;
-        std::memcpy(&points_at, &points[96], sizeof points_at);
-        header = points_at;
-      }
-      CHECK(told.at("points_bytes") == points.size() - header);
+      if (format == "ply") CHECK(told.at("points_bytes") == points.size() - header);
     }
   }
 }
 
-TEST_CASE("info reads a scan whose columns points.las cannot hold") {
+TEST_CASE("info reads a LAS file whose columns leave no room for results") {
   const ScratchFolder scratch;
   test::LasFile las{.minor = 2, .format = 0};
   std::string descriptors;
@@ -559,7 +509,7 @@ TEST_CASE("info reads a scan whose columns points.las cannot hold") {
   const std::string scan = scratch.write("wide.las", las.bytes());
   const ProgramResult info = run_program({"info", scan});
   CHECK(info.exit_code == 0);
-  CHECK_THAT(info.out, Contains("points.las    cannot hold all columns; --points-format ply can"));
+  CHECK_THAT(info.out, Contains("points/    cannot hold all columns; --points-format ply can"));
   CHECK_THAT(run_program({"info", scan, "--json"}).out, Contains("\"points_bytes\": null"));
   check_failure(run_program({"info", scan, "--points"}), 1, "--points-format ply holds them all");
 }

@@ -4,7 +4,7 @@
 # filters, section, keys, marks, links, print and tools work. Marks go into the report of another run. The argument is
 # the scan, `room` or `flat`.
 set -euo pipefail
-: "${LACUNA_PROGRAM:?}"
+: "${LACUNA_PROGRAM:?}" "${LACUNA_BENCH_PROGRAM:?}"
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -13,7 +13,7 @@ case $1 in
   room) made=(scan --stations 1 --points 60000 --seed 2) mock_size=400x800 stations=(--stations "$scratch/scan.stations.txt") ;;
   flat) made=(surface --points 40000 --holes 6 --hole-radius 5 12) mock_size=1280x800 ;;
 esac
-"$LACUNA_PROGRAM" synth "${made[@]}" "$scratch/scan.ply" > "$scratch/log"
+"$LACUNA_BENCH_PROGRAM" synth "${made[@]}" "$scratch/scan.ply" > "$scratch/log"
 "$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/out" --quiet --report "${stations[@]}"
 if [ "$1" = room ]; then
   "$LACUNA_PROGRAM" stations "$scratch/out" > "$scratch/log"

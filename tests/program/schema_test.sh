@@ -5,10 +5,11 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 program=${LACUNA_PROGRAM:?}
+bench=${LACUNA_BENCH_PROGRAM:?}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$program" synth surface "$work/torus.ply" --kind torus --points 20000 --holes 3 >/dev/null
+"$bench" synth surface "$work/torus.ply" --kind torus --points 20000 --holes 3 >/dev/null
 printf '0 0 0\n1 0 0\nnan 0 0\n' >"$work/few.xyz"
 printf '%s\n' "$work/torus.ply" "$work/few.xyz pose=5 0 0 0 0 0 1" >"$work/list"
 "$program" detect "$work/torus.ply" --out "$work/one" --quiet
@@ -17,7 +18,7 @@ printf '%s\n' "$work/torus.ply" "$work/few.xyz pose=5 0 0 0 0 0 1" >"$work/list"
 "$program" detect "$work/few.xyz" --out "$work/none" --quiet 2>/dev/null
 "$program" detect "$work/torus.ply" --out "$work/local" --quiet --local-coordinates
 
-"$program" synth scan "$work/room.ply" --points 60000 >/dev/null
+"$bench" synth scan "$work/room.ply" --points 60000 >/dev/null
 "$program" detect "$work/room.ply" --out "$work/room" --quiet --stations "$work/room.stations.txt"
 "$program" detect "$work/room.ply" --out "$work/room_tiled" --quiet --stations "$work/room.stations.txt" --threads 3 --tile-points 900 --memory-limit 100MiB
 cmp "$work/room/holes.json" "$work/room_tiled/holes.json"

@@ -184,8 +184,9 @@ TEST_CASE("without a way to degrees, next_stations.geojson has the coordinates o
 TEST_CASE("find-stations lists stations that detect reads, and says which files have none", "[program]") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "plant.ply").string(), list = (scratch / "list.txt").string();
-  REQUIRE(run_program({"synth", "scan", scan, "--scene", "plant", "--stations", "2", "--points", "200000"})
-              .exit_code == 0);
+  REQUIRE(
+      test::run_bench({"synth", "scan", scan, "--scene", "plant", "--stations", "2", "--points", "200000"})
+          .exit_code == 0);
   const std::string flat = scratch.write("flat.xyz", "1 2 3\n2 2 3\n");
   const ProgramResult found = run_program({"find-stations", scan, flat});
   CHECK(found.exit_code == 0);
@@ -203,8 +204,8 @@ TEST_CASE("find-stations lists stations that detect reads, and says which files 
 TEST_CASE("a trajectory is one station with the length of its path", "[program]") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "street.ply").string(), out = (scratch / "out").string();
-  REQUIRE(run_program({"synth", "scan", scan, "--scene", "street", "--stations", "1", "--drive", "--points",
-                       "200000"})
+  REQUIRE(test::run_bench({"synth", "scan", scan, "--scene", "street", "--stations", "1", "--drive",
+                           "--points", "200000"})
               .exit_code == 0);
   const std::string path = (scratch / "street.trajectory.txt").string();
   REQUIRE(run_program({"detect", scan, "--stations", path, "--out", out, "--quiet"}).exit_code == 0);

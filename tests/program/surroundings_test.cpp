@@ -300,7 +300,8 @@ TEST_CASE("control characters of files and their names never reach the terminal,
                         scratch.write("key.toml",
                                       "[criteria]\n\"\\u001b\\u009b\\u0007 Gr\xc3\xb6\xc3\x9f"
                                       "e\" = 1\n")}));
-  is_clean(run_program({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
+  is_clean(
+      test::run_bench({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
 
   // What other programs read keeps the name.
   const std::string header = test::read_file(scratch / evil / "out" / "holes.json");

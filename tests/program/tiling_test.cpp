@@ -16,8 +16,9 @@ struct Files {
 };
 
 Files detect_files(const std::string& scan, const fs::path& out, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"detect",  scan,       "--out",     out.string(),
-                                        "--quiet", "--points", "--normals", "--orient-normals"};
+  std::vector<std::string> arguments = {
+      "detect",          scan,  "--out",     out.string(),      "--quiet", "--points",
+      "--points-format", "ply", "--normals", "--orient-normals"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const test::ProgramResult result = test::run_program(arguments);
   INFO(result.err);
@@ -34,11 +35,10 @@ Files detect_files(const std::string& scan, const fs::path& out, const std::vect
 TEST_CASE("points.ply, boundary.ply, loops.ply and the records of holes.json are the same for every tiling") {
   const test::ScratchFolder scratch;
   const std::string surface = (scratch / "surface.ply").string(), room = (scratch / "room.ply").string();
-  REQUIRE(
-      test::run_program({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius",
-                         "3", "6", "--density-step", "4", "--noise", "0.05", "--order", "random"})
-          .exit_code == 0);
-  REQUIRE(test::run_program({"synth", "scan", room, "--points", "15000", "--seed", "5"}).exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius",
+                           "3", "6", "--density-step", "4", "--noise", "0.05", "--order", "random"})
+              .exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "scan", room, "--points", "15000", "--seed", "5"}).exit_code == 0);
   for (const std::string& scan : {surface, room}) {
     const Files one = detect_files(scan, scratch / "one", {"--tile-points", "1000000", "--threads", "1"});
     for (const std::vector<std::string>& more :

@@ -66,7 +66,7 @@ TEST_CASE("plan, work and finish give the files of detect") {
   REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--normals", "--k", "14",
                        "--quiet"})
               .exit_code == 0);
-  CHECK(fs::exists(alone / "points.csv"));
+  CHECK(fs::exists(alone / "points" / "a.csv"));
   test::check_same_results(run.folder / "out", alone);
 }
 

@@ -23,8 +23,8 @@ using test::run_program;
 
 std::string make_surface(const test::ScratchFolder& scratch, const std::string& name) {
   const std::string scan = (scratch / name).string();
-  REQUIRE(run_program({"synth", "surface", scan, "--points", "12000", "--holes", "4", "--hole-radius", "3",
-                       "6", "--order", "random"})
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "12000", "--holes", "4", "--hole-radius",
+                           "3", "6", "--order", "random"})
               .exit_code == 0);
   return scan;
 }

@@ -91,7 +91,7 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
   CHECK(fs::exists(run.workspace / "level-0"));
   CHECK_FALSE(fs::exists(run.folder / "out"));
   CHECK_THAT(run_program({"status", run.workspace.string()}).out,
-             Contains("level 0: ") && Contains(" tiles evaluated"));
+             Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left"));
 }
 
 TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {
@@ -124,12 +124,13 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
   CHECK(failed >= 4);
 }
 
-TEST_CASE("another input is refused, and --restart begins anew") {
+TEST_CASE("another input is refused, and after clean the run begins anew") {
   const Run run;
   REQUIRE(run_program(run.kept()).exit_code == 0);
   run.folder.write("scan.txt", test::sheet(run.side - 1));
   check_failure(run_program(run.kept()), 1, "the workspace of another run: \"input: ");
-  REQUIRE(run_program(run.kept({"--restart"})).exit_code == 0);
+  REQUIRE(run_program({"clean", run.workspace.string()}).exit_code == 0);
+  REQUIRE(run_program(run.kept()).exit_code == 0);
   const fs::path without = run.folder / "without";
   REQUIRE(run_program(run.arguments(without)).exit_code == 0);
   run.is_as_without(without);
@@ -157,7 +158,6 @@ TEST_CASE("a workspace is a folder of its own, and of one run at a time") {
   fs::create_directory(out);
   check_failure(run_program(run.arguments(out, {"--workspace", out})), 2,
                 "is the folder of the results, too");
-  check_failure(run_program(run.arguments(out, {"--restart"})), 2, "--restart needs --workspace");
   fs::create_directory(run.workspace);
   const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
   REQUIRE(::flock(other, LOCK_EX) == 0);

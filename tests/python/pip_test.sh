@@ -22,4 +22,4 @@ assert {"py.typed", "_core.pyi", "lacuna_gis.so"} <= names, names
 print(lacuna.__version__)
 '
 cd "$OLDPWD"
-PYTHONPATH='' LACUNA_PROGRAM=$LACUNA_PROGRAM "$work/venv/bin/python" -m unittest test_lacuna
+PYTHONPATH='' LACUNA_PROGRAM=$LACUNA_PROGRAM LACUNA_BENCH_PROGRAM=$LACUNA_BENCH_PROGRAM "$work/venv/bin/python" -m unittest test_lacuna

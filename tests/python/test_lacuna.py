@@ -18,6 +18,7 @@ import numpy as np
 import lacuna
 
 PROGRAM = os.environ["LACUNA_PROGRAM"]
+BENCH_PROGRAM = os.environ["LACUNA_BENCH_PROGRAM"]
 
 
 def plane(n, holes=(), seed=1):
@@ -228,7 +229,7 @@ class Files(Folder):
         holes = lacuna.find_holes(SHEET, points=True, attributes={"red": np.arange(len(SHEET), dtype=np.uint8)})
         written = holes.save(self.folder / "out", obj=True, points=True)
         self.assertIn("loops.obj", [file.name for file in written])
-        self.assertIn(b"property uchar red", (self.folder / "out/points.ply").read_bytes()[:2000])
+        self.assertIn(b"property uchar red", (self.folder / "out/points/arrays.ply").read_bytes()[:2000])
         loaded = lacuna.load(self.folder / "out")
         self.assertTrue(same_loops(loaded, holes))
         for name in ("xyz", "area", "centroid", "is_outer", "points", "confidence"):
@@ -269,7 +270,7 @@ class Files(Folder):
 
     def test_causes_of_holes_where_stations_are_known(self):
         scan, stations = self.folder / "room.ply", self.folder / "room.stations.txt"
-        subprocess.run([PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([BENCH_PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(scan, stations=stations)
         causes = [loop.cause for loop in holes.loops]
         self.assertTrue({"hidden", "opening"} <= set(causes))
@@ -283,7 +284,7 @@ class Files(Folder):
         self.assertEqual({loop.cause for loop in lacuna.detect(scan).loops}, {None})
 
     def test_results_are_compared_with_the_truth_and_with_others(self):
-        subprocess.run([PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([BENCH_PROGRAM, "synth", "surface", self.folder / "s.ply", "--points", "20000", "--holes", "3"], check=True, stdout=subprocess.DEVNULL)
         holes = lacuna.detect(self.folder / "s.ply")
         score = lacuna.evaluate(holes, self.folder / "s.loops.txt")
         self.assertEqual((score["found"], score["true"], score["false"]), (4, 4, 0))

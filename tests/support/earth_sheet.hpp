@@ -15,8 +15,8 @@ namespace lacuna::test {
 // Writes it as text to "earth.txt". Returns that name.
 inline std::string write_earth_sheet(const ScratchFolder& scratch, const std::string& points = "12000") {
   const std::string surface = (scratch / "surface.ply").string();
-  REQUIRE(run_program({"synth", "surface", surface, "--points", points, "--holes", "4", "--hole-radius", "3",
-                       "6", "--order", "random"})
+  REQUIRE(test::run_bench({"synth", "surface", surface, "--points", points, "--holes", "4", "--hole-radius",
+                           "3", "6", "--order", "random"})
               .exit_code == 0);
   std::ostringstream text;
   text.precision(17);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/golden.hpp"
 
-#include "io/file_scan.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tests/support/skip.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/laz_version1.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/arithmetic_encoder.hpp"
 #include "io/laz/contexts.hpp"
 #include "io/laz/integer_coder.hpp"
 #include "io/laz/wrapped.hpp"
-#include "io/little_endian.hpp"
 
 #include <algorithm>
 #include <cmath>

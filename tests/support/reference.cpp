@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/reference.hpp"
 
-#include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/model/length_bins.hpp"
 #include "engine/run/error.hpp"
 #include "engine/simd/maths.hpp"
 
@@ -1134,7 +1134,8 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     const FoundLoop& loop = loops[i];
     const Shape shape = shape_of(loop);
     const double edge = edges[last[i]], width = 2 * shape.area / shape.length / loop.spacing,
-                 round = std::max(4 * pi * shape.area / shape.length / shape.length, std::min(0.5, width / 16));
+                 round =
+                     std::max(4 * pi * shape.area / shape.length / shape.length, std::min(0.5, width / 16));
     const double persistence = edge > loop.spacing ? octaves(edge / loop.spacing) : 0;
     odds[i] = 11.24 * loop.surface * std::max(above[i], below[i]) -
               1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -

@@ -65,23 +65,29 @@ ProgramResult run(std::vector<std::string> words, const std::function<void(pid_t
 
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& arguments) {
-  return run_program_beside(arguments, [](pid_t) {});
+ProgramResult run_program(const std::vector<std::string>& arguments, Program program) {
+  return run_program_beside(
+      arguments, [](pid_t) {}, program);
+}
+
+ProgramResult run_bench(const std::vector<std::string>& arguments) {
+  return run_program(arguments, Program::kBench);
 }
 
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
-                                const std::function<bool()>& moment) {
+                                const std::function<bool()>& moment, Program program) {
   bool sent = false;
-  return run_program_beside(arguments, [&](pid_t program) {
+  const auto send = [&](pid_t process) {
     if (sent || !moment()) return;
-    kill(program, signal);
+    kill(process, signal);
     sent = true;
-  });
+  };
+  return run_program_beside(arguments, send, program);
 }
 
 ProgramResult run_program_beside(const std::vector<std::string>& arguments,
-                                 const std::function<void(pid_t)>& meanwhile) {
-  std::vector<std::string> words = {LACUNA_PROGRAM};
+                                 const std::function<void(pid_t)>& meanwhile, Program program) {
+  std::vector<std::string> words = {program == Program::kBench ? LACUNA_BENCH_PROGRAM : LACUNA_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return run(std::move(words), meanwhile);
 }
@@ -98,16 +104,18 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   INFO(result.err);
   CHECK(result.exit_code == exit_code);
   CHECK(result.out.empty());
-  CHECK_THAT(result.err, Catch::Matchers::StartsWith("lacuna: error: ") && Catch::Matchers::Contains(named));
+  CHECK_THAT(result.err, Catch::Matchers::StartsWith("lacuna: error: ") ||
+                             Catch::Matchers::StartsWith("lacuna-bench: error: "));
+  CHECK_THAT(result.err, Catch::Matchers::Contains(named));
   CHECK(count_lines(result.err) == 1);
 }
 
 void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected) {
   for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"})
     CHECK(std::filesystem::exists(expected / name));
-  for (const auto& entry : std::filesystem::directory_iterator(expected)) {
-    const std::filesystem::path name = entry.path().filename();
-    if (name == "run.json") continue;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(expected)) {
+    const std::filesystem::path name = entry.path().lexically_relative(expected);
+    if (name == "run.json" || !entry.is_regular_file()) continue;
     INFO(name);
     CHECK((read_file(folder / name) == read_file(entry.path())));
   }

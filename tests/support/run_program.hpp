@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program `lacuna` as a user would, and catches what it says.
+// Runs `lacuna` and `lacuna-bench` as a user would, and catches what they print.
 #pragma once
 
 #include "tests/support/scratch_folder.hpp"
@@ -22,18 +22,22 @@ struct ProgramResult {
   std::uint64_t peak_memory = 0;  // bytes resident at most, looked at every millisecond
 };
 
-ProgramResult run_program(const std::vector<std::string>& arguments);
+enum class Program { kLacuna, kBench };
+
+ProgramResult run_program(const std::vector<std::string>& arguments, Program program = Program::kLacuna);
+ProgramResult run_bench(const std::vector<std::string>& arguments);  // lacuna-bench
 
 // Any command, searched for in PATH; exit code 126 if there is none.
 ProgramResult run_command(const std::vector<std::string>& words);
 
 // Sends `signal` as soon as `moment` returns true; without it, if the program ends first.
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
-                                const std::function<bool()>& moment);
+                                const std::function<bool()>& moment, Program program = Program::kLacuna);
 
 // Calls meanwhile(process) every millisecond until the program ends.
 ProgramResult run_program_beside(const std::vector<std::string>& arguments,
-                                 const std::function<void(pid_t)>& meanwhile);
+                                 const std::function<void(pid_t)>& meanwhile,
+                                 Program program = Program::kLacuna);
 
 std::size_t count_lines(const std::string& text);
 

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiled_scan.hpp"
 
-#include "engine/bucket/split.hpp"
+#include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
-#include "engine/levels/sealed_level.hpp"
+#include "engine/workspace/sealed_level.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <utility>
 
 namespace lacuna {
 namespace {
 
-TileStore make_store(PointSource& scan, SurveyedScan& survey, Job& job) {
-  const std::uint64_t points = survey.points - survey.dropped, tile_points = job.tile_points(points);
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, tile_points);
-  plan.cell_points = job.cell_points(points);
-  return bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), level_files(0, job), job);
+Level make_level(PointSource& scan, Job& job) {
+  SurveyedScan survey = survey_scan(scan, job);
+  TilePlan plan = plan_tiles(survey, std::nullopt, job);
+  TileStore store =
+      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), temporary_files(job), job);
+  const double extent = extent_of(survey.bounds);
+  return {.survey = std::move(survey), .extent = extent, .store = std::move(store), .represented = {}};
 }
 
 }  // namespace
@@ -29,23 +30,25 @@ TiledScan::TiledScan(const Cloud& cloud, const Config& config)
 TiledScan::TiledScan(PointSource& scan, const Config& given)
     : config(given),
       job(config, folder.path(), quiet),
-      survey(survey_scan(scan, job)),
-      store(make_store(scan, survey, job)) {}
+      level(make_level(scan, job)),
+      survey(level.survey),
+      store(level.store) {}
 
-Totals TiledScan::evaluate(std::vector<TileConsumer*> consumers) {
-  const double extent = survey.bounds.isEmpty() ? 0 : survey.bounds.diagonal().norm();
+TileOutputs TiledScan::evaluate(const std::vector<TileConsumer>& consumers) {
+  TileOutputs outputs(store.tiling(), std::nullopt, job);
   const std::vector<TileIndex> tiles = all_tiles();
-  Totals totals(extent);
-  std::mutex mutex;
-  evaluate_tiles(store, tiles, exchange_halo(store, tiles, job), config.neighbourhood.eps, extent, consumers,
-                 job,
-                 [&](TileIndex t, const TileOutput& output) {
-                   for (TileConsumer* const consumer : consumers) consumer->absorb(t, output);
-                   const std::lock_guard lock(mutex);
-                   totals.add(output);
-                 },
-                 {});
-  return totals;
+  evaluate_tiles(level, tiles, exchange_halo(store, tiles, job), consumers, outputs, job);
+  return outputs;
+}
+
+Totals TiledScan::totals(const TileOutputs& outputs) const {
+  return read_totals(outputs, store.tiling(), level.extent);
+}
+
+FoundLoops TiledScan::find_loops(BoundaryMethod& method, const TileOutputs& outputs) const {
+  method.complete_edges(outputs);
+  method.stitch(outputs, totals(outputs));
+  return method.find_loops(outputs);
 }
 
 std::vector<TileIndex> TiledScan::all_tiles() const {

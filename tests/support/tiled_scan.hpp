@@ -2,10 +2,12 @@
 // A cloud on its way through the passes, for tests of single passes.
 #pragma once
 
+#include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
 #include "engine/survey/survey_scan.hpp"
+#include "engine/thin/level.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -22,8 +24,11 @@ struct TiledScan {
   TiledScan(const TiledScan&) = delete;
   TiledScan& operator=(const TiledScan&) = delete;
 
-  // Every point evaluated, for these consumers.
-  Totals evaluate(std::vector<TileConsumer*> consumers);
+  // Evaluates every point, for these consumers.
+  TileOutputs evaluate(const std::vector<TileConsumer>& consumers);
+  Totals totals(const TileOutputs& outputs) const;
+  // All steps of a method behind the evaluation.
+  FoundLoops find_loops(BoundaryMethod& method, const TileOutputs& outputs) const;
 
   std::vector<TileIndex> all_tiles() const;
   std::map<PointId, Row> rows() const;  // of the stored points
@@ -34,8 +39,9 @@ struct TiledScan {
   Config config;
   NoProgress quiet;
   Job job;
-  SurveyedScan survey;  // without its cells
-  TileStore store;
+  Level level;
+  SurveyedScan& survey;  // without its cells
+  TileStore& store;
 };
 
 }  // namespace lacuna

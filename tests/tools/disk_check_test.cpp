@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/disk_check.hpp"
+#include "tools/run/disk_check.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run_needs.hpp"
 #include "io/results/result_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/run/run_costs.hpp"
 
+#include <filesystem>
 #include <map>
 
 #include <catch2/catch.hpp>
@@ -20,11 +21,14 @@ using Catch::Matchers::Contains;
 
 constexpr std::uint64_t kPoints = 10'000, kPlenty = 1 << 30;
 
+std::string header_of(std::uint64_t points) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +
+         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+}
+
 // A scan of 120,000 bytes.
 std::string ply() {
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kPoints) +
-         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n" +
-         std::string(kPoints * 12, '\1');
+  return header_of(kPoints) + std::string(kPoints * 12, '\1');
 }
 
 io::FilesConfig with_limit() {
@@ -41,9 +45,7 @@ struct Disks {
 };
 
 std::uint64_t workspace_bytes(const FileScan& scan, const io::FilesConfig& config) {
-  NoProgress silence;
-  const Job job(config, {}, silence);
-  return disk_needs(size_from_headers(scan, job), job).most;
+  return run_costs(scan, config, kPoints, kPoints).disk;
 }
 
 }  // namespace
@@ -74,7 +76,6 @@ TEST_CASE("workspace and results on one disk need space for both") {
   const FileScan scan({folder.write("scan.ply", ply())}, {});
   io::FilesConfig config = with_limit();
   config.results.points = true;
-  config.scale.every_point = true;  // levels need more of the workspace than the results do
   config.output.normals = true;
   const std::uint64_t workspace = workspace_bytes(scan, config);
   const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
@@ -98,6 +99,36 @@ TEST_CASE("a disk that cannot hold the annotated scan is an error before the run
   };
   CHECK(check(points).size() == 1);
   CHECK_THROWS_WITH(check(points - 1), Contains("out: ") && Contains("needs at least "));
+}
+
+TEST_CASE(
+    "a disk with less than half of what the run needs is an error before it, unless points may be left out") {
+  const ScratchFolder folder;
+  const FileScan scan({folder.write("scan.ply", ply())}, {});
+  io::FilesConfig config = with_limit();
+  const std::uint64_t half = workspace_bytes(scan, config) / 2;
+  const auto check = [&](std::uint64_t free) {
+    return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, free}}, {"out", {2, kPlenty}}}});
+  };
+  CHECK(check(half).size() == 1);
+  CHECK_THROWS_WITH(check(half - 1),
+                    Contains("ws: ") && Contains("needs at least ") && Contains("--scratch"));
+  config.input.drop_origin = true;
+  CHECK(check(half - 1).size() == 1);
+}
+
+TEST_CASE("more points than can ever fit in memory are an error before the run") {
+  constexpr std::uint64_t kMany = 6'000'000;
+  const ScratchFolder folder;
+  const std::string header = header_of(kMany), file = folder.write("scan.ply", header);
+  std::filesystem::resize_file(file, header.size() + kMany * 12);
+  const FileScan scan({file}, {});
+  io::FilesConfig config = with_limit();
+  config.run.memory_limit = 64 << 20;
+  config.neighbourhood.k = 1000;
+  const auto not_known = [](const auto&) { return std::nullopt; };
+  CHECK_THROWS_WITH(check_disks(scan, config, "ws", "out", not_known),
+                    Contains("is too small for 6000000 points"));
 }
 
 TEST_CASE("a disk whose space is not known is not checked") {

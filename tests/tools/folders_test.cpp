@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/folders.hpp"
+#include "tools/run/folders.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/input_files.hpp"
+#include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/support/scratch_folder.hpp"

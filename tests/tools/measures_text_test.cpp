@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/measures_text.hpp"
+#include "tools/console/measures_text.hpp"
 
-#include "tools/summary.hpp"
+#include "tools/commands/summary.hpp"
 
 #include <catch2/catch.hpp>
 

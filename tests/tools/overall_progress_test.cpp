@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/overall_progress.hpp"
+#include "tools/console/overall_progress.hpp"
 
 #include <algorithm>
 

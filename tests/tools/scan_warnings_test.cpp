@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/scan_warnings.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/io/las/las_file.hpp"
@@ -54,7 +54,7 @@ TEST_CASE("a file with another coordinate reference system than the first is a w
     const FileScan scan(inputs, {});
     const std::vector<std::string> warnings = input_warnings(scan);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Contains("b.las: its coordinate reference system is not that of the first file: "
+    CHECK_THAT(warnings[0], Contains("b.las: its coordinate reference system differs from the first file: "
                                      "EPSG:4258, not UTM 32N; results name none"));
     CHECK(scan.common_crs().empty());
   }
@@ -71,8 +71,8 @@ TEST_CASE("files without a system take that of the others, and one warning names
     CHECK(scan.common_crs() == kFeet);
     CHECK(scan.length_unit() == "ft");
     CHECK(input_warnings(scan) ==
-          Strings{b + ", and 1 more file: without a coordinate reference system; that of the other "
-                               "files holds, Oregon"});
+          Strings{b + ", and 1 more file: without a coordinate reference system; the system of the other "
+                      "files holds, Oregon"});
   }
   CHECK(input_warnings(FileScan({b, c}, {})).empty());
   // A pose puts its points into the coordinates of the others.
@@ -89,7 +89,7 @@ TEST_CASE("files in different units are a warning, and the scan has no unit") {
   const std::vector<std::string> warnings = input_warnings(scan);
   REQUIRE(warnings.size() == 2);
   CHECK_THAT(warnings[0], Contains("b.e57: without a coordinate reference system"));
-  CHECK_THAT(warnings[1], Contains("b.e57: its unit is m, not ft as that of ") && Contains("--unit"));
+  CHECK_THAT(warnings[1], Contains("b.e57: its unit is m, not ft as in ") && Contains("--unit"));
   // Systems that differ may have other units than the one that is known.
   const auto code = folder.write("c.las", las("EPSG:25832"));
   CHECK(FileScan({a, code}, {}).length_unit().empty());

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/shown_progress.hpp"
+#include "tools/console/shown_progress.hpp"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 namespace lacuna::tools {
 namespace {
@@ -40,17 +39,6 @@ TEST_CASE("the progress bar is shorter than the terminal is wide, whatever it sh
       }
     }
   }
-}
-
-TEST_CASE("progress for programs is JSON with what is not known as null") {
-  CHECK(
-      progress_json(evaluating()) ==
-      R"({"stage":"evaluate","done":3200000,"total":10000000,"share":0.379,"seconds":12.346,"seconds_left":41.2})");
-  const auto begun = nlohmann::json::parse(progress_json({.stage = "a \"stage\""}));
-  CHECK(begun.at("stage") == "a \"stage\"");
-  CHECK(begun.at("total").is_null());
-  CHECK(begun.at("seconds_left").is_null());
-  CHECK(begun.at("share") == 0);
 }
 
 }  // namespace

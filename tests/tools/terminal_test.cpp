@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/terminal.hpp"
+#include "tools/console/terminal.hpp"
 
-#include "tools/parameter_options.hpp"
-#include "tools/summary.hpp"
+#include "engine/run/disk_space.hpp"
+#include "tools/console/measures_text.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace lacuna::tools {
 namespace {
-
-using Words = std::vector<std::string>;
 
 TEST_CASE("durations read as a person would say them") {
   CHECK(print_duration(0.004) == "0.00 s");
@@ -27,15 +25,6 @@ TEST_CASE("counts have separators and sizes have units") {
   CHECK(print_size(1023) == "1023 bytes");
   CHECK(print_size(1536) == "1.5 KiB");
   CHECK(print_size(512ull << 20) == "512 MiB");
-}
-
-TEST_CASE("column names may follow one by one, or as one word") {
-  CHECK(join_columns({"detect", "a.txt", "--columns", "x", "y", "z", "--out", "d"}) ==
-        Words{"detect", "a.txt", "--columns=x y z", "--out", "d"});
-  CHECK(join_columns({"--columns", "x y z", "a.txt"}) == Words{"--columns=x y z", "a.txt"});
-  CHECK(join_columns({"--columns", "x", "y", "z", "--", "a.txt"}) == Words{"--columns=x y z", "--", "a.txt"});
-  CHECK(join_columns({"--columns"}) == Words{"--columns"});
-  CHECK(join_columns({"--", "--columns", "x"}) == Words{"--", "--columns", "x"});
 }
 
 }  // namespace

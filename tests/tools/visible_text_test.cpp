@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/visible_text.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include "engine/run/utf8.hpp"
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/boundary/paper/loops.hpp"
+#include "engine/boundary/paper/raw_loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
-#include "engine/loops/raw_loops.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/run/job.hpp"
 #include "engine/stitch/stitch.hpp"

@@ -3,6 +3,7 @@
 
 #include "engine/boundary/paper/component_loops.hpp"
 #include "engine/boundary/paper/partial_spanning.hpp"
+#include "engine/store/row_runs.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +20,12 @@ constexpr std::uint64_t kBytesPerEdge = 120;
 // Measured as well, for each vertex of a tile.
 constexpr std::uint64_t kBytesPerVertex = 280;
 
+// What a tile emits.
+constexpr RecordStream<LocalIndex> kBorder{"border"};      // points with foreign neighbours, ascending
+constexpr RecordStream<Strength> kStrengths{"strengths"};  // of these points
+constexpr RecordStream<TileEdge> kInside{"edges"};         // eligible ones
+constexpr RecordStream<StoredCrossing> kUndecided{"undecided crossings"};
+
 // Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
 std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
   return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
@@ -34,7 +41,7 @@ class TileVertices {
     for (LocalIndex v = 0; v < own_; ++v) {
       numbers_[own[v].owned] = v;
       rows_.push_back(tile.row(own[v].owned));
-      ids_.push_back(own[v].point.id);
+      ids_.push_back(own[v].point.point.id);
     }
     for (const EligibleCrossing& crossing : crossings) foreign_.push_back(crossing.foreign.row);
     std::sort(foreign_.begin(), foreign_.end());
@@ -61,15 +68,13 @@ class TileVertices {
 
 }  // namespace
 
-PaperBoundary::PaperBoundary(const TileStore& store, const Job& job)
-    : BoundaryMethod(
-          LoopPointLists(job.file("loop-points"), store.tiling().tiles.size(), job.memory.spills / 12)),
-      tiling_(store.tiling()),
-      inside_(job.file("edges"), tiling_.tiles.size(), job.memory.spills / 4),
-      undecided_(job.file("undecided-crossings"), tiling_.tiles.size(), job.memory.spills / 4),
-      crossings_(job.file("crossings"), tiling_.tiles.size(), job.memory.spills / 8),
+PaperBoundary::PaperBoundary(const Tiling& tiling, Job& job)
+    : tiling_(tiling),
+      job_(job),
+      config_(job.config.spanning),
+      crossings_(job.file("crossings"), tiling.tiles.size(), job.memory.spills / 8),
       strengths_(job.file("strengths")),
-      config_(job.config.spanning) {}
+      loops_(job.file("raw-loops")) {}
 
 void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   const auto strength = [&](LocalIndex p) {
@@ -82,34 +87,39 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
     border.push_back(p);
     strengths.push_back(strength(p));
   }
-  output.add("border", std::move(border));
-  output.add("strengths", std::move(strengths));
+  output.add(kBorder, border);
+  output.add(kStrengths, strengths);
   const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
-  output.add("edges", std::move(edges.inside));
+  output.add(kInside, edges.inside);
   std::vector<StoredCrossing> undecided;
   for (const Crossing& c : edges.crossings)
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
-  output.add("undecided crossings", std::move(undecided));
+  output.add(kUndecided, undecided);
 
   // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign
   // neighbours.
   std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
   for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
-  emit_loop_points(tile, is_end, output);
+  std::vector<StoredVertex> vertices;
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
+    if (is_end[p] != 0) vertices.push_back({p, loop_point_of(tile, p)});
+  }
+  output.add(kVertices, vertices);
 }
 
-void PaperBoundary::absorb(TileIndex tile, const TileOutput& output) {
-  write_rows<Strength>(strengths_, tiling_.tiles[tile], output.read<LocalIndex>("border"),
-                       output.read<Strength>("strengths"));
-  inside_.append(tile, output.read<TileEdge>("edges"));
-  undecided_.append(tile, output.read<StoredCrossing>("undecided crossings"));
-  absorb_loop_points(tile, output, loop_points_);
+void PaperBoundary::complete_edges(const TileOutputs& outputs) {
+  const std::size_t tiles = tiling_.tiles.size();
+  job_.arena.for_each(tiles, [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
+    std::vector<Row> rows;
+    for (const LocalIndex p : outputs.read(kBorder, t)) rows.push_back(tiling_.tiles[t].row(p));
+    write_rows<Strength>(strengths_, rows, outputs.read(kStrengths, t));
+  });
+  job_.arena.for_each(tiles, [&](std::size_t t) { decide_crossings(outputs, static_cast<TileIndex>(t)); });
 }
 
-// With Pi and r of both ends.
-void PaperBoundary::decide_crossings(TileIndex t) {
-  std::vector<StoredCrossing> undecided = undecided_.read(t);
-  undecided_.drop(t);
+void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
+  std::vector<StoredCrossing> undecided = outputs.read(kUndecided, t);
   std::sort(undecided.begin(), undecided.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
@@ -129,25 +139,23 @@ void PaperBoundary::decide_crossings(TileIndex t) {
 }
 
 // Finds the loops that nothing outside of the tile has to do with. What may matter elsewhere goes on.
-void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>& stitch, FoundLoops& found,
-                              Job& job) {
+void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
   const Tile& tile = tiling_.tiles[t];
-  std::vector<WeightedEdge> edges = inside_.read(t);
-  inside_.drop(t);
+  std::vector<WeightedEdge> edges = outputs.read(kInside, t);
   const std::vector<EligibleCrossing> crossings = crossings_.read(t);
   crossings_.drop(t);
   if (edges.empty() && crossings.empty()) return;
-  const TileVertices vertices(tile, loop_points_.read(t), crossings);
+  const TileVertices vertices(tile, outputs.read(kVertices, t), crossings);
   for (WeightedEdge& edge : edges) edge = {vertices.own(edge.a), vertices.own(edge.b), edge.weight};
   for (const EligibleCrossing& crossing : crossings)
     edges.push_back({vertices.own(crossing.owned), vertices.foreign(crossing), crossing.weight});
-  std::atomic_ref(found.edges) += static_cast<std::uint64_t>(std::count_if(
+  std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
       edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().reports(edge); }));
 
-  Scratch scratch(job.workspace, job.memory.limit);
-  const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), e, scratch);
+  Scratch scratch(job_.workspace, job_.memory.limit);
+  const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), minimum_loop_, scratch);
   find_loops_of(
-      spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, found.loops);
+      spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, loops_);
   GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = spanned.links};
   for (const EligibleCrossing& c : crossings)
     part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
@@ -159,39 +167,37 @@ void PaperBoundary::span_tile(TileIndex t, std::int64_t e, Stitch<BoundaryEdge>&
   };
   pass_on(spanned.taken, 1);
   pass_on(spanned.undecided, 0);
-  stitch.add(t, std::move(part));
+  stitch_->add(t, part);
 }
 
-FoundLoops PaperBoundary::find_loops(const Totals& totals, Job& job) {
-  const std::int64_t e = minimum_loop(config_, totals.mean_neighbours());
-  FoundLoops found{.loops = RawLoops(job.file("raw-loops")), .minimum_loop = e};
-  Phase phase(job, "loops", 0);
-  const std::size_t tiles = tiling_.tiles.size();
-  job.arena.for_each(tiles, [&](std::size_t t) { decide_crossings(static_cast<TileIndex>(t)); });
-
-  Stitch<BoundaryEdge> stitch(tiles, kBytesPerEdge, job);
-  std::vector<std::uint64_t> needs(tiles);
-  for (std::size_t t = 0; t < tiles; ++t) {
-    needs[t] = (inside_.count(t) + crossings_.count(t)) * kBytesPerEdge +
-               loop_points_.count(t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
+void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
+  minimum_loop_ = minimum_loop(config_, totals.mean_neighbours());
+  stitch_.emplace(tiling_.tiles.size(), kBytesPerEdge, job_);
+  std::vector<std::uint64_t> needs(tiling_.tiles.size());
+  for (TileIndex t = 0; t < needs.size(); ++t) {
+    needs[t] = (outputs.count(kInside, t) + crossings_.count(t)) * kBytesPerEdge +
+               outputs.count(kVertices, t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
   }
-  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t t) {
-    span_tile(static_cast<TileIndex>(t), e, stitch, found, job);
-  });
-  stitch.for_each_component(
+  job_.arena.for_each_within_budget(needs, job_.memory.global,
+                                    [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
+}
+
+FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
+  stitch_->for_each_component(
       [&](std::span<const BoundaryEdge> edges) {
         constexpr std::uint64_t kAsMuchAsItTakes = UINT64_MAX;
         const auto for_each_edge = [&](const auto& visit) {
           std::for_each(edges.begin(), edges.end(), visit);
         };
-        find_component_loops(for_each_edge, edges.size(), e, kAsMuchAsItTakes, job, found.loops);
+        find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, job_, loops_);
       },
       [&](const auto& for_each_edge, std::uint64_t count) {
-        find_component_loops(for_each_edge, count, e, job.memory.global / 4 * 3, job, found.loops);
+        find_component_loops(for_each_edge, count, minimum_loop_, job_.memory.global / 4 * 3, job_, loops_);
       });
-  found.components = stitch.components();
-  found.loops.sort();
-  return found;
+  return {.loops = loops_.with_points(outputs, tiling_, job_),
+          .edges = edges_,
+          .components = stitch_->components(),
+          .minimum_loop = minimum_loop_};
 }
 
 }  // namespace lacuna::paper

@@ -5,10 +5,13 @@
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/paper/eligible_edges.hpp"
+#include "engine/boundary/paper/raw_loops.hpp"
 #include "engine/stitch/stitch.hpp"
-#include "engine/store/tile_store.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/column.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace lacuna::paper {
 
@@ -36,26 +39,30 @@ struct EligibleCrossing {
 // spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
-  PaperBoundary(const TileStore& store, const Job& job);
+  PaperBoundary(const Tiling& tiling, Job& job);
 
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
-  void absorb(TileIndex tile, const TileOutput& output) override;
-  FoundLoops find_loops(const Totals& totals, Job& job) override;
-  // The coherent ones.
-  RowSet boundary_candidates(const Candidates&, const RowSet& coherent, const RowSet&, Job&) const override {
+  // Decides the edges between tiles, with Pi and r of both ends.
+  void complete_edges(const TileOutputs& outputs) override;
+  void stitch(const TileOutputs& outputs, const Totals& totals) override;
+  FoundLoops find_loops(const TileOutputs& outputs) override;
+  RowSet boundary_candidates(const TileOutputs&, const RowSet& coherent, const RowSet&) const override {
     return coherent;
   }
 
  private:
-  void decide_crossings(TileIndex tile);
-  void span_tile(TileIndex tile, std::int64_t e, Stitch<BoundaryEdge>& stitch, FoundLoops& found, Job& job);
+  void decide_crossings(const TileOutputs& outputs, TileIndex tile);
+  void span_tile(const TileOutputs& outputs, TileIndex tile);
 
   const Tiling& tiling_;
-  AppendLists<TileEdge> inside_;             // eligible ones, by tile
-  AppendLists<StoredCrossing> undecided_;    // by tile
+  Job& job_;
+  const SpanningConfig& config_;
   AppendLists<EligibleCrossing> crossings_;  // by tile
   Column<Strength> strengths_;               // by row, of points with foreign neighbours
-  const SpanningConfig& config_;
+  std::optional<Stitch<BoundaryEdge>> stitch_;
+  RawLoops loops_;
+  std::int64_t minimum_loop_ = 0;
+  std::uint64_t edges_ = 0;
 };
 
 }  // namespace lacuna::paper

@@ -2,13 +2,13 @@
 #include "engine/boundary/tangential/belt.hpp"
 
 #include "engine/boundary/tangential/radius_bound.hpp"
+#include "engine/model/neighbourhoods.hpp"
 #include "engine/store/outbox.hpp"
 #include "engine/store/row_runs.hpp"
 
 #include <array>
 #include <cmath>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace lacuna::tangential {
@@ -17,10 +17,10 @@ namespace {
 // A tile's belt points, and the rows of these and of their neighbours.
 class Belt {
  public:
-  Belt(const StarLists& lists, TileIndex t)
-      : points_(lists.belt.read(t)),
-        rows_(lists.belt_rows.read(t)),
-        neighbours_(lists.belt_neighbours.read(t)) {
+  Belt(const TileOutputs& outputs, TileIndex t)
+      : points_(outputs.read(kBelt, t)),
+        rows_(outputs.read(kBeltRows, t)),
+        neighbours_(outputs.read(kBeltNeighbours, t)) {
     queries_.reserve(points_.size());
     std::span<const LocalIndex> left = neighbours_;
     for (const BeltPoint& p : points_) {
@@ -67,8 +67,8 @@ void send_triangles(Row point, const Star<LocalIndex>& star, std::span<const Row
 
 }  // namespace
 
-void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config) {
-  const Belt belt(lists, t);
+void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& config) {
+  const Belt belt(exchange.outputs, t);
   std::vector<StarQuery> queries;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < belt.points().size(); ++i) {
@@ -76,8 +76,8 @@ void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config
     queries.push_back(belt.queries()[i]);
     rows.push_back(belt.rows()[queries.back().point]);
   }
-  const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
-  std::vector<StarSample> samples = read_rows(lists.samples, std::span<const Row>(rows));
+  const std::vector<Site> sites = read_rows(exchange.sites, belt.rows());
+  std::vector<StarSample> samples = read_rows(exchange.samples, std::span<const Row>(rows));
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t first, std::span<const FoundStar> stars) {
@@ -87,19 +87,19 @@ void sample_border(StarLists& lists, TileIndex t, const TangentialConfig& config
           samples[first + i].radii = smallest_radii(stars[i], config);
         }
       });
-  replace_rows(lists.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
+  replace_rows(exchange.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
 }
 
-void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const TangentialConfig& config) {
-  const Belt belt(lists, t);
-  const std::vector<Site> sites = read_rows(lists.sites, belt.rows());
-  const std::vector<StarSample> samples = read_rows(lists.samples, belt.rows());
+void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& config) {
+  const Belt belt(exchange.outputs, t);
+  const std::vector<Site> sites = read_rows(exchange.sites, belt.rows());
+  const std::vector<StarSample> samples = read_rows(exchange.samples, belt.rows());
   std::vector<Sampling> samplings;
   samplings.reserve(samples.size());
   for (const StarSample& sample : samples) samplings.push_back(sample.sampling);
   const std::span<const StarQuery> queries = belt.queries();
   OpenStars open;
-  Outbox<RemoteTriangle> outbox(lists.remote_triangles);
+  Outbox<RemoteTriangle> outbox(exchange.remote_triangles);
   RadiusBounder bounder(samplings, config);
   SamplingRadius sampling_radius;
   std::vector<LinkVertex<LocalIndex>> link;
@@ -124,27 +124,28 @@ void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex t, const Tan
           for (const LocalIndex q : query.neighbours) add_radii(q);
           float surface = 0;
           for (const LocalIndex q : query.neighbours) surface += samples[q].surface;
-          open.add(point.id, point.owned, bound, samplings[query.point].distance, sampling_radius,
+          open.add(point.point, point.owned, bound, samplings[query.point].distance, sampling_radius,
                    surface / static_cast<float>(query.neighbours.size()));
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);
-            open.add_vertex({belt.rows()[link[v].point],
-                             distance(sites[query.point], sites[link[v].point]),
-                             link[v].radius,
-                             {scale, scale != Scale::kNone}});
+            const LinkEnd end{belt.rows()[link[v].point], distance(sites[query.point], sites[link[v].point])};
+            open.add_vertex({.end = end,
+                             .radius = link[v].radius,
+                             .consistency = {.scale = scale, .is_undecided = scale != Scale::kNone}});
           }
-          send_triangles(belt.rows()[query.point], star, belt.rows(), tiling, t, outbox);
+          send_triangles(belt.rows()[query.point], star, belt.rows(), exchange.tiling, t, outbox);
         });
       });
-  lists.append_open(t, std::move(open));
+  exchange.add_belt_stars(t, open);
   outbox.send();
 }
 
-std::uint64_t belt_bytes(const StarLists& lists, TileIndex t) {
+std::uint64_t belt_bytes(const StarExchange& exchange, TileIndex t) {
   const std::uint64_t star =
       sizeof(StarQuery) + sizeof(BeltPoint) + sizeof(OpenStar) + 8 * sizeof(OpenLinkVertex);
-  return lists.belt.count(t) * star + lists.belt_neighbours.count(t) * sizeof(LocalIndex) +
-         lists.belt_rows.count(t) * (sizeof(Row) + sizeof(Site) + sizeof(StarSample) + sizeof(Sampling));
+  const TileOutputs& outputs = exchange.outputs;
+  return outputs.count(kBelt, t) * star + outputs.count(kBeltNeighbours, t) * sizeof(LocalIndex) +
+         outputs.count(kBeltRows, t) * (sizeof(Row) + sizeof(Site) + sizeof(StarSample) + sizeof(Sampling));
 }
 
 }  // namespace lacuna::tangential

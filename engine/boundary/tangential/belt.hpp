@@ -2,22 +2,21 @@
 // belt: the stars of a tile's border points and of their neighbours, which need what other tiles know.
 #pragma once
 
-#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/boundary/tangential/star_exchange.hpp"
 #include "engine/config/config.hpp"
-#include "engine/model/tiling.hpp"
 
 #include <cstdint>
 
 namespace lacuna::tangential {
 
-// Replaces the samples of a tile's border points. All sites are known.
-void sample_border(StarLists& lists, TileIndex tile, const TangentialConfig& config);
+// Replaces the samples of a tile's border points. The sites of all rows of its belt are published.
+void sample_border(StarExchange& exchange, TileIndex tile, const TangentialConfig& config);
 
 // Adds the stars of a tile's belt to its open ones. Each sends its triangles to the tiles of its foreign link
 // vertices. The samples of all points of the belt's rows are known.
-void measure_belt(StarLists& lists, const Tiling& tiling, TileIndex tile, const TangentialConfig& config);
+void measure_belt(StarExchange& exchange, TileIndex tile, const TangentialConfig& config);
 
 // Memory that either takes.
-std::uint64_t belt_bytes(const StarLists& lists, TileIndex tile);
+std::uint64_t belt_bytes(const StarExchange& exchange, TileIndex tile);
 
 }  // namespace lacuna::tangential

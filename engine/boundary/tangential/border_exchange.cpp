@@ -4,21 +4,20 @@
 #include "engine/boundary/tangential/belt.hpp"
 #include "engine/boundary/tangential/growth.hpp"
 #include "engine/run/rounds.hpp"
+#include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
 #include <set>
-#include <span>
-#include <vector>
 
 namespace lacuna::tangential {
 namespace {
 
 // A tile whose active points grow, or whose wedges are known then.
 struct GrowingTile {
-  GrowingTile(StarLists& lists, const Tiling& tiling, TileIndex t, std::span<const std::uint8_t> is_measured)
-      : open(lists.read_open(t)),
-        triangles(lists.remote_triangles.read(t)),
-        growth(tiling, t, is_measured, lists.active, open, sorted(triangles)) {}
+  GrowingTile(StarExchange& stars, TileIndex t, std::span<const std::uint8_t> is_measured)
+      : open(stars.open_stars(t)),
+        triangles(stars.remote_triangles.read(t)),
+        growth(stars.tiling, t, is_measured, stars.active, open, sorted(triangles)) {}
 
   static std::span<const RemoteTriangle> sorted(std::vector<RemoteTriangle>& triangles) {
     std::sort(triangles.begin(), triangles.end());
@@ -30,108 +29,107 @@ struct GrowingTile {
   Growth growth;
 };
 
-std::uint64_t growing_bytes(const StarLists& lists, const Tile& tile, TileIndex t) {
-  return lists.open_stars.count(t) * 2 * sizeof(OpenStar) +
-         lists.open_vertices.count(t) * 2 * sizeof(OpenLinkVertex) +
-         lists.remote_triangles.count(t) * sizeof(RemoteTriangle) + tile.points * sizeof(LocalIndex);
+// Those of `tiles` that are not marked.
+std::vector<TileIndex> without_marked(std::span<const TileIndex> tiles, std::span<const std::uint8_t> marks) {
+  std::vector<TileIndex> unmarked;
+  for (const TileIndex t : tiles) {
+    if (marks[t] == 0) unmarked.push_back(t);
+  }
+  return unmarked;
 }
-
-class BorderExchange {
- public:
-  BorderExchange(StarLists& lists, const Tiling& tiling, Job& job)
-      : lists_(lists),
-        tiling_(tiling),
-        job_(job),
-        is_sampled_(tiling.tiles.size()),
-        is_measured_(tiling.tiles.size()) {}
-
-  void run() {
-    Rounds rounds(tiling_.tiles.size());
-    const std::vector<TileIndex> all(rounds.tiles().begin(), rounds.tiles().end());
-    for (; !rounds.tiles().empty(); rounds.next()) {
-      const std::vector<TileIndex> tiles = with_neighbours(rounds.tiles());
-      measure(tiles);
-      for_each_growing(tiles, [&](TileIndex t) {
-        if (is_measured_[t]) grow(t, rounds);
-      });
-    }
-    for_each_growing(all, [&](TileIndex t) {
-      lists_.wedges.append(
-          t, GrowingTile(lists_, tiling_, t, is_measured_).growth.wedges(job_.config.tangential));
-      lists_.drop(t);
-    });
-  }
-
- private:
-  // These tiles and all that they border on.
-  std::vector<TileIndex> with_neighbours(std::span<const TileIndex> tiles) const {
-    std::set<TileIndex> all;
-    for (const TileIndex t : tiles) all.insert(lists_.around[t].begin(), lists_.around[t].end());
-    return {all.begin(), all.end()};
-  }
-
-  // The belts of tiles with an active belt point. Others stay as they are: on clean scans, most do.
-  void measure(std::span<const TileIndex> tiles) {
-    std::vector<std::uint8_t> has_active(tiles.size());
-    job_.arena.for_each(tiles.size(), [&](std::size_t i) {
-      has_active[i] = !is_measured_[tiles[i]] && has_active_belt(tiles[i]);
-    });
-    std::vector<TileIndex> to_measure, to_sample;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-      if (has_active[i]) to_measure.push_back(tiles[i]);
-    }
-    for (const TileIndex t : with_neighbours(to_measure)) {
-      if (!is_sampled_[t]) to_sample.push_back(t);
-    }
-    const TangentialConfig& config = job_.config.tangential;
-    const auto bytes = [&](TileIndex t) { return belt_bytes(lists_, t); };
-    for_each(to_sample, bytes, [&](TileIndex t) { sample_border(lists_, t, config); });
-    for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(lists_, tiling_, t, config); });
-    for (const TileIndex t : to_sample) is_sampled_[t] = 1;
-    for (const TileIndex t : to_measure) is_measured_[t] = 1;
-  }
-
-  bool has_active_belt(TileIndex t) const {
-    const std::vector<Row> rows = lists_.belt_rows.read(t);
-    return std::any_of(rows.begin(), rows.end(),
-                       [&](Row row) { return tiling_.tiles[t].owns(row) && lists_.active.contains(row); });
-  }
-
-  // Requests the tiles of points that become active, where another tile has to know of it.
-  void grow(TileIndex t, Rounds& rounds) {
-    const Tile& tile = tiling_.tiles[t];
-    GrowingTile growing(lists_, tiling_, t, is_measured_);
-    growing.growth.find_active_points([&](Row row) {
-      if (tile.owns(row) && !has_remote_triangle(growing.triangles, tile.local(row))) return;
-      const TileIndex owner = tiling_.tile_of_row(row);
-      rounds.request({&owner, 1});
-    });
-  }
-
-  template <class Step>
-  void for_each_growing(std::span<const TileIndex> tiles, Step&& step) {
-    for_each(
-        tiles, [&](TileIndex t) { return growing_bytes(lists_, tiling_.tiles[t], t); }, step);
-  }
-
-  template <class Bytes, class Step>
-  void for_each(std::span<const TileIndex> tiles, Bytes&& bytes, Step&& step) {
-    std::vector<std::uint64_t> needs;
-    needs.reserve(tiles.size());
-    for (const TileIndex t : tiles) needs.push_back(bytes(t));
-    job_.arena.for_each_within_budget(needs, job_.memory.global, [&](std::size_t i) { step(tiles[i]); });
-  }
-
-  StarLists& lists_;
-  const Tiling& tiling_;
-  Job& job_;
-  std::vector<std::uint8_t> is_sampled_, is_measured_;  // by tile
-};
 
 }  // namespace
 
-void exchange_borders(StarLists& lists, const Tiling& tiling, Job& job) {
-  BorderExchange(lists, tiling, job).run();
+BorderExchange::BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job)
+    : job_(job),
+      stars_(outputs, tiling, job),
+      is_published_(tiling.tiles.size()),
+      is_sampled_(tiling.tiles.size()),
+      is_measured_(tiling.tiles.size()) {}
+
+void BorderExchange::find_active_points() {
+  for (Rounds rounds(stars_.tiling.tiles.size()); !rounds.tiles().empty(); rounds.next()) {
+    const std::vector<TileIndex> tiles = with_neighbours(rounds.tiles());
+    measure(tiles);
+    for_each(
+        tiles, [&](TileIndex t) { return growing_bytes(t); },
+        [&](TileIndex t) {
+          if (is_measured_[t] != 0) grow(t, rounds);
+        });
+  }
+}
+
+std::vector<Wedge> BorderExchange::wedges(TileIndex tile) {
+  std::vector<Wedge> wedges = stars_.outputs.read(kWedges, tile);
+  const std::vector<Wedge> open =
+      GrowingTile(stars_, tile, is_measured_).growth.wedges(job_.config.tangential);
+  wedges.insert(wedges.end(), open.begin(), open.end());
+  merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.row < b.row; });
+  return wedges;
+}
+
+// A star has no more wedges at a scale than half of its link vertices.
+std::uint64_t BorderExchange::most_wedges(TileIndex tile) const {
+  return stars_.outputs.count(kWedges, tile) + stars_.open_vertex_count(tile);
+}
+
+std::uint64_t BorderExchange::growing_bytes(TileIndex tile) const {
+  return stars_.open_star_count(tile) * 2 * sizeof(OpenStar) +
+         stars_.open_vertex_count(tile) * 2 * sizeof(OpenLinkVertex) +
+         stars_.remote_triangles.count(tile) * sizeof(RemoteTriangle) +
+         stars_.tiling.tiles[tile].points * sizeof(LocalIndex);
+}
+
+// These tiles and all that they border on.
+std::vector<TileIndex> BorderExchange::with_neighbours(std::span<const TileIndex> tiles) const {
+  std::set<TileIndex> all;
+  for (const TileIndex t : tiles) all.insert(stars_.around[t].begin(), stars_.around[t].end());
+  return {all.begin(), all.end()};
+}
+
+// Measures the belts of tiles with an active belt point. On clean scans, most tiles have none.
+void BorderExchange::measure(std::span<const TileIndex> tiles) {
+  std::vector<std::uint8_t> is_inactive(is_measured_);
+  job_.arena.for_each(tiles.size(), [&](std::size_t i) {
+    if (!has_active_belt(tiles[i])) is_inactive[tiles[i]] = 1;
+  });
+  const std::vector<TileIndex> to_measure = without_marked(tiles, is_inactive);
+  const std::vector<TileIndex> to_sample = without_marked(with_neighbours(to_measure), is_sampled_);
+  const std::vector<TileIndex> to_publish = without_marked(with_neighbours(to_sample), is_published_);
+  const TangentialConfig& config = job_.config.tangential;
+  const auto bytes = [&](TileIndex t) { return belt_bytes(stars_, t); };
+  for_each(to_publish, bytes, [&](TileIndex t) { stars_.publish(t); });
+  for_each(to_sample, bytes, [&](TileIndex t) { sample_border(stars_, t, config); });
+  for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(stars_, t, config); });
+  for (const TileIndex t : to_publish) is_published_[t] = 1;
+  for (const TileIndex t : to_sample) is_sampled_[t] = 1;
+  for (const TileIndex t : to_measure) is_measured_[t] = 1;
+}
+
+bool BorderExchange::has_active_belt(TileIndex t) const {
+  const std::vector<Row> rows = stars_.outputs.read(kBeltRows, t);
+  return std::any_of(rows.begin(), rows.end(), [&](Row row) {
+    return stars_.tiling.tiles[t].owns(row) && stars_.active.contains(row);
+  });
+}
+
+// Requests the tiles of points that become active, where another tile has to know of it.
+void BorderExchange::grow(TileIndex t, Rounds& rounds) {
+  const Tile& tile = stars_.tiling.tiles[t];
+  GrowingTile growing(stars_, t, is_measured_);
+  growing.growth.find_active_points([&](Row row) {
+    if (tile.owns(row) && !has_remote_triangle(growing.triangles, tile.local(row))) return;
+    const TileIndex owner = stars_.tiling.tile_of_row(row);
+    rounds.request({&owner, 1});
+  });
+}
+
+template <class Bytes, class Step>
+void BorderExchange::for_each(std::span<const TileIndex> tiles, Bytes&& bytes, Step&& step) {
+  std::vector<std::uint64_t> needs;
+  needs.reserve(tiles.size());
+  for (const TileIndex t : tiles) needs.push_back(bytes(t));
+  job_.arena.for_each_within_budget(needs, job_.memory.global, [&](std::size_t i) { step(tiles[i]); });
 }
 
 }  // namespace lacuna::tangential

@@ -2,17 +2,47 @@
 // The stars of the belts, between tiles.
 #pragma once
 
-#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/boundary/tangential/star_exchange.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+class Rounds;
+}
 
 namespace lacuna::tangential {
 
-// Completes the wedges of all tiles, once each has taken its own stars. Consumes all lists but the wedges and
-// the active points.
+// Finds the active points, and with them the wedges, that depend on several tiles.
 //
 // Active points are a least fixed point (method.md, C.4). So tiles may grow them in any order, and again
 // while a neighbouring tile has new ones. A tile takes part once a point of its belt is active. Then its belt
 // is measured, after the borders of the tiles around it are sampled. Cost: the stars of these belts, and the
 // open stars once in each round.
-void exchange_borders(StarLists& lists, const Tiling& tiling, Job& job);
+class BorderExchange {
+ public:
+  BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job);
+
+  // Finds all active points.
+  void find_active_points();
+
+  // All wedges of a tile, in ascending row, once all active points are found. From any thread.
+  std::vector<Wedge> wedges(TileIndex tile);
+  std::uint64_t most_wedges(TileIndex tile) const;
+  std::uint64_t growing_bytes(TileIndex tile) const;  // memory that finding them takes
+
+ private:
+  std::vector<TileIndex> with_neighbours(std::span<const TileIndex> tiles) const;
+  void measure(std::span<const TileIndex> tiles);
+  bool has_active_belt(TileIndex tile) const;
+  void grow(TileIndex tile, Rounds& rounds);
+  template <class Bytes, class Step>
+  void for_each(std::span<const TileIndex> tiles, Bytes&& bytes, Step&& step);
+
+  Job& job_;
+  StarExchange stars_;
+  std::vector<std::uint8_t> is_published_, is_sampled_, is_measured_;  // by tile
+};
 
 }  // namespace lacuna::tangential

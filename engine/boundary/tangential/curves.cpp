@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/curves.hpp"
 
-#include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/evaluate/totals.hpp"
 #include "engine/store/row_numbers.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -19,17 +19,17 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
   return forwards ? (start + i) % count : (start + count - i) % count;
 }
 
-// The rows that a curve passes more than once, ascending.
-std::span<const Row> repeated_rows(std::span<const CurvePoint> curve, Scratch& scratch) {
-  SortedRuns<Row> rows(scratch.folder() / "curve-rows", scratch.budget() / 4);
-  scratch.for_each(curve, [&](const CurvePoint& p) { rows.add(p.vertex.row); });
-  const std::span<Row> repeated = scratch.array<Row>(curve.size() / 2);
+// The points that a curve passes more than once, ascending.
+std::span<const PointId> repeated_points(std::span<const CurvePoint> curve, Scratch& scratch) {
+  SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
+  scratch.for_each(curve, [&](const CurvePoint& p) { ids.add(p.id()); });
+  const std::span<PointId> repeated = scratch.array<PointId>(curve.size() / 2);
   std::size_t count = 0;
-  std::optional<Row> before;
-  rows.for_each([&](Row row) {
-    scratch.trim(sizeof(Row));
-    if (before == row && (count == 0 || repeated[count - 1] != row)) repeated[count++] = row;
-    before = row;
+  std::optional<PointId> before;
+  ids.for_each([&](PointId id) {
+    scratch.trim(sizeof(PointId));
+    if (before == id && (count == 0 || repeated[count - 1] != id)) repeated[count++] = id;
+    before = id;
   });
   return repeated.first(count);
 }
@@ -39,10 +39,10 @@ std::span<const Row> repeated_rows(std::span<const CurvePoint> curve, Scratch& s
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   RowNumbers points;
   points.collect(wedges.size(), [&](auto&& add) {
-    for (const Wedge& wedge : wedges) add(wedge.point.row);
+    for (const Wedge& wedge : wedges) add(wedge.row);
   });
   std::vector<LocalIndex> begins(points.size() + 1);  // of each point's wedges
-  for (const Wedge& wedge : wedges) ++begins[points.number(wedge.point.row) + 1];
+  for (const Wedge& wedge : wedges) ++begins[points.number(wedge.row) + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
   // The wedge at `point` with an edge to `neighbour`: at each scale there is at most one.
@@ -57,8 +57,7 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   std::vector<WedgePartners> partners;
   partners.reserve(wedges.size());
   for (const Wedge& wedge : wedges)
-    partners.push_back(
-        {find(wedge.from, wedge.point.row, wedge.scale), find(wedge.to, wedge.point.row, wedge.scale)});
+    partners.push_back({find(wedge.from, wedge.row, wedge.scale), find(wedge.to, wedge.row, wedge.scale)});
   return partners;
 }
 
@@ -78,7 +77,7 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
         visit({numbers, next != kNoIndex, first_side, side});
         return;
       }
-      side = wedges[next].from == wedges[at].point.row ? 1 : 0;
+      side = wedges[next].from == wedges[at].row ? 1 : 0;
       at = next;
     }
   };
@@ -104,16 +103,16 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
     for (std::size_t i = 0; i < count; ++i) {
-      const PointId of_a = at(a, i).vertex.id, of_b = at(b, i).vertex.id;
+      const PointId of_a = at(a, i).id(), of_b = at(b, i).id();
       if (of_a != of_b) return of_a < of_b;
     }
     return false;
   };
-  PointId least = curve.front().vertex.id;
-  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.vertex.id); });
+  PointId least = curve.front().id();
+  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.id()); });
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
-    if (at({start, true}, 0).vertex.id != least) continue;
+    if (at({start, true}, 0).id() != least) continue;
     for (const bool forwards : {true, false}) {
       const Way way{start, forwards};
       if (!best || comes_first(way, *best)) best = way;
@@ -126,18 +125,17 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
                       const std::function<void(std::span<const CurvePoint>)>& visit) {
   const std::span<CurvePoint> whole = scratch.array<CurvePoint>(curve.size());
   normalise(curve, whole, scratch);
-  const std::span<const Row> repeated = repeated_rows(curve, scratch);
+  const std::span<const PointId> repeated = repeated_points(curve, scratch);
   if (repeated.empty()) {
     visit(whole);
     return;
   }
-  // For each repeated row: 1 + the place on the path, or 0 if it is not on it.
+  // For each repeated point: 1 + the place on the path, or 0 if it is not on it.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
-    const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.vertex.row);
-    return at != repeated.end() && *at == p.vertex.row
-               ? &places[static_cast<std::size_t>(at - repeated.begin())]
-               : nullptr;
+    const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id());
+    return at != repeated.end() && *at == p.id() ? &places[static_cast<std::size_t>(at - repeated.begin())]
+                                                 : nullptr;
   };
   const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
                               turned = scratch.array<CurvePoint>(curve.size());

@@ -5,7 +5,6 @@
 
 #include "engine/boundary/tangential/wedge.hpp"
 #include "engine/config/config.hpp"
-#include "engine/loops/raw_loops.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>
@@ -18,8 +17,10 @@ namespace lacuna::tangential {
 
 // A point of a curve. A point with several wedges is on several curves, or several times on one.
 struct CurvePoint {
-  Vertex vertex;
+  StoredLoopPoint point;
   WedgeEvidence evidence;
+
+  PointId id() const { return point.point.id; }
 };
 
 // The wedges of the same scale at the other ends of a wedge's two boundary edges, `from` first; kNoIndex: not

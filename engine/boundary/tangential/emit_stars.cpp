@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/emit_stars.hpp"
 
+#include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/tangential/active_points.hpp"
 
 #include <algorithm>
@@ -78,11 +79,10 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
   return marks;
 }
 
-// Wedges where all triangles are decided; else the star stays open. Returns which points have any of these.
-std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii,
-                                      const TangentialConfig& config, TileOutput& output) {
+// Wedges where all triangles are decided; else the star stays open.
+void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii,
+                 const TangentialConfig& config, TileOutput& output) {
   const std::vector<Row>& rows = tile.points.rows;
-  std::vector<std::uint8_t> is_vertex(tile.points.owned);
   std::vector<LocalIndex> active;
   std::vector<Wedge> wedges;
   OpenStars open;
@@ -92,34 +92,29 @@ std::vector<std::uint8_t> emit_wedges(const EvaluatedTile& tile, const TileStars
     if (!is_measured(state)) continue;
     const auto star = found.stars[p];
     const auto consistencies = found.stars.consistencies_of(p);
-    const auto row = [&](std::size_t i) { return rows[star.link[i].point]; };
-    const auto length = [&](std::size_t i) {
-      return std::sqrt(squared_distance(tile.points.positions[star.link[i].point], tile.points.positions[p]));
+    const auto end = [&](std::size_t i) {
+      const LocalIndex q = star.link[i].point;
+      return LinkEnd{rows[q],
+                     std::sqrt(squared_distance(tile.points.positions[q], tile.points.positions[p]))};
     };
+    const double distance = found.samplings[p].distance;
     if (state == PointState::kMaybeActive || is_any_undecided(consistencies)) {
-      is_vertex[p] = 1;
-      open.add(tile.points.ids[p], p, star.bound, found.samplings[p].distance, radii.around(p),
-               radii.surface_around(p));
+      open.add(loop_point_of(tile, p), p, star.bound, distance, radii.around(p), radii.surface_around(p));
       for (std::size_t i = 0; i < star.size(); ++i)
-        open.add_vertex({row(i), length(i), star.link[i].radius, consistencies[i]});
+        open.add_vertex({.end = end(i), .radius = star.link[i].radius, .consistency = consistencies[i]});
     } else if (is_any_inconsistent(consistencies)) {
-      is_vertex[p] = 1;
-      const double distance = found.samplings[p].distance;
-      SamplingRadius* around = nullptr;  // for the first wedge: some points have none
-      const auto sampling_radius = [&](Scale scale) {
-        if (around == nullptr) around = &radii.around(p);
-        return around->within(star.bound.at(scale) * distance);
+      const auto around = [&](Scale scale) {
+        return StarSurroundings{radii.around(p).within(star.bound.at(scale) * distance),
+                                radii.surface_around(p)};
       };
-      const auto surface = [&] { return radii.surface_around(p); };
-      add_wedges(tile.vertex(p), star, consistencies, distance, sampling_radius, surface, row, length, config,
+      add_wedges({loop_point_of(tile, p), rows[p], distance}, star, consistencies, around, end, config,
                  wedges);
     }
   }
-  output.add("active", std::move(active));
-  output.add("open stars", std::move(open.stars));
-  output.add("open vertices", std::move(open.vertices));
-  output.add("wedges", std::move(wedges));
-  return is_vertex;
+  output.add(kActive, active);
+  output.add(kOpenStars, open.stars);
+  output.add(kOpenVertices, open.vertices);
+  output.add(kWedges, wedges);
 }
 
 // The belt, and the sites and samplings that its stars need, here and in other tiles.
@@ -145,7 +140,7 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     if (!is_in_belt(found.states[p])) continue;
     const Eigen::Vector3d& normal = tile.evaluations[p].normal;
-    belt.push_back({.id = tile.points.ids[p],
+    belt.push_back({.point = loop_point_of(tile, p),
                     .owned = p,
                     .place = place[p],
                     .neighbours = static_cast<std::uint32_t>(tile.neighbourhoods[p].size()),
@@ -153,9 +148,9 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
                     .is_border = found.states[p] == PointState::kBorder});
     for (const LocalIndex q : tile.neighbourhoods[p]) neighbours.push_back(place[q]);
   }
-  output.add("belt", std::move(belt));
-  output.add("belt rows", std::move(rows));
-  output.add("belt neighbours", std::move(neighbours));
+  output.add(kBelt, belt);
+  output.add(kBeltRows, rows);
+  output.add(kBeltNeighbours, neighbours);
 
   std::vector<LocalIndex> owned;
   std::vector<Site> sites;
@@ -166,38 +161,19 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
     sites.push_back(site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]));
     samples.push_back({found.samplings[p], radii.of_star(p), tile.evaluations[p].surface_share});
   }
-  output.add("sampled", std::move(owned));
-  output.add("sites", std::move(sites));
-  output.add("samples", std::move(samples));
+  output.add(kSampled, owned);
+  output.add(kSites, sites);
+  output.add(kSamples, samples);
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> emit_stars(const EvaluatedTile& tile, const TangentialConfig& config,
-                                     TileOutput& output) {
+void emit_stars(const EvaluatedTile& tile, const TangentialConfig& config, TileOutput& output) {
   const TileStars found = find_stars(tile.points, tile.neighbourhoods, tile.evaluations,
                                      seeds_of(tile, config.seed_probability), tile.is_border, config);
   TileRadii radii(tile, found, config);
-  std::vector<std::uint8_t> is_vertex = emit_wedges(tile, found, radii, config, output);
+  emit_wedges(tile, found, radii, config, output);
   emit_belt(tile, found, radii, output);
-  for (LocalIndex p = 0; p < tile.points.owned; ++p) is_vertex[p] |= is_in_belt(found.states[p]);
-  return is_vertex;
-}
-
-void absorb_stars(TileIndex index, const Tiling& tiling, const TileOutput& output, StarLists& lists) {
-  const Tile& tile = tiling.tiles[index];
-  for (const LocalIndex p : output.read<LocalIndex>("active")) lists.active.insert(tile.row(p));
-  lists.open_stars.append(index, output.read<OpenStar>("open stars"));
-  lists.open_vertices.append(index, output.read<OpenLinkVertex>("open vertices"));
-  lists.wedges.append(index, output.read<Wedge>("wedges"));
-  lists.belt.append(index, output.read<BeltPoint>("belt"));
-  const std::span<const Row> rows = output.read<Row>("belt rows");
-  lists.belt_rows.append(index, rows);
-  lists.around[index] = tiling.tiles_of(rows);
-  lists.belt_neighbours.append(index, output.read<LocalIndex>("belt neighbours"));
-  const std::span<const LocalIndex> sampled = output.read<LocalIndex>("sampled");
-  write_rows<Site>(lists.sites, tile, sampled, output.read<Site>("sites"));
-  write_rows<StarSample>(lists.samples, tile, sampled, output.read<StarSample>("samples"));
 }
 
 }  // namespace lacuna::tangential

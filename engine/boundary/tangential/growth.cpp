@@ -30,7 +30,7 @@ Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_
     stars_.places.push_back(star.place);
   }
   for (const OpenLinkVertex& vertex : open.vertices) {
-    stars_.vertices.push_back({vertex.point, vertex.radius});
+    stars_.vertices.push_back({vertex.end.row, vertex.radius});
     stars_.consistencies.push_back(vertex.consistency);
   }
 }
@@ -71,13 +71,14 @@ std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
     if (!active_.contains(row(s))) continue;
     const Star<Row> star = stars_[s];
     for (std::size_t i = 0; i < star.size(); ++i) scale_of(s, i);
-    const auto link = vertices_.subspan(stars_.places[s].begin, star.size());
+    const OpenStar& open = points_[s];
+    const auto link = vertices_.subspan(open.place.begin, star.size());
+    const auto around = [&](Scale scale) {
+      return StarSurroundings{open.sampling_radius[static_cast<std::size_t>(scale)], open.surface};
+    };
     add_wedges(
-        {points_[s].id, row(s)}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
-        points_[s].distance,
-        [&](Scale scale) { return points_[s].sampling_radius[static_cast<std::size_t>(scale)]; },
-        [&] { return points_[s].surface; }, [&](std::size_t i) { return link[i].point; },
-        [&](std::size_t i) { return link[i].length; }, config, wedges);
+        {open.point, row(s), open.distance}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
+        around, [&](std::size_t i) { return link[i].end; }, config, wedges);
   }
   return wedges;
 }
@@ -98,9 +99,9 @@ Scale Growth::scale_of(std::size_t s, std::size_t i) {
   return consistency.scale;
 }
 
-// That of the triangle with the point of star s and a third one in the star of another point, if that is
-// active. A star that might have an undecided triangle is among the open ones, or its tile has sent the
-// triangle.
+// The scale of the triangle with the point of star s and a third one, in the star of another point. A point
+// that is not active has every triangle. A star that might have an undecided triangle is among the open ones,
+// or its tile has sent the triangle.
 Scale Growth::scale_in(Row point, std::size_t s, Row third) const {
   if (!active_.contains(point)) return Scale::kFine;
   if (!tile_.owns(point)) {

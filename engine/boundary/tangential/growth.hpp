@@ -2,7 +2,7 @@
 // growth: active points and wedges among a tile's open stars, with what other tiles sent.
 #pragma once
 
-#include "engine/boundary/tangential/star_lists.hpp"
+#include "engine/boundary/tangential/star_exchange.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/store/row_set.hpp"
 

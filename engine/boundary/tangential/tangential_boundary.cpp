@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 
-#include "engine/boundary/tangential/border_exchange.hpp"
-#include "engine/boundary/tangential/chains.hpp"
 #include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/emit_stars.hpp"
-#include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <utility>
+#include <vector>
 
 namespace lacuna::tangential {
 namespace {
 
 // Measured: a wedge of a tile, its partners and its curve.
-constexpr std::uint64_t kBytesPerWedge = 160;
+constexpr std::uint64_t kBytesPerWedge = 240;
 
 // An open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
@@ -24,38 +22,27 @@ constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
                     UnionFind connected) {
   for (std::size_t i = 1; i < wedges.size(); ++i) {
-    if (wedges[i].point == wedges[i - 1].point) connected.unite(chain_of[i - 1], chain_of[i]);
+    if (wedges[i].row == wedges[i - 1].row) connected.unite(chain_of[i - 1], chain_of[i]);
   }
 }
 
 }  // namespace
 
-TangentialBoundary::TangentialBoundary(const TileStore& store, const Job& job)
-    : BoundaryMethod(
-          LoopPointLists(job.file("loop-points"), store.tiling().tiles.size(), job.memory.spills / 12)),
-      tiling_(store.tiling()),
-      stars_(store, job),
-      chain_points_(job.file("chain-points")),
-      loops_(job.file("raw-loops")),
-      workspace_(job.workspace),
+TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
+    : tiling_(tiling),
+      job_(job),
+      config_(job.config.tangential),
       curve_budget_(job.memory.global / 8 / job.arena.threads()),
-      config_(job.config.tangential) {}
+      chain_points_(job.file("chain-points")),
+      loops_(job.file("loops")) {}
 
 void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  emit_loop_points(tile, emit_stars(tile, config_, output), output);
+  emit_stars(tile, config_, output);
 }
 
-void TangentialBoundary::absorb(TileIndex tile, const TileOutput& output) {
-  absorb_stars(tile, tiling_, output, stars_);
-  absorb_loop_points(tile, output, loop_points_);
-}
-
-// Returns the wedges of a tile, in ascending row.
-std::vector<Wedge> TangentialBoundary::wedges_of(TileIndex t) {
-  std::vector<Wedge> wedges = stars_.wedges.read(t);
-  stars_.wedges.drop(t);
-  merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
-  return wedges;
+void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
+  exchange_.emplace(outputs, tiling_, job_);
+  exchange_->find_active_points();
 }
 
 // The loops along a closed curve.
@@ -68,16 +55,16 @@ void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scal
     if (!evidence.may_be_hole()) return;
     loops_.add(simple.size(), evidence, [&](std::uint64_t i) {
       scratch.trim(sizeof(CurvePoint));
-      return simple[i].vertex;
+      return simple[i].point;
     });
   });
 }
 
 // Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
-void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, std::uint64_t& edges) {
-  const std::vector<Wedge> wedges = wedges_of(t);
+void TangentialBoundary::chain_tile(TileIndex t) {
+  const std::vector<Wedge> wedges = exchange_->wedges(t);
   // Each wedge ends at two edges, each edge at two wedges.
-  std::atomic_ref(edges) += static_cast<std::uint64_t>(std::count_if(
+  std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
       wedges.begin(), wedges.end(), [](const Wedge& wedge) { return wedge.scale == Scale::kFine; }));
   std::vector<LocalIndex> chain_of(wedges.size());
   std::vector<CurvePoint> points;
@@ -91,12 +78,12 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, std:
     }
     const Scale scale = wedges[chain.wedges.front()].scale;
     if (chain.is_closed) {
-      Scratch scratch(workspace_, curve_budget_);
+      Scratch scratch(job_.workspace, curve_budget_);
       add_loops(points, scale, scratch);
       return;
     }
     const auto end = [&](LocalIndex w, std::size_t side) {
-      const ChainEnd end{wedges[w].point.row, side == 0 ? wedges[w].from : wedges[w].to};
+      const ChainEnd end{wedges[w].row, side == 0 ? wedges[w].from : wedges[w].to};
       part.crossings.push_back({number, end.own, end.foreign});
       return end;
     };
@@ -108,31 +95,31 @@ void TangentialBoundary::chain_tile(TileIndex t, Stitch<OpenChain>& stitch, std:
   std::vector<LocalIndex> links(part.vertices);
   part.links = links;
   connect_chains(wedges, chain_of, UnionFind(links));
-  stitch.add(t, part);
+  stitch_->add(t, part);
 }
 
-FoundLoops TangentialBoundary::find_loops(const Totals&, Job& job) {
-  Phase phase(job, "loops", 0);
-  exchange_borders(stars_, tiling_, job);
-  job.trim();
-
+void TangentialBoundary::stitch(const TileOutputs&, const Totals&) {
   const std::size_t tiles = tiling_.tiles.size();
+  stitch_.emplace(tiles, kBytesPerChain, job_);
   std::vector<std::uint64_t> needs(tiles);
-  for (std::size_t t = 0; t < tiles; ++t) needs[t] = stars_.wedges.count(t) * kBytesPerWedge;
-  Stitch<OpenChain> stitch(tiles, kBytesPerChain, job);
-  std::uint64_t edges = 0;
-  job.arena.for_each_within_budget(
-      needs, job.memory.global, [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t), stitch, edges); });
+  for (TileIndex t = 0; t < tiles; ++t)
+    needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge;
+  job_.arena.for_each_within_budget(needs, job_.memory.global,
+                                    [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
+  exchange_.reset();
+}
+
+FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
   const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
-  stitch.for_each_component(
+  stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
-        close_chains(chains, chain_points_, workspace_, curve_budget_, add);
+        close_chains(chains, chain_points_, job_.workspace, curve_budget_, add);
       },
       [&](const auto& for_each_chain, std::uint64_t count) {
-        close_many_chains(for_each_chain, count, chain_points_, workspace_, job.memory.global / 4, add);
+        close_many_chains(for_each_chain, count, chain_points_, job_.workspace, job_.memory.global / 4, add);
       });
   loops_.sort();
-  return {.loops = std::move(loops_), .edges = edges, .components = stitch.components()};
+  return {.loops = std::move(loops_), .edges = edges_, .components = stitch_->components()};
 }
 
 }  // namespace lacuna::tangential

@@ -6,40 +6,50 @@
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
+#include "engine/boundary/candidates.hpp"
+#include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/chains.hpp"
-#include "engine/boundary/tangential/star_lists.hpp"
 #include "engine/stitch/stitch.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
 
 namespace lacuna::tangential {
 
 class TangentialBoundary final : public BoundaryMethod {
  public:
-  TangentialBoundary(const TileStore& store, const Job& job);
+  TangentialBoundary(const Tiling& tiling, Job& job);
 
   // Finds the stars of the tile's active points, as far as the tile alone can.
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
-  void absorb(TileIndex tile, const TileOutput& output) override;
-  // Curves of fewer than `min_curve` points are left out: around so few, a sampling leaves wedges anyway.
-  FoundLoops find_loops(const Totals& totals, Job& job) override;
-  // Those between neighbours on a loop: they lie on the boundary next to the points that the curve passes
+  // Finds the active points that depend on several tiles: with them, all wedges are known.
+  void complete_edges(const TileOutputs& outputs) override;
+  // Follows the wedges of each tile to chains, and joins the open ones.
+  void stitch(const TileOutputs& outputs, const Totals& totals) override;
+  // Closes the open chains. Curves of fewer than `min_curve` points are left out: around so few, a sampling
+  // leaves wedges anyway.
+  FoundLoops find_loops(const TileOutputs& outputs) override;
+  // Candidates between neighbours on a loop lie on the boundary, next to the points that the curve passes
   // through.
-  RowSet boundary_candidates(const Candidates& candidates, const RowSet&, const RowSet& on_loop,
-                             Job& job) const override {
-    return candidates.between(on_loop, job);
+  RowSet boundary_candidates(const TileOutputs& outputs, const RowSet&,
+                             const RowSet& on_loop) const override {
+    return candidates_between(on_loop, outputs, tiling_, job_);
   }
 
  private:
-  std::vector<Wedge> wedges_of(TileIndex tile);
   void add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch);
-  void chain_tile(TileIndex tile, Stitch<OpenChain>& stitch, std::uint64_t& edges);
+  void chain_tile(TileIndex tile);
 
   const Tiling& tiling_;
-  StarLists stars_;
-  Column<CurvePoint> chain_points_;  // of open chains
-  RawLoops loops_;
-  std::filesystem::path workspace_;
-  std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
+  Job& job_;
   const TangentialConfig& config_;
+  std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
+  std::optional<BorderExchange> exchange_;
+  std::optional<Stitch<OpenChain>> stitch_;
+  Column<CurvePoint> chain_points_;  // of open chains
+  Loops loops_;
+  std::uint64_t edges_ = 0;
 };
 
 }  // namespace lacuna::tangential

@@ -4,7 +4,8 @@
 
 #include "engine/boundary/tangential/star.hpp"
 #include "engine/config/config.hpp"
-#include "engine/model/boundary_graph.hpp"
+#include "engine/evaluate/tile_outputs.hpp"
+#include "engine/loops/loops.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -25,14 +26,14 @@ struct WedgeEvidence {
 // A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
 // edges, around the point, there is no consistent triangle.
 struct Wedge {
-  Vertex point;
-  Row from, to;
+  StoredLoopPoint point;
+  Row row, from, to;
   WedgeEvidence evidence;
   Scale scale;
 };
 template <class Visit>
 void for_each_row(Wedge& record, Visit&& visit) {
-  visit(record.point.row);
+  visit(record.row);
   visit(record.from);
   visit(record.to);
 }
@@ -42,24 +43,46 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// Adds the wedges of a star's point at both scales. `distance`: `Sampling::distance`; sampling_radius(scale)
-// and surface(): of the point; row(i), length(i): of link vertex i, and its distance from the point.
-template <class Name, class Radius, class Surface, class LinkRow, class LinkLength>
-void add_wedges(const Vertex& point, const Star<Name>& star, std::span<const Consistency> consistencies,
-                double distance, Radius&& sampling_radius, Surface&& surface, LinkRow&& row,
-                LinkLength&& length, const TangentialConfig& config, std::vector<Wedge>& wedges) {
-  std::optional<float> around;
+// The point of a star, as its wedges need it.
+struct StarPoint {
+  StoredLoopPoint point;
+  Row row;
+  double distance;  // `Sampling::distance`
+};
+
+// What lies around the point of a star.
+struct StarSurroundings {
+  double sampling_radius;  // at the scale of a wedge
+  float surface;           // mean surface share of the point's neighbours, [0, 1]
+};
+
+// A link vertex of a star.
+struct LinkEnd {
+  Row row;
+  double length;  // from the star's point
+};
+
+// Adds the wedges of a star at both scales. around(scale): its `StarSurroundings`, looked up at most once for
+// each scale; end(i): link vertex i.
+template <class Name, class Around, class End>
+void add_wedges(const StarPoint& point, const Star<Name>& star, std::span<const Consistency> consistencies,
+                Around&& around, End&& end, const TangentialConfig& config, std::vector<Wedge>& wedges) {
   for (const Scale scale : kScales) {
-    std::optional<double> sampling;
+    std::optional<StarSurroundings> here;
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
-      if (!sampling) sampling = sampling_radius(scale);
-      if (!around) around = surface();
-      wedges.push_back({point,
-                        row(first),
-                        row(last),
-                        {(length(first) + length(last)) / 2, *sampling, distance,
-                         clearness(radius * distance, *sampling, config), *around},
-                        scale});
+      if (!here) here = around(scale);
+      const LinkEnd from = end(first), to = end(last);
+      wedges.push_back(
+          {.point = point.point,
+           .row = point.row,
+           .from = from.row,
+           .to = to.row,
+           .evidence = {.length = (from.length + to.length) / 2,
+                        .sampling_radius = here->sampling_radius,
+                        .distance = point.distance,
+                        .clearness = clearness(radius * point.distance, here->sampling_radius, config),
+                        .surface = here->surface},
+           .scale = scale});
     });
   }
 }

@@ -46,12 +46,17 @@ std::vector<Row> coherent_plainly(const std::vector<Candidate>& candidates, cons
 std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.row < b.row; });
-  Candidates lists(scan.store, scan.job);
-  for (const Candidate& c : candidates) {
-    const StoredCandidate stored{.candidate = c};
-    lists.add(scan.tile_of(c.row), {&stored, 1});
+  TileOutputs outputs(scan.store.tiling(), std::nullopt, scan.job);
+  for (auto first = candidates.begin(); first != candidates.end();) {
+    const TileIndex tile = scan.tile_of(first->row);
+    std::vector<StoredCandidate> of_tile;
+    for (; first != candidates.end() && scan.tile_of(first->row) == tile; ++first)
+      of_tile.push_back({.candidate = *first});
+    TileOutput output;
+    output.add(kCandidates, of_tile);
+    outputs.add(tile, std::move(output), {});
   }
-  const RowSet boundary = lists.coherent(scan.job);
+  const RowSet boundary = coherent_candidates(outputs, scan.store.tiling(), scan.job);
   std::vector<Row> left;
   for (const Row row : all_rows(scan)) {
     if (boundary.contains(row)) left.push_back(row);

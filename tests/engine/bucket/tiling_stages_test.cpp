@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // survey, split and reach: from points to cells, tiles, and how far neighbours may be.
 #include "engine/bucket/split.hpp"
-#include "engine/halo/distance_bound.hpp"
+#include "engine/model/distance_bound.hpp"
 #include "engine/run/error.hpp"
 #include "engine/survey/survey.hpp"
 #include "tests/support/clouds.hpp"

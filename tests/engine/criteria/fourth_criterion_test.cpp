@@ -54,7 +54,7 @@ TEST_CASE("one more line in the table is one more criterion: its weight, its par
   const auto four = detect(LACUNA_PROGRAM_OF_FOUR, "four", {"--weight-curvature", "7"});
   INFO(four.err);
   REQUIRE(four.exit_code == 0);
-  CHECK_THAT(test::run_command({LACUNA_PROGRAM_OF_FOUR, "detect", "--help"}).out,
+  CHECK_THAT(test::run_command({LACUNA_PROGRAM_OF_FOUR, "detect", "--help-all"}).out,
              Contains("Share of the curvature criterion."));
 
   const Columns before{test::read_table(folder.path() / "three" / "points.ply")};

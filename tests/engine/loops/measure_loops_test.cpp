@@ -27,11 +27,19 @@ bool same(const LoopMeasures& a, const LoopMeasures& b) {
          a.planarity == b.planarity && a.mean_probability == b.mean_probability && a.tiles == b.tiles;
 }
 
-MeasuredLoops measured_loops(const FoundLoops& found, const BoundaryMethod& boundary, const Totals& totals,
-                             TiledScan& scan) {
-  PlacedLoops placed = place_loops(found.loops, boundary.loop_points(), scan.store.tiling(), scan.job);
-  std::vector<LoopTrack> tracks(placed.size());
-  return measure_loops({std::move(placed), std::move(tracks)}, totals.mean_edge_length(), scan.job);
+// `memory`: bytes for the global stage while loops are measured; 0: as many as the job gives it.
+MeasuredLoops measured_loops(TiledScan& scan, std::uint64_t memory = 0) {
+  paper::PaperBoundary boundary(scan.store.tiling(), scan.job);
+  const TileOutputs outputs =
+      scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }});
+  FoundLoops found = scan.find_loops(boundary, outputs);
+  const std::size_t count = found.loops.size();
+  ChosenLoops chosen;
+  for (std::uint32_t loop = 0; loop < count; ++loop) chosen.chosen.push_back({0, loop});
+  chosen.levels.push_back(std::move(found.loops));
+  if (memory > 0) scan.job.memory.global = memory;
+  const std::vector<LoopTrack> tracks(count);
+  return measure_loops(std::move(chosen), tracks, scan.totals(outputs).mean_edge_length(), scan.job);
 }
 
 TEST_CASE(
@@ -42,24 +50,16 @@ TEST_CASE(
   for (const std::uint64_t memory : {1 << 30, 20'000, 1}) {
     INFO(memory << " bytes");
     TiledScan scan(cloud, tiled(with_paper_loops({}), 50));
-    paper::PaperBoundary boundary(scan.store, scan.job);
-    const Totals totals = scan.evaluate({&boundary});
-    const FoundLoops traced = boundary.find_loops(totals, scan.job);
-    REQUIRE(traced.loops.size() == 4);
-    scan.job.memory.global = memory;
-    const MeasuredLoops measured = measured_loops(traced, boundary, totals, scan);
+    const MeasuredLoops measured = measured_loops(scan, memory);
     REQUIRE(measured.measures.size() == 4);
     REQUIRE(measured.loops.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       Loop loop;
       measured.loops.for_each_point(i, [&](const StoredLoopPoint& p) { loop.push_back(loaded(p)); });
-      const std::vector<Vertex> vertices = traced.loops.read(i);
-      REQUIRE(loop.size() == vertices.size());
       std::size_t wrong = 0;
       for (std::size_t j = 0; j < loop.size(); ++j) {
         const LoopPoint& p = loop[j];
-        const reference::Point& q = plain.points[value(vertices[j].id)];
-        wrong += p.id != vertices[j].id;
+        const reference::Point& q = plain.points[value(p.id)];
         wrong += p.position != cloud.positions[value(p.id)];
         wrong += std::abs(p.probability - q.probability) > 1e-6;
         wrong += (p.surface.cast<double>() - q.surface).norm() > 1e-5;
@@ -72,11 +72,7 @@ TEST_CASE(
 
 TEST_CASE("no loops: nothing is measured") {
   TiledScan scan(sphere(400), tiled({}, 50));
-  paper::PaperBoundary boundary(scan.store, scan.job);
-  const Totals totals = scan.evaluate({&boundary});
-  const FoundLoops traced = boundary.find_loops(totals, scan.job);
-  REQUIRE(traced.loops.size() == 0);
-  const MeasuredLoops measured = measured_loops(traced, boundary, totals, scan);
+  const MeasuredLoops measured = measured_loops(scan);
   CHECK(measured.measures.empty());
   CHECK(measured.loops.size() == 0);
 }

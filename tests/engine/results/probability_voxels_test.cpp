@@ -2,7 +2,6 @@
 #include "engine/results/probability_voxels.hpp"
 
 #include "engine/pipeline.hpp"
-#include "engine/results/voxel_sizes.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -11,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -91,69 +89,26 @@ TEST_CASE("voxels are the same for every tiling, number of threads and memory li
   }
 }
 
-TEST_CASE("points far from all others are left out of the grid, and counted") {
+TEST_CASE("strays are left out of the grid, and counted") {
   const Cloud surface = plane(90);
-  const Voxels voxels = voxels_of(surface.joined(scattered(20, 1).scaled(1e9).translated({1e7, 1e7, 1e7})));
-  CHECK(voxels.lattice.points_left_out >= 18);
-  CHECK(voxels.lattice.points_left_out <= 20);
+  const Voxels voxels = voxels_of(surface.joined(scattered(5, 1).scaled(1e9).translated({1e7, 1e7, 1e7})));
+  CHECK(voxels.lattice.points_left_out == 5);
   CHECK(voxels.lattice.grid.shift == 0);
   CHECK(voxels.values.size() > surface.size() / 5);
 }
 
-// A sheet of voxels, along the Z curve.
-std::vector<CellCoord> sheet(std::int32_t side) {
-  std::vector<CellCoord> voxels;
-  for (std::int32_t x = 0; x < side; ++x) {
-    for (std::int32_t y = 0; y < side; ++y) voxels.push_back({x - side / 3, y - 7, (x + y) / 9});
+// Places so far apart that each has nodes of its own in OpenVDB's tree.
+TEST_CASE(
+    "voxels double until OpenVDB's tree takes at most 128 MiB, and merge with the largest probability") {
+  Cloud places;
+  for (int x = 0; x < 30; ++x) {
+    for (int y = 0; y < 30; ++y) places = places.joined(plane(5).translated({x * 5000.0, y * 5000.0, 0}));
   }
-  std::sort(voxels.begin(), voxels.end(), comes_before_along_z);
-  return voxels;
-}
-
-std::uint64_t tree_bytes(const std::vector<CellCoord>& voxels, int doublings) {
-  std::set<CellCoord> leaves, lowers, uppers;
-  for (const CellCoord& v : voxels) {
-    const auto node = [&](int bits) {
-      bits += doublings;
-      return CellCoord{v[0] >> bits, v[1] >> bits, v[2] >> bits};
-    };
-    leaves.insert(node(3));
-    lowers.insert(node(7));
-    uppers.insert(node(12));
-  }
-  return leaves.size() * 2'150 + lowers.size() * 33'900 + uppers.size() * 270'500;
-}
-
-TEST_CASE("voxels double just until OpenVDB's tree takes no more memory than allowed") {
-  const std::vector<CellCoord> voxels = sheet(700);
-  VoxelSizes sizes(voxels.size());
-  for (const CellCoord& voxel : voxels) sizes.add(voxel, 1);
-  sizes.finish();
-  for (const std::uint64_t bytes : {100'000'000, 12'000'000, 4'000'000, 2'000'000}) {
-    const int doublings = sizes.doublings_within(bytes);
-    INFO(bytes << " bytes, " << doublings << " doublings");
-    CHECK(tree_bytes(voxels, doublings) < bytes * 1.02);
-    if (doublings > 0) CHECK(tree_bytes(voxels, doublings - 1) > bytes * 0.98);
-  }
-  CHECK(sizes.doublings_within(100'000'000) == 0);
-  CHECK(sizes.doublings_within(4'000'000) > 0);
-  CHECK(sizes.doublings_within(0) == VoxelSizes::kMostDoublings);
-}
-
-TEST_CASE("the Z curve keeps voxels in order when their size doubles") {
-  Random random(5);
-  std::vector<CellCoord> voxels;
-  for (int i = 0; i < 2000; ++i) {
-    const auto at = [&] {
-      return static_cast<std::int32_t>(random.whole(-3000, 3000)) * (random.chance(0.1) ? 100'000 : 1);
-    };
-    voxels.push_back({at(), at(), at()});
-  }
-  std::sort(voxels.begin(), voxels.end(), comes_before_along_z);
-  for (int bits = 1; bits < 20; ++bits) {
-    for (CellCoord& voxel : voxels) voxel = {voxel[0] >> 1, voxel[1] >> 1, voxel[2] >> 1};
-    CHECK(std::is_sorted(voxels.begin(), voxels.end(), comes_before_along_z));
-  }
+  const Voxels voxels = voxels_of(places, tiled({}, 3000));
+  check_voxels(places, voxels);
+  CHECK(voxels.lattice.grid.shift > 0);
+  CHECK(voxels.lattice.grid.shift <= 3);
+  CHECK((voxels_of(places, tiled({}, 500, 4)).values == voxels.values));
 }
 
 }  // namespace

@@ -62,7 +62,11 @@ TEST_CASE("a part gives back its entries by stream and key, in their order") {
     CHECK(part->records<std::uint64_t>("b", 7).empty());
     CHECK(part->records<std::uint64_t>("c", 7).empty());
     CHECK(part->records<std::uint64_t>("a", 8).empty());
-    CHECK(part->size(7) == (count + 2) * sizeof(std::uint64_t));
+    CHECK(part->size("a", 7) == (count + 2) * sizeof(std::uint64_t));
+    Numbers read(count + 2);
+    part->read("a", 7, std::as_writable_bytes(std::span(read)));
+    CHECK(read == both);
+    CHECK(part->size("c", 7) == 0);
     CHECK(folder.names() == std::vector<std::string>{"part"});
   }
 }

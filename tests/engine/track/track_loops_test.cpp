@@ -2,7 +2,6 @@
 // Which loops stand, of drawn ones at several levels, and of scans.
 #include "engine/track/track_loops.hpp"
 
-#include "engine/store/column_writer.hpp"
 #include "engine/track/confidence.hpp"
 #include "engine/track/near_loops.hpp"
 #include "engine/track/track_all.hpp"
@@ -41,24 +40,18 @@ class Drawn {
 
   // A level of circles, of points one edge apart.
   void add(double edge, const std::vector<DrawnLoop>& loops) {
-    LevelLoops level{.edge = edge,
-                     .cell_edge = edge > 0 ? edge : 1,
-                     .points = 1000,
-                     .loops = {.points = Column<StoredLoopPoint>(job_.file("drawn"))},
-                     .evidence = {}};
-    ColumnWriter<StoredLoopPoint> writer(level.loops.points);
+    LevelLoops level{
+        .edge = edge, .cell_edge = edge > 0 ? edge : 1, .points = 1000, .loops = Loops(job_.file("drawn"))};
     for (const DrawnLoop& loop : loops) {
       const int count = std::max(8, static_cast<int>(2 * std::numbers::pi * loop.radius / level.cell_edge));
-      for (int i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / count;
+      level.loops.add(static_cast<std::uint64_t>(count), loop.evidence, [&](std::uint64_t i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =
             loop.middle + loop.radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-        writer.add({{p.x(), p.y(), p.z(), PointId{next_id_++}}, {0, 0, 0}, 0.5f});
-      }
-      level.loops.offsets.push_back(level.loops.offsets.back() + static_cast<std::uint64_t>(count));
-      level.evidence.push_back(loop.evidence);
+        return StoredLoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
+      });
+      next_id_ += static_cast<std::uint64_t>(count);
     }
-    writer.finish();
     levels_.push_back(std::move(level));
   }
 

@@ -161,7 +161,7 @@ TEST_CASE("another input, and parameters that the parts depend on, are an error 
   Config config = small_tiles();
   config.neighbourhood.k = 20;
   CHECK_THROWS_WITH(bytes_of(scan(), config, folder.path()),
-                    Contains("\"k = 15\" there, \"k = 20\" here") && Contains("--restart"));
+                    Contains("\"k = 15\" there, \"k = 20\" here") && Contains("lacuna clean"));
   CHECK_THROWS_WITH(bytes_of(scan().translated({1, 0, 0}), small_tiles(), folder.path()),
                     Contains("the workspace of another run: \"input: "));
 }

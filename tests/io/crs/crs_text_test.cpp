@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/crs/crs_text.hpp"
 
-#include "io/length_unit.hpp"
+#include "io/crs/length_unit.hpp"
 
 #include <string>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_reader.hpp"
 
+#include "io/formats.hpp"
 #include "io/las/las_header.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/las/las_file.hpp"

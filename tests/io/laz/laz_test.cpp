@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/laz.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "io/little_endian.hpp"
 #include "tests/io/mutation.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/laz_data.hpp"

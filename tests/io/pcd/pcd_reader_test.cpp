@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/formats.hpp"
 #include "io/pcd/lzf.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/golden.hpp"

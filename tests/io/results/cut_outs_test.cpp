@@ -163,50 +163,9 @@ TEST_CASE("a cut-out has the rows in the widened box of its loop, with all colum
   const std::string text = folder.write("scan.xyz", text_of(points) + "nan nan nan 0 0 0\n");
   const std::string las = folder.write("scan.las", las_of(points, 1).bytes());
   check_selections(detection, cut_out(detection, {text}, with_cut_outs(), folder / "text"), {text}, ".csv");
-  check_selections(detection, cut_out(detection, {las}, with_cut_outs(), folder / "las"), {las}, ".las");
-  const fs::path laz =
-      cut_out(detection, {las}, with_cut_outs(PointsFormat::kLaz), folder / "laz") / "hole-1.laz";
-  CHECK(read_file(laz).substr(0, 4) == "LASF");
-  check_selections(detection, laz.parent_path(), {las}, ".laz");
-  const Names formats{".ply", ".pcd"};
-  for (const std::string& extension : formats) {
-    const FilesConfig config = with_cut_outs(extension == ".ply" ? PointsFormat::kPly : PointsFormat::kPcd);
-    const fs::path made = cut_out(detection, {text}, config, folder / extension);
-    check_selections(detection, made, {text}, extension);
-    // A file of the format itself, for which the writer has another way.
-    const FakeDetection one = with_squares(1);
-    const std::string scan = (made / ("hole-0" + extension)).string();
-    const fs::path again = cut_out(one, {scan}, with_cut_outs(), folder / ("again" + extension));
-    CHECK(is_same(read_table(again / ("hole-0" + extension)).rows, read_table(scan).rows));
-  }
-}
-
-TEST_CASE("a cut-out of LAS has the bytes of the points, and its header their bounds and number",
-          "[io][results]") {
-  const ScratchFolder folder;
-  const FakeDetection detection = with_squares(1);
-  const std::vector<Point> points = random_points(500);
-  const LasFile las = las_of(points, 6);
-  const std::string scan = folder.write("scan.las", las.bytes());
-  const std::string made =
-      read_file(cut_out(detection, {scan}, with_cut_outs(), folder / "out") / "hole-0.las");
-  const Table expected = expected_rows({scan}, detection.found[0]);
-  REQUIRE(expected.rows.size() > 5);
-  std::string records;
-  const Table all = read_table(scan);
-  for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    if (std::count(expected.rows.begin(), expected.rows.end(), all.rows[i]) > 0) records += las.points[i];
-  }
-  std::uint32_t at = 0;
-  std::memcpy(&at, &made[96], sizeof at);
-  CHECK((made.substr(at) == records));
-  std::uint64_t count = 0;
-  std::memcpy(&count, &made[247], sizeof count);
-  CHECK(count == expected.rows.size());
-  double most_x = -HUGE_VAL, header_most_x = 0;
-  for (const auto& row : expected.rows) most_x = std::max(most_x, row[0]);
-  std::memcpy(&header_most_x, &made[179], sizeof header_most_x);
-  CHECK(header_most_x == most_x);
+  check_selections(detection, cut_out(detection, {las}, with_cut_outs(), folder / "las"), {las}, ".ply");
+  const fs::path ply = cut_out(detection, {text}, with_cut_outs(PointsFormat::kPly), folder / "ply");
+  check_selections(detection, ply, {text}, ".ply");
 }
 
 TEST_CASE("cut-outs of files that differ in scale, pose and format have the points of all in order",
@@ -220,10 +179,8 @@ TEST_CASE("cut-outs of files that differ in scale, pose and format have the poin
   Pose pose = Pose::Identity();
   pose.translation() = moved;
   const std::vector<ScanInput> inputs{a, ScanInput(b, pose), c};
-  for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kLas, PointsFormat::kPcd}) {
-    const std::string extension = format == PointsFormat::kInput ? ".ply"  // since they differ
-                                  : format == PointsFormat::kLas ? ".las"
-                                                                 : ".pcd";
+  for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kCsv}) {
+    const std::string extension = format == PointsFormat::kInput ? ".ply" : ".csv";
     const fs::path made = cut_out(detection, inputs, with_cut_outs(format), folder / extension);
     for (std::size_t loop = 0; loop < detection.found.size(); ++loop) {
       std::vector<std::vector<double>> expected;
@@ -247,37 +204,17 @@ TEST_CASE("cut-outs of local coordinates are those of the scan", "[io][results]"
   detection.numbers.strays.rest = {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(10, 11, 1)};
   const std::string text = folder.write("scan.xyz", text_of(random_points(2000)));
   const std::vector<std::vector<double>> expected = expected_rows({text}, detection.found[0]).rows;
-  for (const PointsFormat format : {PointsFormat::kPly, PointsFormat::kPcd}) {
-    FilesConfig config = with_cut_outs(format);
-    config.output.local_coordinates = true;
-    const std::string name = format == PointsFormat::kPly ? "hole-0.ply" : "hole-0.pcd";
-    const fs::path local = cut_out(detection, {text}, config, folder / ("local " + name)) / name;
-    const std::string bytes = read_file(local);
-    CHECK(bytes.find("lacuna offset 5 6 0\n") < bytes.size());
-    CHECK(read_table(local).rows.size() == expected.size());
-    CHECK(expected.size() > 20);
-    // Positions of the file count with the offset.
-    const fs::path again = cut_out(detection, {local}, with_cut_outs(), folder / ("again " + name)) / name;
-    CHECK(is_same(read_table(again).rows, read_table(local).rows));
-  }
-}
-
-TEST_CASE("points that LAS cannot hold are an error before the work that names the files", "[io][results]") {
-  const ScratchFolder folder;
-  std::string names = "x y z", values = "1 2 3";
-  for (int i = 0; i < 9000; ++i) {
-    names += " c" + std::to_string(i);
-    values += " 1.5";
-  }
-  FileScan scan({folder.write("scan.xyz", names + "\n" + values + "\n")}, {});
-  const auto error = [&](FilesConfig config) {
-    return error_of([&] { check_output_folder(scan, config, folder / "out", Overwrite::kOwn); });
-  };
-  CHECK_THAT(error(with_cut_outs(PointsFormat::kLaz)), Contains("cut-outs/*.laz: points of "));
-  FilesConfig config;
-  config.results.points = true;
-  config.output.points_format = PointsFormat::kLaz;
-  CHECK_THAT(error(config), Contains("points.laz: points of "));
+  FilesConfig config = with_cut_outs(PointsFormat::kPly);
+  config.output.local_coordinates = true;
+  const std::string name = "hole-0.ply";
+  const fs::path local = cut_out(detection, {text}, config, folder / "local") / name;
+  const std::string bytes = read_file(local);
+  CHECK(bytes.find("lacuna offset 5 6 0\n") < bytes.size());
+  CHECK(read_table(local).rows.size() == expected.size());
+  CHECK(expected.size() > 20);
+  // Positions of the file count with the offset.
+  const fs::path again = cut_out(detection, {local}, with_cut_outs(), folder / "again") / name;
+  CHECK(is_same(read_table(again).rows, read_table(local).rows));
 }
 
 TEST_CASE("more holes than a pass takes have the same files", "[io][results]") {
@@ -313,8 +250,7 @@ TEST_CASE("cut-outs of earlier runs go, whatever their format, and all other fil
   const std::string scan = folder.write("scan.las", las_of(random_points(300), 1).bytes());
   const fs::path out = folder / "out", cut_outs = out / kCutOutsFolder;
   const FakeDetection many = with_squares(12), few = with_squares(2), none;
-  for (const PointsFormat format :
-       {PointsFormat::kPly, PointsFormat::kLas, PointsFormat::kLaz, PointsFormat::kPcd, PointsFormat::kCsv}) {
+  for (const PointsFormat format : {PointsFormat::kPly, PointsFormat::kCsv}) {
     cut_out(many, {scan}, with_cut_outs(format), out);
     CHECK(files_of(cut_outs).size() == 12);
   }
@@ -325,9 +261,9 @@ TEST_CASE("cut-outs of earlier runs go, whatever their format, and all other fil
 
   cut_out(few, {scan}, with_cut_outs(), out);
   const std::map<std::string, std::string> foreign = {
-      {"hole-7.ply", "ply\n"},    {"hole-007.las", read_file(cut_outs / "hole-0.las")},
-      {"hole-1.las.bak", "mine"}, {"my-hole-1.las", "mine"},
-      {"hole-.las", "mine"},      {"hole--1.las", "mine"},
+      {"hole-7.csv", "x,y,z\n"},  {"hole-007.ply", read_file(cut_outs / "hole-0.ply")},
+      {"hole-1.ply.bak", "mine"}, {"my-hole-1.ply", "mine"},
+      {"hole-.ply", "mine"},      {"hole--1.ply", "mine"},
       {"hole-1.txt", "mine"},     {"notes", "mine"}};
   for (const auto& [name, content] : foreign) folder.write("out/cut-outs/" + name, content);
   cut_out(none, {scan}, with_cut_outs(), out);
@@ -342,16 +278,16 @@ TEST_CASE("a file that Lacuna did not write under the name of a cut-out is refus
   const std::string scan = folder.write("scan.las", las_of(random_points(300), 1).bytes());
   const fs::path out = folder / "out", cut_outs = out / kCutOutsFolder;
   fs::create_directories(cut_outs);
-  folder.write("out/cut-outs/hole-5.las", "mine");
+  folder.write("out/cut-outs/hole-5.ply", "mine");
   const auto error = [&] {
     return error_of([&] { cut_out(with_squares(1), {scan}, with_cut_outs(), out); });
   };
-  CHECK_THAT(error(), Contains("hole-5.las: exists, and this command did not write it"));
-  CHECK(files_of(cut_outs) == std::map<std::string, std::string>{{"hole-5.las", "mine"}});
+  CHECK_THAT(error(), Contains("hole-5.ply: exists, and this command did not write it"));
+  CHECK(files_of(cut_outs) == std::map<std::string, std::string>{{"hole-5.ply", "mine"}});
 
   fs::remove_all(cut_outs);
   cut_out(with_squares(1), {scan}, with_cut_outs(), out);
-  const std::string input = (cut_outs / "hole-0.las").string();
+  const std::string input = (cut_outs / "hole-0.ply").string();
   CHECK_THAT(error_of([&] { cut_out(with_squares(1), {input}, with_cut_outs(), out); }),
              Contains("is an input in the place of a result"));
   CHECK_THAT(error_of([&] { cut_out(with_squares(1), {input}, {}, out); }),

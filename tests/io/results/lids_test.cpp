@@ -4,7 +4,7 @@
 
 #include "engine/run/parallel.hpp"
 #include "io/lids/make_lid.hpp"
-#include "io/results/lids_reader.hpp"
+#include "io/loops/lids_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/run_program.hpp"

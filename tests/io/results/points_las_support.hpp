@@ -69,15 +69,7 @@ inline LasFile file_of(int format, int minor, std::size_t extra_bytes = 0, unsig
 inline std::string detect_to(const ScratchFolder& folder, io::FileScan& scan, std::size_t rows,
                              const io::FilesConfig& config) {
   io::write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
-  return read_file(folder / "out" / "points.las");
-}
-
-// The points.las of these files, each of five points.
-inline std::string join(const ScratchFolder& folder, const std::vector<io::ScanInput>& inputs) {
-  io::FilesConfig config = las_config();
-  config.output.points_format = io::PointsFormat::kLas;
-  io::FileScan scan(inputs, {});
-  return detect_to(folder, scan, 5 * inputs.size(), config);
+  return read_file(folder / "out" / "points" / "a.las");
 }
 
 // The bytes of point i, without results.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annotated scan as LAZ: the same records as in points.las, in a file that other programs read.
+// The annotated scan as LAZ: the same records as in LAS, in a file that other programs read.
 #include "engine/run/parallel.hpp"
 #include "io/las/las_points.hpp"
 #include "io/las/las_writer.hpp"
 #include "io/laz/laz_encoder.hpp"
 #include "io/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
+#include "tests/support/laz_data.hpp"
 
 namespace lacuna::test {
 using namespace io;
@@ -23,22 +24,33 @@ std::string records_of(const std::filesystem::path& file) {
   return records;
 }
 
-// The annotated scan of this format, in a folder "out".
-std::filesystem::path write_points(const ScratchFolder& folder, const std::vector<ScanInput>& inputs,
-                                   std::size_t rows, PointsFormat format) {
-  FilesConfig config = las_config();
-  config.output.points_format = format;
-  FileScan scan(inputs, {});
-  write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
-  return folder / "out" / points_file(scan, config.output);
+// The annotated file of one file, with five points.
+std::filesystem::path write_points(const ScratchFolder& folder, const std::filesystem::path& file) {
+  FileScan scan({file}, {});
+  write_results(FakeDetection().with_results(5), scan, las_config(), folder / "out");
+  const auto points = folder / "out" / "points";
+  return std::filesystem::directory_iterator(points)->path();
 }
 
-LasForm form_of(int format, std::size_t record_bytes) {
-  LasForm form;
-  form.point_format = format;
-  form.scale = {0.01, 0.01, 0.01};
-  form.record_bytes = record_bytes;
-  return form;
+// The points as LAZ, in blocks that do not end where chunks do.
+std::filesystem::path compress(const ScratchFolder& folder, int format, const laz::Layout& layout,
+                               const std::string& points, std::uint64_t memory) {
+  LasFile empty{.minor = 4, .format = format};
+  empty.points = {std::string(las_point_bytes(format), '\0')};
+  const std::filesystem::path origin = folder.write("origin.las", empty.bytes());
+  const auto file = folder / "a.laz";
+  std::filesystem::remove(file);
+  InputFile in(origin);
+  const LasHeader header = read_las_header(in);
+  OutputFile out(file, file);
+  const std::size_t bytes = layout.record_bytes();
+  LasWriter writer(out, origin, header, {}, bytes, LasCompression{.layout = layout, .memory = memory});
+  const auto records = std::as_bytes(std::span(points));
+  for (std::size_t at = 0; at < records.size(); at += 7'001 * bytes)
+    writer.put(records.subspan(at, std::min(7'001 * bytes, records.size() - at)));
+  writer.finish();
+  out.close();
+  return file;
 }
 
 // Points of which a few bytes differ from one to the next.
@@ -53,9 +65,34 @@ std::string alike_points(std::size_t count, std::size_t bytes) {
   return points.substr(0, count * bytes);
 }
 
+// Appends an extended record to a file without any.
+std::string with_extended(std::string bytes, const std::string& record) {
+  put<std::uint64_t>(bytes, 235, bytes.size());
+  put<std::uint32_t>(bytes, 243, 1);
+  return bytes + record;
+}
+
+// The bytes of a drawn file as LAZ.
+std::string laz_bytes(LasFile las) {
+  const std::size_t record = las.points[0].size(), count = las.points.size();
+  const auto extra = static_cast<std::uint16_t>(record - las_point_bytes(las.format));
+  const laz::Layout layout = laz::layout_of(las.format, extra).value();
+  const std::vector<std::byte> described = laz::layout_record(layout);
+  las.records.push_back(las_record("laszip encoded", 22204,
+                                   {reinterpret_cast<const char*>(described.data()), described.size()}));
+  std::string bytes = las.bytes();
+  const std::string points = bytes.substr(bytes.size() - count * record);
+  bytes.resize(bytes.size() - points.size());
+  const auto data = laz_point_data(layout, std::as_bytes(std::span(points)),
+                                   std::vector<std::uint64_t>{count}, bytes.size());
+  bytes.append(reinterpret_cast<const char*>(data.data()), data.size());
+  put(bytes, 104, static_cast<std::uint8_t>(las.format | 0x80));
+  return bytes;
+}
+
 }  // namespace
 
-TEST_CASE("points.laz has the records of points.las, and its header but for what says how they are stored",
+TEST_CASE("the annotated LAZ file has the records of a LAS file, and its header but for how they are stored",
           "[io][results]") {
   for (const int format : {0, 1, 2, 3, 6, 7, 8}) {
     INFO("point format " << format);
@@ -64,20 +101,19 @@ TEST_CASE("points.laz has the records of points.las, and its header but for what
     las.records = {
         las_record("kept", 1, "kept"),
         las_record("LASF_Spec", 4, las_extra_descriptor("height", 3) + las_extra_descriptor("pulse", 8))};
-    std::string bytes = las.bytes();
+    std::string plain_bytes = las.bytes(), packed = laz_bytes(las);
     if (format >= 6) {
-      put<std::uint64_t>(bytes, 235, bytes.size());
-      put<std::uint32_t>(bytes, 243, 1);
-      bytes += extended_record("somebody", 78, std::string(100'000, 'x'));
+      const std::string record = extended_record("somebody", 78, std::string(100'000, 'x'));
+      plain_bytes = with_extended(plain_bytes, record);
+      packed = with_extended(packed, record);
     }
-    const auto file = folder.write("a.las", bytes);
-    const auto plain_file = write_points(folder, {file}, 5, PointsFormat::kInput);
-    REQUIRE(plain_file.filename() == "points.las");
-    const std::string records = records_of(plain_file), plain = read_file(plain_file);
-    const auto laz_file = write_points(folder, {file}, 5, PointsFormat::kLaz);
-    REQUIRE(laz_file.filename() == "points.laz");
-    const std::string laz = read_file(laz_file);
-    CHECK((records_of(laz_file) == records));
+    const ScratchFolder other;
+    const auto plain_file = write_points(folder, folder.write("a.las", plain_bytes));
+    const auto laz_file = write_points(other, other.write("b.laz", packed));
+    REQUIRE(plain_file.filename() == "a.las");
+    REQUIRE(laz_file.filename() == "b.laz");
+    const std::string plain = read_file(plain_file), laz = read_file(laz_file);
+    CHECK((records_of(laz_file) == records_of(plain_file)));
 
     // The format's bit, where the points begin, the number of records, where the extended ones begin.
     std::string header = plain.substr(0, 375);
@@ -97,8 +133,8 @@ TEST_CASE("points.laz has the records of points.las, and its header but for what
 
     // What came as LAZ goes out as LAZ. The next run replaces the results, not more.
     const ScratchFolder again;
-    const auto twice = write_points(again, {laz_file}, 5, PointsFormat::kInput);
-    CHECK(twice.filename() == "points.laz");
+    const auto twice = write_points(again, laz_file);
+    CHECK(twice.filename() == "b.laz");
     CHECK((read_file(twice) == laz));
   }
 }
@@ -115,19 +151,9 @@ TEST_CASE("compressed points are read as they were written, for every number of 
       std::string one;
       for (const std::size_t threads : {1u, 2u, 8u}) {
         for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
-          const auto file = folder / "a.laz";
-          std::filesystem::remove(file);
-          TaskArena(threads).for_each(1, [&](std::size_t) {
-            OutputFile out(file, file);
-            LasWriter writer(out, form_of(format, record), {}, {}, {},
-                             LasCompression{.layout = layout, .memory = memory});
-            // Blocks that do not end where chunks do.
-            const auto records = std::as_bytes(std::span(points));
-            for (std::size_t at = 0; at < records.size(); at += 7'001 * record)
-              writer.put(records.subspan(at, std::min(7'001 * record, records.size() - at)));
-            writer.finish();
-            out.close();
-          });
+          std::filesystem::path file;
+          TaskArena(threads).for_each(
+              1, [&](std::size_t) { file = compress(folder, format, layout, points, memory); });
           const std::string bytes = read_file(file);
           if (one.empty()) {
             one = bytes;
@@ -147,53 +173,23 @@ TEST_CASE("chunks of long points have fewer of them, and are read as they were w
     const laz::Layout layout = laz::layout_of(format, kExtra).value();
     CHECK(layout.chunk_points == (std::size_t{4} << 20) / layout.record_bytes());
     const std::string points = alike_points(1'000, layout.record_bytes());
-    const auto file = folder / "a.laz";
-    std::filesystem::remove(file);
-    OutputFile out(file, file);
-    LasWriter writer(out, form_of(format, layout.record_bytes()), {}, {}, {},
-                     LasCompression{.layout = layout, .memory = 0});
-    writer.put(std::as_bytes(std::span(points)));
-    writer.finish();
-    out.close();
+    const auto file = compress(folder, format, layout, points, 0);
     CHECK((records_of(file) == points));
   }
 }
 
-TEST_CASE("points.laz refuses waveforms and points too long for the memory limit before the work",
-          "[io][results]") {
+TEST_CASE("annotated LAZ refuses points too long for the memory limit before the work", "[io][results]") {
   const ScratchFolder folder;
-  FilesConfig config = las_config();
-  config.output.points_format = PointsFormat::kLaz;
-  const auto refusal = [&](const std::string& file, std::uint64_t memory) {
-    const FileScan scan({file}, {}, memory);
-    return error_of([&] { check_points(scan, config.output); });
+  const auto refusal = [&](const LasFile& las, std::uint64_t memory) {
+    const FileScan scan({folder.write("b.laz", laz_bytes(las))}, {}, memory);
+    return error_of([&] { check_points(scan, las_config(), folder / "out", Overwrite::kOwn); });
   };
-  constexpr std::uint64_t kMuch = std::uint64_t{1} << 30, kLittle = std::uint64_t{11} << 20;
-  for (const int format : {4, 5, 9, 10}) {
-    const std::string file = folder.write("waves.las", file_of(format, 4).bytes());
-    CHECK(refusal(file, kMuch) == "points.laz: points of format " + std::to_string(format) +
-                                      " have waveforms, which Lacuna cannot compress; --points-format las "
-                                      "holds them all");
-  }
-  const std::string wide = folder.write("wide.las", file_of(6, 4, 3'000).bytes());
+  constexpr std::uint64_t kMuch = std::uint64_t{1} << 30, kLittle = std::uint64_t{6} << 20;
+  const LasFile wide = file_of(1, 4, 3'000);
   CHECK(refusal(wide, kMuch).empty());
-  CHECK_THAT(refusal(wide, kLittle), Contains("points.laz: to compress points of 3052 bytes takes ") &&
-                                         Contains("more than the 11 MiB that the memory limit leaves for it; "
-                                                  "--points-format las holds them all"));
-  CHECK(refusal(folder.write("short.las", file_of(8, 4, 40).bytes()), kLittle).empty());
-}
-
-TEST_CASE("LAZ and LAS files together become points.las, and points.laz if it is wanted", "[io][results]") {
-  const ScratchFolder folder;
-  const auto las = folder.write("a.las", file_of(3, 2).bytes());
-  const auto laz = folder / "b.laz";
-  std::filesystem::rename(write_points(folder, {las}, 5, PointsFormat::kLaz), laz);
-  const auto other = folder.write("c.las", file_of(8, 4, 0, 2).bytes());
-  CHECK(write_points(folder, {laz, laz}, 10, PointsFormat::kInput).filename() == "points.laz");
-  const auto plain = write_points(folder, {laz, other}, 10, PointsFormat::kInput);
-  REQUIRE(plain.filename() == "points.las");
-  const std::string records = records_of(plain);
-  CHECK((records_of(write_points(folder, {laz, other}, 10, PointsFormat::kLaz)) == records));
+  CHECK_THAT(refusal(wide, kLittle), Contains("points/b.laz: to compress points of 3050 bytes takes ") &&
+                                         Contains("more than the 6 MiB that the memory limit leaves for it; "
+                                                  "--points-format ply holds them all"));
 }
 
 }  // namespace lacuna::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/results.hpp"
 
+#include "io/formats.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/file_size_limit.hpp"
@@ -101,9 +102,9 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                       "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
                       "\"normal\":[0.0,0.0,1.0],\"cause\":null,\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
                       "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
-  CHECK_THAT(
-      read_file(folder / "holes.csv"),
-      Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,4,1,0,0,0,0.1,,0,0,0,,,,,,1,2,3,0,0,1,,,,\n"));
+  CHECK_THAT(read_file(folder / "holes.csv"),
+             Contains("\n0,hole,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,4,1,0,0,0,0.1,,0,0,0,,,,,"
+                      ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());
   CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));
@@ -149,7 +150,8 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
                                 "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
   FileScan scan({file}, {});
   FilesConfig config;
-  config.results.points = config.output.normals = true;
+  config.results.points = true;
+  config.output = {.points_format = PointsFormat::kPly, .normals = true};
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
@@ -179,6 +181,7 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
     detection.with_results(5).block = block;
     FilesConfig config;
     config.results.points = true;
+    config.output.points_format = PointsFormat::kPly;
     write_results(detection, scan, config, folder / "out");
     const Table table = read_table(folder / "out" / "points.ply");
     REQUIRE(table.rows.size() == 5);
@@ -200,7 +203,8 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
       "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
   FileScan scan({file}, {});
   FilesConfig config;
-  config.results.points = config.output.normals = true;
+  config.results.points = true;
+  config.output = {.points_format = PointsFormat::kPly, .normals = true};
   write_results(FakeDetection().with_results(1), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names.size() == 6 + 8);
@@ -213,6 +217,7 @@ TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[
   const auto detection = FakeDetection().with_results(1);
   FilesConfig with_points;
   with_points.results.points = true;
+  with_points.output.points_format = PointsFormat::kPly;
   const Names all{"a.ply",     "boundary.ply", "holes.csv", "holes.json",
                   "loops.ply", "points.ply",   "run.json",  "sample.ply"};
   for (const FilesConfig& config : {with_points, with_points, FilesConfig{}, FilesConfig{}, with_points}) {
@@ -226,6 +231,7 @@ TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[
 TEST_CASE("a file that detect did not write is refused, and replaced on request", "[io]") {
   FilesConfig with_points;
   with_points.results.points = true;
+  with_points.output.points_format = PointsFormat::kPly;
   for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
     const ScratchFolder folder;
     FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
@@ -258,6 +264,7 @@ TEST_CASE("a file that detect did not write is refused, and replaced on request"
 TEST_CASE("an input in the place of a result is never replaced", "[io]") {
   FilesConfig with_points;
   with_points.results.points = true;
+  with_points.output.points_format = PointsFormat::kPly;
   for (const bool is_result : {false, true}) {
     const ScratchFolder folder;
     std::string content = ply(kXyz, 1, "1 2 3\n");
@@ -288,6 +295,7 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   FileScan scan({folder.write("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
   FilesConfig config;
   config.results.points = true;
+  config.output.points_format = PointsFormat::kPly;
   for (const std::size_t results : {1u, 3u}) {
     CHECK(error_of([&] {
             write_results(FakeDetection().with_results(results), scan, config, folder.path());
@@ -344,6 +352,7 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
                 {});
   FilesConfig config;
   config.results.points = true;
+  config.output.points_format = PointsFormat::kPly;
   const auto few = FakeDetection().with_results(1000);
   FakeDetection long_loop = few, many_loops = few, much_boundary = few;
   long_loop.with_loop(std::vector<std::uint64_t>(10'000, 1), LoopKind::kHole);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/find_causes.hpp"
 
+#include "bench/synth/scan.hpp"
 #include "engine/pipeline.hpp"
 #include "io/stations/next_stations.hpp"
 #include "tests/io/stations/true_causes.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/synth/scan.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/find_station.hpp"
 
+#include "bench/synth/scan.hpp"
+#include "bench/synth/scanner.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/synth/scan.hpp"
-#include "tools/synth/scanner.hpp"
 
 #include <cmath>
 #include <limits>

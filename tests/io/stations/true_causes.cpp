@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/stations/true_causes.hpp"
 
+#include "bench/synth/visibility.hpp"
 #include "io/stations/find_causes.hpp"
-#include "tools/synth/visibility.hpp"
 
 #include <cmath>
 #include <optional>

@@ -2,9 +2,9 @@
 // Why the stations of a synthetic scan did not sample the inside of a hole, by the shapes of its scene.
 #pragma once
 
+#include "bench/synth/scanner.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
-#include "tools/synth/scanner.hpp"
 
 #include <array>
 #include <span>

@@ -176,7 +176,7 @@ TEST_CASE("columns of a header may be given other names", "[io]") {
     return read_error(folder.write("a.csv", text), {.columns = columns});
   };
   CHECK(error("").find("no columns named x, y and z, but 'Northing', 'Easting', 'Height', 'I'; --columns "
-                       "x=... y=... z=...") != std::string::npos);
+                       "x=...,y=...,z=...") != std::string::npos);
   CHECK(error("x=East y=Northing z=Height")
             .find("no column for 'x=East'; the columns are 'Northing', 'Easting'") != std::string::npos);
 }

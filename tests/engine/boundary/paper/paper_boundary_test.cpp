@@ -12,12 +12,12 @@
 namespace lacuna::paper {
 namespace {
 
-using Loops = std::vector<std::vector<PointId>>;
+using IdLoops = std::vector<std::vector<PointId>>;
 
 struct Traced {
-  Loops loops;
+  IdLoops loops;
   std::uint64_t eligible_edges, components;
-  std::size_t wrong_rows = 0;
+  std::size_t wrong_points = 0;
 
   friend bool operator==(const Traced&, const Traced&) = default;
 };
@@ -25,25 +25,25 @@ struct Traced {
 // `global_memory`: bytes for the global stage; 0: as many as the job gives it.
 Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memory) {
   TiledScan scan(cloud, config);
-  PaperBoundary boundary(scan.store, scan.job);
-  const Totals totals = scan.evaluate({&boundary});
+  PaperBoundary boundary(scan.store.tiling(), scan.job);
+  const TileOutputs outputs =
+      scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }});
   if (global_memory > 0) scan.job.memory.global = global_memory;
-  const FoundLoops traced = boundary.find_loops(totals, scan.job);
-  const std::map<PointId, Row> rows = scan.rows();
+  const FoundLoops traced = scan.find_loops(boundary, outputs);
   Traced result{.eligible_edges = traced.edges, .components = traced.components};
   for (std::size_t i = 0; i < traced.loops.size(); ++i) {
     result.loops.emplace_back();
-    for (const Vertex& v : traced.loops.read(i)) {
-      result.loops.back().push_back(v.id);
-      result.wrong_rows += rows.at(v.id) != v.row;
-    }
-    CHECK(traced.loops.points(i) == result.loops.back().size());
+    traced.loops.for_each_point(i, [&](const StoredLoopPoint& p) {
+      result.loops.back().push_back(p.point.id);
+      result.wrong_points += p.point.position() != cloud.positions[value(p.point.id)];
+    });
+    CHECK(traced.loops.count(i) == result.loops.back().size());
   }
   return result;
 }
 
 // By first id, length, ids.
-Loops in_order(Loops loops) {
+IdLoops in_order(IdLoops loops) {
   std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
     if (a[0] != b[0]) return a[0] < b[0];
     return a.size() != b.size() ? a.size() < b.size() : a < b;
@@ -118,7 +118,7 @@ std::size_t check_drawn(std::uint64_t first, std::uint64_t last) {
     CHECK(traced.loops == in_order(plain.loops));
     CHECK(traced.eligible_edges == plain.eligible.size());
     CHECK(traced.components == component_sizes(plain).size());
-    CHECK(traced.wrong_rows == 0);
+    CHECK(traced.wrong_points == 0);
     loops += traced.loops.size();
   }
   return loops;
@@ -131,34 +131,6 @@ TEST_CASE("random clouds have the loops of the plain method in as little memory 
 TEST_CASE("many more random clouds have the loops of the plain method in as little memory as there is",
           "[.slow]") {
   CHECK(check_drawn(11, 100) > 200);
-}
-
-TEST_CASE("raw loops are sorted by first id, then length, then ids") {
-  const test::ScratchFolder folder;
-  RawLoops loops(folder / "loops");
-  const Loops unsorted = {{PointId{5}, PointId{6}, PointId{9}},
-                          {PointId{2}, PointId{7}, PointId{8}, PointId{9}},
-                          {PointId{2}, PointId{6}, PointId{9}},
-                          {PointId{5}, PointId{6}, PointId{8}},
-                          {PointId{2}, PointId{4}, PointId{5}}};
-  for (const std::vector<PointId>& ids : unsorted) {
-    std::vector<Vertex> loop;
-    for (const PointId id : ids) loop.push_back({id, Row{100 + value(id)}});
-    loops.add(loop);
-  }
-  CHECK(loops.size() == 5);
-  CHECK(loops.points() == 16);
-  loops.sort();
-  Loops sorted;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    sorted.emplace_back();
-    for (const Vertex& v : loops.read(i)) {
-      sorted.back().push_back(v.id);
-      CHECK(value(v.row) == 100 + value(v.id));
-    }
-  }
-  CHECK(sorted == in_order(unsorted));
-  CHECK(loops.points(2) == 4);
 }
 
 }  // namespace

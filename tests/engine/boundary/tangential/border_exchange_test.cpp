@@ -33,43 +33,29 @@ struct Found {
   bool across_tiles = false;  // some were left to the exchange
 };
 
-// The stars of all tiles, before the exchange.
-struct StarTaker final : TileConsumer {
-  explicit StarTaker(const TiledScan& scan) : scan(scan), stars(scan.store, scan.job) {}
-  void emit(const EvaluatedTile& tile, TileOutput& output) const override {
-    emit_stars(tile, scan.config.tangential, output);
-  }
-  void absorb(TileIndex tile, const TileOutput& output) override {
-    absorb_stars(tile, scan.store.tiling(), output, stars);
-  }
-
-  const TiledScan& scan;
-  StarLists stars;
-};
-
 Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threads = 2) {
   TiledScan scan(cloud, tiled({}, tile_points, threads));
   const Tiling& tiling = scan.store.tiling();
   std::map<Row, PointId> ids;
   for (const auto& [id, row] : scan.rows()) ids.emplace(row, id);
-  StarTaker taker(scan);
-  scan.evaluate({&taker});
-  const auto wedges = [&] {
-    std::vector<Wedge> wedges;
-    for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
-      for (const Wedge& wedge : taker.stars.wedges.read(tile)) wedges.push_back(wedge);
-    }
-    return wedges;
-  };
-  const std::size_t certain = wedges().size();
-  exchange_borders(taker.stars, tiling, scan.job);
+  const TileOutputs outputs = scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) {
+    emit_stars(tile, scan.config.tangential, output);
+  }});
+  BorderExchange exchange(outputs, tiling, scan.job);
+  exchange.find_active_points();
 
   Found found{.tiles = tiling.tiles.size()};
-  for (const Wedge& wedge : wedges()) {
-    const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
-    const auto& [length, sampling_radius, distance, clearness, surface] = wedge.evidence;
-    found.wedges.push_back(
-        {wedge.point.id, low, high, wedge.scale, length, sampling_radius, distance, clearness, surface});
+  std::size_t certain = 0;
+  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
+    certain += outputs.count(kWedges, tile);
+    const std::vector<Wedge> wedges = exchange.wedges(tile);
+    CHECK(wedges.size() <= exchange.most_wedges(tile));
+    for (const Wedge& wedge : wedges) {
+      const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
+      const auto& [length, sampling_radius, distance, clearness, surface] = wedge.evidence;
+      found.wedges.push_back({wedge.point.point.id, low, high, wedge.scale, length, sampling_radius, distance,
+                              clearness, surface});
+    }
   }
   found.across_tiles = found.wedges.size() > certain;
   std::sort(found.wedges.begin(), found.wedges.end());

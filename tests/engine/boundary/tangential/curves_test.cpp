@@ -14,8 +14,16 @@ namespace lacuna::tangential {
 namespace {
 
 // Ids are not rows: curves must be followed by rows.
-Vertex vertex(std::uint64_t row) {
-  return {PointId{1000 - row}, Row{row}};
+PointId id_of(std::uint64_t row) {
+  return PointId{1000 - row};
+}
+
+std::uint64_t row_of(const CurvePoint& p) {
+  return 1000 - value(p.id());
+}
+
+StoredLoopPoint point(PointId id) {
+  return {{0, 0, 0, id}, {0, 0, 0}, 0};
 }
 
 // The wedges of a closed curve, every second one written against its direction.
@@ -24,7 +32,8 @@ std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
     if (i % 2 == 1) std::swap(from, to);
-    wedges.push_back({vertex(rows[i]), from, to, {.length = double(rows[i])}, Scale::kFine});
+    wedges.push_back(
+        {point(id_of(rows[i])), Row{rows[i]}, from, to, {.length = double(rows[i])}, Scale::kFine});
   }
   return wedges;
 }
@@ -32,7 +41,7 @@ std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
 std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   std::vector<std::vector<CurvePoint>> curves;
   std::stable_sort(wedges.begin(), wedges.end(),
-                   [](const Wedge& a, const Wedge& b) { return a.point.row < b.point.row; });
+                   [](const Wedge& a, const Wedge& b) { return a.row < b.row; });
   follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
     CHECK(chain.is_closed);
     curves.emplace_back();
@@ -46,7 +55,7 @@ std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
                                  const std::vector<float>& clearness = {}) {
   std::vector<CurvePoint> curve;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    curve.push_back({{PointId{ids[i]}, Row{ids[i]}}, {1, 1, 2, clearness.empty() ? 0 : clearness[i], 0.5f}});
+    curve.push_back({point(PointId{ids[i]}), {1, 1, 2, clearness.empty() ? 0 : clearness[i], 0.5f}});
   return curve;
 }
 
@@ -79,7 +88,7 @@ LoopEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConf
 
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
   std::vector<std::uint64_t> ids;
-  for (const CurvePoint& p : curve) ids.push_back(value(p.vertex.id));
+  for (const CurvePoint& p : curve) ids.push_back(value(p.id()));
   return ids;
 }
 
@@ -90,8 +99,8 @@ TEST_CASE("wedges chain to one closed curve, through a point that it passes twic
   REQUIRE(one.size() == 1);
   std::vector<std::uint64_t> found;
   for (const CurvePoint& p : one[0]) {
-    found.push_back(value(p.vertex.row));
-    CHECK(p.evidence.length == double(value(p.vertex.row)));
+    found.push_back(row_of(p));
+    CHECK(p.evidence.length == double(row_of(p)));
   }
   std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
   if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
@@ -116,7 +125,7 @@ TEST_CASE(
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
   wedges.insert(wedges.end(), other.begin(), other.end());
-  wedges.push_back({vertex(40), Row{41}, Row{42}, {}, Scale::kFine});  // alone in its tile
+  wedges.push_back({point(id_of(40)), Row{40}, Row{41}, Row{42}, {}, Scale::kFine});  // alone in its tile
   const std::vector<WedgePartners> partners = partners_of(wedges);
   CHECK(std::count(partners[0].begin(), partners[0].end(), kNoIndex) == 0);
   CHECK(std::count(partners[1].begin(), partners[1].end(), kNoIndex) == 1);
@@ -132,7 +141,7 @@ TEST_CASE(
       return side == 0 ? wedges[w].from : wedges[w].to;
     };
     open.push_back({beyond(chain.wedges.front(), chain.first_side)});
-    for (const LocalIndex w : chain.wedges) open.back().push_back(wedges[w].point.row);
+    for (const LocalIndex w : chain.wedges) open.back().push_back(wedges[w].row);
     open.back().push_back(beyond(chain.wedges.back(), chain.last_side));
   });
   CHECK(closed == std::vector<std::size_t>{3});
@@ -261,8 +270,8 @@ TEST_CASE("wedges of both scales at the same points chain apart") {
   const auto next_of_2 = [&](const std::vector<CurvePoint>& curve) {
     std::set<std::uint64_t> next;
     for (std::size_t i = 0; i < 5; ++i) {
-      if (value(curve[i].vertex.row) != 2) continue;
-      next = {value(curve[(i + 1) % 5].vertex.row), value(curve[(i + 4) % 5].vertex.row)};
+      if (row_of(curve[i]) != 2) continue;
+      next = {row_of(curve[(i + 1) % 5]), row_of(curve[(i + 4) % 5])};
     }
     return next;
   };

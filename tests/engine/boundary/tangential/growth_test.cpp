@@ -36,11 +36,14 @@ struct Border {
   // vertex i is at a distance of i + 1.
   void add(LocalIndex p, const std::vector<Row>& link, const std::vector<float>& radii) {
     const RadiusBound bound{1, 2};
-    stars.stars.push_back(
-        {PointId{p}, p, {static_cast<std::uint32_t>(stars.vertices.size()), 0, bound}, 10, {5, 8}});
+    stars.stars.push_back({{{0, 0, 0, PointId{p}}, {}, 0},
+                           p,
+                           {static_cast<std::uint32_t>(stars.vertices.size()), 0, bound},
+                           10,
+                           {5, 8}});
     for (std::size_t i = 0; i < link.size(); ++i) {
       const Scale scale = bound.scale_of(radii[i]);
-      stars.add_vertex({link[i], double(i + 1), radii[i], {scale, scale != Scale::kNone}});
+      stars.add_vertex({{link[i], double(i + 1)}, radii[i], {scale, scale != Scale::kNone}});
     }
   }
 
@@ -113,7 +116,7 @@ TEST_CASE("an active point of another tile has the triangles that it sent, and n
     for (std::size_t i = 0; i < 6; ++i) {
       const Scale scale = i % 2 == 0 ? Scale::kFine : Scale::kCoarse;
       const double sampling_radius = i % 2 == 0 ? 5 : 8;
-      CHECK(wedges[i].point.row == ends[i / 2][0]);
+      CHECK(wedges[i].row == ends[i / 2][0]);
       CHECK(wedges[i].from == ends[i / 2][1]);
       CHECK(wedges[i].to == ends[i / 2][2]);
       CHECK(wedges[i].scale == scale);
@@ -138,7 +141,7 @@ TEST_CASE("a triangle that another tile sent for the coarse bound is missing wit
   border.add(1, {owned(2), owned(0), kForeign}, {1, 1, 1});
   border.add(2, {owned(1), kForeign, owned(0)}, {1, 1, 1});
   const std::vector<Wedge> wedges = border.growth().wedges({});
-  const auto at_0 = [](const Wedge& wedge) { return wedge.point.row == owned(0); };
+  const auto at_0 = [](const Wedge& wedge) { return wedge.row == owned(0); };
   REQUIRE(std::count_if(wedges.begin(), wedges.end(), at_0) == 1);
   const Wedge& wedge = *std::find_if(wedges.begin(), wedges.end(), at_0);
   CHECK(wedge.scale == Scale::kFine);

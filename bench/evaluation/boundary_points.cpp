@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/boundary_points.hpp"
+
+#include "tools/matching/edge_tree.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace lacuna::evaluation {
+namespace {
+
+using Ids = std::vector<std::uint64_t>;
+using Positions = std::span<const Eigen::Vector3d>;
+
+void sort_once(Ids& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+std::size_t count_common(const Ids& a, const Ids& b) {
+  Ids common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common.size();
+}
+
+EdgeTree tree_of_points(const Ids& ids, Positions positions) {
+  std::vector<Segment> points;
+  for (const std::uint64_t id : ids) points.push_back({positions[id], positions[id], 0});
+  return EdgeTree(std::move(points));
+}
+
+// How many of `ids` are within the radius of what is in the tree.
+std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, double radius) {
+  std::size_t near = 0;
+  std::vector<std::size_t> found;
+  for (const std::uint64_t id : ids) {
+    tree.owners_within(positions[id], radius, found);
+    near += found.empty() ? 0 : 1;
+  }
+  return near;
+}
+
+std::optional<double> share(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+PointScores scores(std::optional<double> precision, std::optional<double> recall) {
+  PointScores scores{.precision = precision, .recall = recall, .f1 = std::nullopt};
+  if (!precision && !recall) return scores;
+  const double p = precision.value_or(0), r = recall.value_or(0);
+  scores.f1 = p + r > 0 ? 2 * p * r / (p + r) : 0;
+  return scores;
+}
+
+}  // namespace
+
+PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
+                           Positions positions, std::span<const std::uint64_t> stand_ins, double radius) {
+  Ids told, known;
+  for (const std::uint64_t id : flagged) told.push_back(stand_ins[id]);
+  for (const TrueLoop& loop : truth) known.insert(known.end(), loop.vertices.begin(), loop.vertices.end());
+  sort_once(told);
+  sort_once(known);
+  const std::size_t common = count_common(told, known);
+  const std::size_t right = count_near(told, tree_of_truth(truth, positions), positions, radius);
+  const std::size_t met = count_near(known, tree_of_points(told, positions), positions, radius);
+  return {.flagged = told.size(),
+          .truth = known.size(),
+          .by_id = scores(share(common, told.size()), share(common, known.size())),
+          .within_radius = scores(share(right, told.size()), share(met, known.size()))};
+}
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/evaluation.hpp"
+
+#include "bench/evaluation/loop_kind.hpp"
+#include "bench/evaluation/mesh_boundary.hpp"
+#include "bench/evaluation/mesh_reader.hpp"
+#include "bench/evaluation/polylines.hpp"
+#include "bench/evaluation/spacing.hpp"
+#include "bench/evaluation/step_loops.hpp"
+#include "engine/run/error.hpp"
+#include "io/files/input_file.hpp"
+#include "io/loops/json.hpp"
+#include "io/loops/loops_reader.hpp"
+#include "io/ply/ply_reader.hpp"
+#include "io/scan/file_scan.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace lacuna::evaluation {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kLoopsEnding = ".loops.txt";
+
+std::vector<double> confidences(const Json& loops) {
+  std::vector<double> values;
+  bool any = false;
+  for (const Json& loop : loops) {
+    const auto found = loop.find("confidence");
+    const bool known = found != loop.end() && found->is_number();
+    values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
+    any = any || known;
+  }
+  if (!any) values.clear();
+  return values;
+}
+
+void read_report(const fs::path& file, Result& result) {
+  const Json report = read_json(file);
+  try {
+    result.points = report.at("counts").at("points").get<std::uint64_t>();
+    result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
+    for (const Json& input : report.at("inputs")) {
+      ScanInput& scan = result.inputs.emplace_back(input.at("file").get<std::string>());
+      if (const auto pose = input.find("pose"); pose != input.end()) {
+        const auto rows = pose->get<std::array<double, 16>>();
+        scan.pose = Eigen::Matrix4d::Map(rows.data()).transpose();
+      }
+    }
+    if (report.at("loops").size() != result.loops.size()) {
+      throw Error(file.string() + ": " + std::to_string(report.at("loops").size()) + " loops, but " +
+                  result.file.string() + " has " + std::to_string(result.loops.size()) +
+                  "; both must be of one run");
+    }
+    result.confidence = confidences(report.at("loops"));
+  } catch (const Json::exception&) {
+    throw Error(file.string() + ": is not a report of lacuna detect, with counts, inputs and loops");
+  }
+}
+
+bool is_ply(const fs::path& file) {
+  return looks_like_ply({.first_bytes = InputFile(file).peek(4)});
+}
+
+std::vector<Eigen::Vector3d> read_positions(std::vector<ScanInput> inputs, const std::string& columns) {
+  FileScan scan(std::move(inputs), {.columns = columns});
+  std::vector<Eigen::Vector3d> positions;
+  for (PointBatch batch; scan.next(batch);) {
+    positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
+  }
+  return positions;
+}
+
+std::vector<ScanInput> scans_of(const fs::path& truth, const Result& result) {
+  const std::string name = truth.string();
+  if (name.ends_with(kLoopsEnding)) {
+    const fs::path beside = name.substr(0, name.size() - kLoopsEnding.size()) + ".ply";
+    if (fs::exists(beside)) return {beside};
+  }
+  const auto exists = [](const ScanInput& input) { return fs::exists(input.file); };
+  if (!result.inputs.empty() && std::all_of(result.inputs.begin(), result.inputs.end(), exists)) {
+    return result.inputs;
+  }
+  throw Error(name + ": no scan of that name (X.ply beside X" + std::string(kLoopsEnding) +
+              "), and none named by the result is there; --scan must name it");
+}
+
+void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const Truth& truth) {
+  for (const std::uint64_t id : ids) {
+    if (id < truth.positions.size()) continue;
+    throw Error(file.string() + ": id " + std::to_string(id) + ", but the scan has " +
+                std::to_string(truth.positions.size()) + " points, counted from 0; both must be of one scan");
+  }
+}
+
+// Distinct finite ones; of a mesh, those in its faces.
+std::vector<Eigen::Vector3d> points_of(const Truth& truth, const std::vector<bool>& takes_part) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t id = 0; id < truth.positions.size(); ++id) {
+    if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
+  }
+  return points;
+}
+
+void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
+  std::vector<bool> takes_part(truth.positions.size());
+  for (const Triangle& triangle : triangles) {
+    for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
+  }
+  truth.loops = mesh_boundary(triangles, truth.stand_ins, truth.positions);
+  truth.spacing = median_spacing(points_of(truth, takes_part));
+}
+
+void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
+  std::vector<LoopIds> loops;
+  for (const NamedLoopIds& loop : named) {
+    check_ids(truth.file, loop.ids, truth);
+    loops.push_back(loop.ids);
+  }
+  std::vector<bool> takes_part(truth.positions.size());
+  for (const std::uint64_t id : truth.stand_ins) takes_part[id] = true;
+  truth.loops = loops_through(loops, truth.stand_ins);
+  const std::vector<Eigen::Vector3d> points = points_of(truth, takes_part);
+  const PointTree tree(points);
+  truth.spacing = median_spacing(points, tree);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    truth.loops[i].name = std::move(named[i].name);
+    truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
+  }
+}
+
+// False loops around unsampled places of the surface become unsampled. Those along true loops as well become
+// joined.
+void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
+  std::vector<LoopIds> loops = result.loops;  // those that are not false: without points
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (accuracy.loops[i].verdict != EdgeDecision::kFalse) loops[i].clear();
+  }
+  const auto unsampled = points_at_unsampled(
+      loops, *truth.surface,
+      {.positions = truth.positions, .stand_ins = truth.stand_ins, .spacing = truth.spacing});
+  decide_false_loops(
+      result.loops, truth.loops, truth.positions, rule, EdgeDecision::kUnsampled, &LoopMatch::at_unsampled,
+      [&](std::size_t loop, std::size_t point) { return unsampled[loop][point]; }, accuracy);
+}
+
+// The result's own vertices follow the points of the scan, each standing for itself, and its loops count
+// both.
+void add_vertices(Result& result, Truth& truth) {
+  const std::uint64_t first = truth.positions.size();
+  for (const Eigen::Vector3d& vertex : std::exchange(result.vertices, {})) {
+    truth.stand_ins.push_back(truth.positions.size());
+    truth.positions.push_back(vertex);
+  }
+  if (truth.positions.size() == first) return;
+  for (LoopIds& loop : result.loops) {
+    for (std::uint64_t& id : loop) id += first;
+  }
+}
+
+}  // namespace
+
+Result read_result(const fs::path& path) {
+  Result result{.file = fs::is_directory(path) ? path / "loops.ply" : path};
+  if (is_ply(result.file) && has_polylines(result.file)) {
+    result.loops = read_polylines(result.file);
+    result.vertices = read_positions({result.file}, {});
+    return result;
+  }
+  result.loops = read_loops(result.file);
+  if (!fs::is_directory(path)) return result;
+  if (const fs::path file = path / "boundary.ply"; fs::exists(file)) result.boundary = read_ids(file);
+  if (const fs::path file = path / "holes.json"; fs::exists(file)) read_report(file, result);
+  return result;
+}
+
+Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& result) {
+  Truth truth{.file = file};
+  const bool mesh = is_ply(file);
+  if (mesh && !scans.empty())
+    throw Error(file.string() + ": is a mesh, its vertices are the scan; no --scan is allowed");
+  const std::vector<Triangle> triangles = mesh ? read_triangles(file) : std::vector<Triangle>{};
+  std::vector<NamedLoopIds> loops = mesh ? std::vector<NamedLoopIds>{} : read_named_loops(file);
+  if (mesh) scans = {file};
+  if (scans.empty()) scans = scans_of(file, result);
+  truth.positions = read_positions(scans, result.columns);
+  truth.stand_ins = stand_ins(truth.positions);
+  if (mesh) {
+    take_mesh(triangles, truth);
+  } else {
+    truth.steps = read_steps(file);
+    for (const LoopIds& step : truth.steps) check_ids(file, step, truth);
+    take_loops(std::move(loops), truth);
+  }
+  add_vertices(result, truth);
+  return truth;
+}
+
+Surface read_surface(const fs::path& file) {
+  Surface surface{.triangles = read_triangles(file)};
+  surface.positions = read_positions({file}, {});
+  return surface;
+}
+
+Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule) {
+  if (result.points && *result.points != truth.positions.size()) {
+    throw Error(result.file.string() + ": is of a scan of " + std::to_string(*result.points) + " points, " +
+                truth.file.string() + " of one of " + std::to_string(truth.positions.size()) +
+                "; both must be of one scan");
+  }
+  for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
+  Evaluation evaluation;
+  const double tolerance = rule.tolerance * truth.spacing;
+  const MatchRule match{.tolerance = tolerance, .min_vertices = rule.min_vertices};
+  evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
+  mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
+  if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
+  if (result.boundary) {
+    check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
+    evaluation.boundary =
+        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, tolerance);
+  }
+  if (!result.confidence.empty()) {
+    evaluation.confidence = area_under_roc(evaluation.loops.loops, result.confidence);
+  }
+  return evaluation;
+}
+
+}  // namespace lacuna::evaluation

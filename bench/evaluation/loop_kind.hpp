@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a true loop goes around a hole or around a piece of surface.
+#pragma once
+
+#include "bench/evaluation/point_tree.hpp"
+#include "engine/model/loop.hpp"
+#include "io/loops/loops_reader.hpp"
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::evaluation {
+
+// By the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
+// nearest points are. `points` are those of the tree, `positions` those that ids count. None for fewer than
+// three ids.
+std::optional<LoopKind> kind_of(const io::LoopIds& loop, std::span<const Eigen::Vector3d> positions,
+                                std::span<const Eigen::Vector3d> points, const PointTree& tree);
+
+}  // namespace lacuna::evaluation

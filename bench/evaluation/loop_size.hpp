@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How large a loop is and where it lies, for people who compare results with the truth.
+#pragma once
+
+#include "tools/matching/true_loops.hpp"
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::evaluation {
+using namespace matching;
+
+// Lengths in units of the scan.
+struct LoopSize {
+  double perimeter = 0;             // sum of the edges' lengths
+  double diameter = 0;              // largest distance between two vertices
+  Eigen::Vector3d centre{0, 0, 0};  // mean of the vertices
+};
+
+// Ids are places in `positions`, which are finite there. A loop without edges has a size of 0.
+LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions);
+LoopSize size_of(const io::LoopIds& loop, std::span<const Eigen::Vector3d> positions);
+
+}  // namespace lacuna::evaluation

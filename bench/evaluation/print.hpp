@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `lacuna-bench evaluate` prints: for people, and as JSON.
+#pragma once
+
+#include "bench/evaluation/evaluation.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace lacuna::evaluation {
+
+struct EvaluationText {
+  const Result& result;
+  const Truth& truth;
+  const Evaluation& evaluation;
+  std::filesystem::path result_path, truth_path, surface_path;
+  EvaluationRule rule;
+};
+
+// Prints one sentence with what is found and false. Then comes a line for each true loop, the largest first,
+// with its name, size, place, and what found it. Then it prints a line for each loop that matches none.
+std::string print_verdict(const EvaluationText& text);
+
+// All scores, and every number behind them, by loop.
+std::string print_details(const EvaluationText& text);
+
+std::string print_json(const EvaluationText& text);
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `lacuna-bench evaluate --json` prints.
+#include "bench/evaluation/decision_names.hpp"
+#include "bench/evaluation/loop_size.hpp"
+#include "bench/evaluation/print.hpp"
+
+#include <optional>
+#include <tuple>
+
+#include <nlohmann/json.hpp>
+
+namespace lacuna::evaluation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+std::optional<std::string> name_of(const TrueLoop& loop) {
+  return loop.name.empty() ? std::nullopt : std::optional(loop.name);
+}
+
+Json points_json(const PointScores& scores) {
+  return {{"precision", or_null(scores.precision)},
+          {"recall", or_null(scores.recall)},
+          {"f1", or_null(scores.f1)}};
+}
+
+}  // namespace
+
+std::string print_json(const EvaluationText& text) {
+  const auto& [result, truth, evaluation] = std::tie(text.result, text.truth, text.evaluation);
+  const LoopScores& scores = evaluation.loops.scores;
+  Json root = {{"result", text.result_path.string()},
+               {"truth", text.truth_path.string()},
+               {"surface", truth.surface ? Json(text.surface_path.string()) : Json()},
+               {"points", truth.positions.size()},
+               {"spacing", truth.spacing},
+               {"tolerance", text.rule.tolerance},
+               {"min_vertices", text.rule.min_vertices},
+               {"true", scores.true_loops},
+               {"short", scores.short_loops},
+               {"found", scores.found},
+               {"missed", scores.missed},
+               {"loops", scores.loops},
+               {"false", scores.false_loops},
+               {"repeated", scores.repeated},
+               {"joined", scores.joined},
+               {"parted", scores.parted},
+               {"step", scores.steps},
+               {"unsampled", scores.unsampled},
+               {"recall", or_null(scores.recall)},
+               {"precision", or_null(scores.precision)},
+               {"confidence_auc", or_null(evaluation.confidence)},
+               {"boundary", nullptr}};
+  if (const auto& boundary = evaluation.boundary) {
+    root["boundary"] = {{"flagged", boundary->flagged},
+                        {"true", boundary->truth},
+                        {"by_id", points_json(boundary->by_id)},
+                        {"within_tolerance", points_json(boundary->within_radius)}};
+  }
+  root["true_loops"] = Json::array();
+  for (std::size_t i = 0; i < truth.loops.size(); ++i) {
+    const TrueMatch& match = evaluation.loops.true_loops[i];
+    const LoopSize size = size_of(truth.loops[i], truth.positions);
+    const auto& kind = truth.loops[i].kind;
+    root["true_loops"].push_back({{"name", or_null(name_of(truth.loops[i]))},
+                                  {"kind", kind ? Json(name_of(*kind)) : Json()},
+                                  {"vertices", truth.loops[i].vertices.size()},
+                                  {"perimeter", size.perimeter},
+                                  {"diameter", size.diameter},
+                                  {"centre", {size.centre.x(), size.centre.y(), size.centre.z()}},
+                                  {"counts", match.counts},
+                                  {"found_by", or_null(match.found_by)}});
+  }
+  root["loop_matches"] = Json::array();
+  for (std::size_t i = 0; i < result.loops.size(); ++i) {
+    const LoopMatch& match = evaluation.loops.loops[i];
+    root["loop_matches"].push_back({{"points", result.loops[i].size()},
+                                    {"verdict", name_of(match.verdict)},
+                                    {"true_loop", or_null(match.true_loop)},
+                                    {"on_any", match.on_any},
+                                    {"on", match.on},
+                                    {"covered", match.covered},
+                                    {"on_step", or_null(match.on_step)},
+                                    {"at_unsampled", or_null(match.at_unsampled)}});
+  }
+  // Names of files need not be UTF-8.
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far apart the points of a scan are.
+#pragma once
+
+#include "bench/evaluation/point_tree.hpp"
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::evaluation {
+
+// The mean distance to the 4 nearest others, or to all where there are fewer; 0 for a single point. The point
+// is one of the tree, whose points are distinct.
+double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
+
+// The median over the points; 0 for fewer than two. The points are finite and distinct. If there are more
+// than 130,000 points, as many are taken, evenly spread. Cost: n log n, for the tree.
+double median_spacing(std::span<const Eigen::Vector3d> points);
+double median_spacing(std::span<const Eigen::Vector3d> points,
+                      const PointTree& tree);  // the tree of the points
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops along steps of density, where points lie on both sides, much sparser on one.
+#pragma once
+
+#include "tools/matching/match_loops.hpp"
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lacuna::evaluation {
+using namespace matching;
+
+// A false loop becomes a step if `share` of its points are within the tolerance of the edges of steps. It
+// becomes joined if `share` of its points are near those or a true loop that counts. Steps are as
+// io::read_steps() gives them; without any, nothing changes. Cost: n log n.
+void mark_steps(std::span<const io::LoopIds> loops, std::span<const io::LoopIds> steps,
+                std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
+                const MatchRule& rule, LoopAccuracy& accuracy);
+
+}  // namespace lacuna::evaluation

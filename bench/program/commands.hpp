@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of `lacuna-bench`. Each function adds one to the program. The command runs when it is parsed.
+// It throws `Error` when the job fails, and `UsageError` for options that are not possible.
+#pragma once
+
+namespace lacuna::tools {
+class Command;
+}
+
+namespace lacuna::bench {
+
+void add_synth_command(const tools::Command& program);     // makes scans with known holes
+void add_evaluate_command(const tools::Command& program);  // holds a result against the truth
+
+}  // namespace lacuna::bench

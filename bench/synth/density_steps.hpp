@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The curves along which the density of points jumps, with surface on both sides.
+#pragma once
+
+#include "bench/synth/boundary_curves.hpp"
+
+#include <vector>
+
+namespace lacuna::synth {
+
+// Where one station loses a surface and others go on sampling it with at least twice the spacing: around a
+// tripod circle, for instance. The pieces are open; where one is closed, its first place is its last, too.
+std::vector<Curve> density_steps(const std::vector<Lattice>& lattices, const Scanner& scanner,
+                                 const Visibility& visibility);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/synth/ply_output.hpp"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+
+namespace lacuna::synth {
+using namespace io;
+
+static_assert(std::endian::native == std::endian::little, "rows are copied as they are in memory");
+
+namespace {
+
+constexpr std::size_t kCountWidth = 20;  // digits of 2^64 - 1
+
+template <typename T>
+std::byte* put(std::byte* at, T value) {
+  std::memcpy(at, &value, sizeof value);
+  return at + sizeof value;
+}
+
+std::byte* put_position(std::byte* at, Vec3 p, Coordinates coordinates) {
+  if (coordinates == Coordinates::kDouble) return put(put(put(at, p.x), p.y), p.z);
+  return put(put(put(at, static_cast<float>(p.x)), static_cast<float>(p.y)), static_cast<float>(p.z));
+}
+
+}  // namespace
+
+PlyOutput::PlyOutput(OutputFile& file, Coordinates coordinates, Extras extras)
+    : file_(file), coordinates_(coordinates), extras_(extras) {
+  file_.write(header());
+}
+
+// The header has one length for every count: the comment takes the digits that the count leaves.
+std::string PlyOutput::header() const {
+  const std::string count = std::to_string(count_);
+  const std::string type = coordinates_ == Coordinates::kDouble ? "double" : "float";
+  std::string text = std::string(kScanMark) + std::string(kCountWidth - count.size() + 1, '-') +
+                     "\nelement vertex " + count + "\n";
+  for (const char* axis : {" x\n", " y\n", " z\n"}) text += "property " + type + axis;
+  if (extras_ != Extras::kNone) text += "property uchar scan\nproperty float intensity\n";
+  if (extras_ == Extras::kScanAndTime) text += "property double gps_time\n";
+  return text + "end_header\n";
+}
+
+void PlyOutput::add(Vec3 position) {
+  std::array<std::byte, 24> row;
+  std::byte* const end = put_position(row.data(), position, coordinates_);
+  file_.write(std::span(row.data(), end));
+  ++count_;
+}
+
+void PlyOutput::add(Vec3 position, std::uint8_t scan, float intensity, double time) {
+  std::array<std::byte, 40> row;
+  std::byte* end = put(put(put_position(row.data(), position, coordinates_), scan), intensity);
+  if (extras_ == Extras::kScanAndTime) end = put(end, time);
+  file_.write(std::span(row.data(), end));
+  ++count_;
+}
+
+void PlyOutput::finish() {
+  file_.overwrite_start(header());
+}
+
+}  // namespace lacuna::synth

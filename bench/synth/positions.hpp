@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the points of a synthetic surface are, in the plane of its grid.
+#pragma once
+
+#include "bench/synth/hole_field.hpp"
+#include "bench/synth/surface_grid.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace lacuna::synth {
+
+// Each point has a number. It depends on the seed and its number alone, so points can be made in any order.
+class Positions {
+ public:
+  virtual ~Positions() = default;
+
+  // All numbers are below this, in scanline order. Not each of them has a point.
+  virtual std::uint64_t size() const = 0;
+  virtual std::optional<Place> at(std::uint64_t number) const = 0;
+
+  // The numbers of the points around each hole, then along each outer edge, in order. Each loop is closed,
+  // and visits no point twice.
+  virtual std::vector<NumberLoop> true_loops() const = 0;
+};
+
+// As the options have it. Both arguments must outlive the result.
+std::unique_ptr<Positions> make_positions(const SurfaceGrid& grid, const HoleField& holes,
+                                          const SurfaceOptions& options);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points that know of no other: a Poisson process in the plane of the grid, one point per node on average.
+#pragma once
+
+#include "bench/synth/positions.hpp"
+#include "bench/synth/random.hpp"
+
+namespace lacuna::synth {
+
+// In a Poisson process the squares of the grid are independent of each other. Each has a Poisson number of
+// points (mean 1), anywhere in the square. Points in a hole are left out, and beyond a density step all but
+// one in `stride` squared. At most kMostInSquare points: more would come once in 1.6e10 squares.
+//
+// The true loop of a hole is the sequence of points that are nearest to a place on its edge, as the place
+// goes around. Distances are those in the plane of the grid. Neighbours in that sequence share an edge of the
+// Delaunay triangulation, and no point lies inside the loop. It encloses the hole, parts of its points'
+// Voronoi cells, and empty discs around places on the edge. True loops of outer edges are the same of the
+// surface's edge.
+class RandomPositions : public Positions {
+ public:
+  static constexpr std::uint64_t kMostInSquare = 12;
+
+  RandomPositions(const SurfaceGrid& grid, const HoleField& holes, const SurfaceOptions& options);
+
+  std::uint64_t size() const override { return rows_ * columns_ * kMostInSquare; }
+  std::optional<Place> at(std::uint64_t number) const override;
+  std::vector<NumberLoop> true_loops() const override;
+
+ private:
+  std::uint64_t points_in(std::uint64_t square) const;
+  std::uint64_t nearest(Place place) const;
+
+  const SurfaceGrid& grid_;
+  const HoleField& holes_;
+  std::uint64_t rows_, columns_;  // of squares
+  double corner_;                 // row and column of the first square
+  Random count_, place_, kept_;
+};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the surfaces of a scene are sampled, on a lattice.
+#pragma once
+
+#include "bench/synth/patches.hpp"
+#include "bench/synth/visibility.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::synth {
+
+// The nodes of one patch. Nodes outside of it are allowed as arguments, and are not sampled.
+struct Lattice {
+  Patch patch;
+  std::int32_t columns, rows;         // nodes, along u and v
+  double step;                        // metres, the larger of both directions
+  std::vector<float> spacing;         // of the points around each node; 0: no station samples it
+  std::vector<std::uint8_t> sampled;  // by a station, or in a gap too narrow for a hole
+  std::vector<bool> by_station;       // is the node sampled: station after station of each node
+
+  std::size_t node(std::int32_t column, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  bool inside(std::int32_t column, std::int32_t row) const {
+    return column >= 0 && column < columns && row >= 0 && row < rows;
+  }
+  bool is_sampled(std::int32_t column, std::int32_t row) const {
+    return inside(column, row) && sampled[node(column, row)] != 0;
+  }
+  double u(double column) const { return column / (columns - 1); }
+  double v(double row) const { return row / (rows - 1); }
+  // Between the nodes, too.
+  SurfacePlace at(double column, double row) const {
+    return {patch.place(u(column), v(row)), patch.normal(u(column), v(row)), patch.shape, patch.two_sided};
+  }
+};
+
+// About 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place that no station
+// samples counts as sampled all the same unless it lies in a hole. Holes are balls with a radius of 2
+// spacings of the nearest sampled places, in which nothing is sampled. All within 3 spacings of their middle
+// belongs to them. Places on the far side of a thin thing are not near.
+std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& visibility,
+                                     std::uint64_t points);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `lacuna-bench synth scan`. A flight has a range and a field of view of its own.
+#pragma once
+
+#include "bench/synth/permutation.hpp"
+#include "bench/synth/ply_output.hpp"
+#include "bench/synth/scene.hpp"
+#include "io/files/output_set.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace lacuna::synth {
+
+inline constexpr std::array<double, 2> kFieldOfView{-60, 90};
+
+struct ScanOptions {
+  std::filesystem::path out;    // PLY
+  std::filesystem::path truth;  // the true loops; empty: next to `out`, as NAME.loops.txt
+  SceneKind scene = SceneKind::kRoom;
+  std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
+  std::uint32_t stations = 2;        // [1, 255]; strips of a flight, lanes of a drive
+  bool drives = false;               // along x, with profiles at right angles to its path
+  std::vector<double> places;        // x y z of further stations
+  double station_factor = 1;         // [0.01, 100]: points of the first station over those of each other one
+  std::uint32_t sweeps = 1;          // [1, 8], of each station; several are tilted, so that they cross
+  double noise = 0.002;              // along the ray, metres, standard deviation
+  double outliers = 0;               // fraction of the points that lie anywhere on their ray instead, [0, 1]
+  double registration = 0;           // of each station after the first, metres, standard deviation
+  double max_range = 80;             // metres
+  double ring_ratio = 1;             // [0.01, 100]: step of elevation over step of azimuth
+  std::array<double, 2> field_of_view = kFieldOfView;  // lowest and highest elevation, degrees
+  Order order = Order::kScanline;
+  std::uint64_t seed = 1;
+  std::array<double, 3> translate{0, 0, 0};  // metres
+  Coordinates coordinates = Coordinates::kFloat;
+  io::Overwrite overwrite = io::Overwrite::kOwn;
+};
+
+}  // namespace lacuna::synth

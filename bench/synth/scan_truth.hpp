@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The true loops of a scanned scene.
+#pragma once
+
+#include "bench/synth/boundary_curves.hpp"
+#include "bench/synth/sphere_index.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lacuna::synth {
+
+struct NamedLoop {
+  std::vector<std::uint64_t> ids;  // each once, in order
+  std::string name;                // what it is, such as "window"
+};
+
+// A true loop is the sequence of points that are nearest to a place on a boundary curve, as the place goes
+// around. Only points on the surface of the place count, and only where they would lie without noise, strays
+// and errors of registration. So these change nothing. The surface's holes have such curves, and its outer
+// edges. Steps of density (density_steps.hpp) become rows of points in the same way.
+class ScanTruth {
+ public:
+  explicit ScanTruth(const Scanner& scanner, std::uint64_t points);
+
+  // The echo of this ray was written as the `id`-th point.
+  void note(const Echo& echo, std::uint64_t ray, std::uint64_t id);
+
+  // Once all are noted: each loop from its smallest id towards that one's smaller neighbour, sorted. Loops
+  // with fewer than 12 points are left out. So are those where points are rare, and those with much of their
+  // edge in closed gaps.
+  std::vector<NamedLoop> loops() const;
+
+  // Once all are noted: the points along each step, 12 or more, sorted. Where a row is closed, its first
+  // point is its last, too.
+  std::vector<std::vector<std::uint64_t>> steps() const;
+
+ private:
+  struct Place {
+    std::uint32_t shape;
+    double nearest;  // squared
+    std::uint64_t ray, id;
+  };
+  struct Row {
+    std::size_t begin, end;  // places
+    std::string name;        // empty: a step
+  };
+
+  void add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres);
+  std::vector<std::uint64_t> ids_along(const Row& row) const;
+
+  std::vector<Place> places_;
+  std::vector<Row> rows_;
+  SphereIndex index_;
+};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/synth/scanner.hpp"
+
+#include "bench/synth/trig.hpp"
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lacuna::synth {
+
+namespace {
+
+constexpr double kWobble = 0.1;       // of a step, uniform: no mechanism is perfect
+constexpr double kFullIntensity = 2;  // metres: white at this range, seen squarely, has intensity 1
+constexpr double kClearance = 0.6;    // metres between a station and any thing
+constexpr double kLeverArm = 10;      // metres at which an error of heading counts as much as one of place
+constexpr double kTilt = 25 / 360.0;  // turns, of the axis of each of several sweeps
+constexpr double kGolden = 0.6180339887498949;
+constexpr double kFlightWobble = 0.4;  // of a step: a platform in the air sways
+constexpr double kSwath = 20 / 360.0;  // turns, to each side of a strip
+constexpr double kHalfSwath = 0.6;     // distances of strips: neighbours overlap by a fifth of them
+constexpr double kDriveRange = 5;      // metres at which profiles of a drive are as far apart as their points
+constexpr double kPause = 5;           // seconds between strips
+constexpr double kLeafReflectance = 0.2;
+
+enum Stream : std::uint64_t { kPlaces = 16, kAims, kRanges, kStrays, kProbes, kRegistrations, kCrowns };
+
+// Spread over the floor by the plane's golden ratio (R2 sequence, Roberts 2018), clear of all things.
+std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options) {
+  const Random random(options.seed, kPlaces);
+  const Vec3 low = scene.stand_low;
+  const Vec3 high = scene.stand_high;
+  std::vector<Vec3> stations;
+  for (std::uint64_t turn = 0; stations.size() < options.stations; ++turn) {
+    const double u = random.uniform(0) + 0.7548776662466927 * static_cast<double>(turn);
+    const double v = random.uniform(1) + 0.5698402909980532 * static_cast<double>(turn);
+    const Vec3 place{low.x + (u - std::floor(u)) * (high.x - low.x),
+                     low.y + (v - std::floor(v)) * (high.y - low.y), low.z};
+    if (!occupied(scene, place, kClearance)) stations.push_back(place);
+  }
+  for (std::size_t i = 0; i + 2 < options.places.size(); i += 3)
+    stations.push_back({options.places[i], options.places[i + 1], options.places[i + 2]});
+  return stations;
+}
+
+// The middles of lanes at equal distances over the ground where stations can stand.
+std::vector<Vec3> place_lanes(const Scene& scene, const ScanOptions& options) {
+  const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
+  std::vector<Vec3> middles;
+  for (std::uint32_t lane = 0; lane < options.stations; ++lane) {
+    middles.push_back({0.5 * (scene.stand_low.x + scene.stand_high.x),
+                       scene.stand_low.y + (lane + 0.5) * distance, scene.stand_low.z});
+  }
+  return middles;
+}
+
+// The middles of strips at equal distances, as high as their swaths need to overlap.
+std::vector<Vec3> place_strips(const Scene& scene, const ScanOptions& options) {
+  const Random random(options.seed, kPlaces);
+  const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
+  const auto [sine, cosine] = sin_cos(kSwath);
+  const double shift = random.uniform(0, -0.05, 0.05);
+  std::vector<Vec3> middles;
+  for (std::uint32_t strip = 0; strip < options.stations; ++strip) {
+    middles.push_back({0.5 * (scene.stand_low.x + scene.stand_high.x),
+                       scene.stand_low.y + (strip + 0.5 + shift) * distance,
+                       scene.stand_low.z + kHalfSwath * distance * cosine / sine});
+  }
+  return middles;
+}
+
+}  // namespace
+
+Scanner::Scanner(const ScanOptions& options, Scene scene)
+    : options_(options),
+      scene_(std::move(scene)),
+      lowest_(scene_.flown     ? -kSwath
+              : options.drives ? -0.5
+                               : options.field_of_view[0] / 360),
+      upright_(scene_.flown     ? 2 * kSwath
+               : options.drives ? 1
+                                : (options.field_of_view[1] - options.field_of_view[0]) / 360),
+      max_range_(scene_.flown ? std::numeric_limits<double>::max() : options.max_range),
+      wobble_(options.seed, kAims),
+      range_(options.seed, kRanges),
+      stray_(options.seed, kStrays),
+      leaves_(options.seed, kCrowns),
+      stations_(scene_.flown     ? place_strips(scene_, options)
+                : options.drives ? place_lanes(scene_, options)
+                                 : place_stations(scene_, options)) {
+  if (options_.registration > 0) misplace_stations();
+  lay_sweeps();
+  lay_rays();
+}
+
+// The first station is where the others are registered to.
+void Scanner::misplace_stations() {
+  const Random random(options_.seed, kRegistrations);
+  misplaced_.push_back({{0, 0, 0}, 0, 1});
+  for (std::uint64_t station = 1; station < stations_.size(); ++station) {
+    const auto error = [&](std::uint64_t part) {
+      return options_.registration * random.normal(4 * station + part);
+    };
+    const auto [sine, cosine] = sin_cos(error(3) / kLeverArm / kTwoPi);
+    misplaced_.push_back({{error(0), error(1), error(2)}, sine, cosine});
+  }
+}
+
+Vec3 Scanner::registered(Vec3 position, std::uint32_t station) const {
+  if (misplaced_.empty()) return position;
+  const Misplacement& error = misplaced_[station];
+  const Vec3 arm = position - stations_[station];
+  return stations_[station] + error.shift +
+         Vec3{error.cosine * arm.x - error.sine * arm.y, error.sine * arm.x + error.cosine * arm.y, arm.z};
+}
+
+// One sweep is upright. Several are tilted by the same angle, each to another side.
+void Scanner::lay_sweeps() {
+  for (std::uint32_t station = 0; station < stations_.size(); ++station) {
+    for (std::uint32_t sweep = 0; sweep < options_.sweeps; ++sweep) {
+      Sweep& laid = sweeps_.emplace_back(Sweep{.station = station,
+                                               .origin = stations_[station],
+                                               .x = {1, 0, 0},
+                                               .y = {0, 1, 0},
+                                               .axis = {0, 0, 1}});
+      if (options_.sweeps == 1) continue;
+      const auto [tilt_sine, tilt_cosine] = sin_cos(kTilt);
+      const auto [sine, cosine] = sin_cos(static_cast<double>(sweep) / options_.sweeps + kGolden * station);
+      laid.x = {tilt_cosine * cosine, tilt_cosine * sine, -tilt_sine};
+      laid.y = {-sine, cosine, 0};
+      laid.axis = {tilt_sine * cosine, tilt_sine * sine, tilt_cosine};
+    }
+  }
+}
+
+Vec3 Scanner::eye(const Sweep& sweep, Vec3 place) const {
+  return moves() ? sweep.origin + dot(place - sweep.origin, sweep.x) * sweep.x : sweep.origin;
+}
+
+Beam Scanner::beam(const Ray& ray) const {
+  const Sweep& sweep = sweeps_[ray.sweep];
+  const auto [sin_elevation, cos_elevation] = sin_cos(ray.elevation);
+  if (moves()) {
+    return {sweep.origin + (ray.azimuth - 0.5) * strip_length() * sweep.x,
+            sin_elevation * sweep.y - cos_elevation * sweep.axis};
+  }
+  const auto [sin_azimuth, cos_azimuth] = sin_cos(ray.azimuth);
+  return {sweep.origin, cos_elevation * cos_azimuth * sweep.x + cos_elevation * sin_azimuth * sweep.y +
+                            sin_elevation * sweep.axis};
+}
+
+// Where leaves stop the ray, in each crown after a uniformly random way; `range` where none does.
+double Scanner::range_in_leaves(const Beam& beam, double range, std::uint64_t index) const {
+  double nearest = range;
+  for (std::size_t crown = 0; crown < scene_.foliage.size(); ++crown) {
+    const Foliage& foliage = scene_.foliage[crown];
+    const auto [from, to] = way_through(foliage, beam);
+    if (from >= to) continue;
+    const double stop = from + foliage.depth * leaves_.uniform(scene_.foliage.size() * index + crown);
+    if (stop < to) nearest = std::min(nearest, stop);
+  }
+  return nearest;
+}
+
+// What comes back from the `index`-th ray.
+std::optional<Echo> Scanner::measure(const Ray& ray, std::uint64_t index) const {
+  const Beam beam = this->beam(ray);
+  Hit hit = cast(scene_, beam);
+  if (const double range = range_in_leaves(beam, hit.range, index); range < hit.range)
+    hit = {range, 1, kLeafReflectance, kLeaves};
+  if (hit.range > max_range_ || hit.reflectance == 0 || hit.cosine < kGrazing) return std::nullopt;
+  double range = hit.range + options_.noise * range_.normal(index);
+  const bool stray = stray_.uniform(2 * index) < options_.outliers;
+  if (stray) range = hit.range * stray_.uniform(2 * index + 1, 0.1, 1);
+  const double fading = kFullIntensity / hit.range;
+  const auto [x, y, z] = options_.translate;
+  return Echo{.position = registered(beam.origin + range * beam.direction, sweeps_[ray.sweep].station) +
+                          Vec3{x, y, z},
+              .place = beam.origin + hit.range * beam.direction,
+              .intensity = std::min(1.0, hit.reflectance * hit.cosine * fading * fading),
+              .shape = hit.shape,
+              .stray = stray};
+}
+
+double Scanner::strip_start(std::uint32_t strip) const {
+  return strip * (strip_length() / kSpeed + kPause);
+}
+
+double Scanner::time(const Ray& ray) const {
+  return strip_start(sweeps_[ray.sweep].station) + ray.azimuth * strip_length() / kSpeed;
+}
+
+std::uint64_t Scanner::rays() const {
+  const Sweep& last = sweeps_.back();
+  return last.first_ray + last.scanlines * last.per_scanline;
+}
+
+// So many, in equal steps, that about `options.points` return.
+void Scanner::lay_rays() {
+  constexpr std::uint64_t kProbesPerSweep = 20'000;
+  const Random random(options_.seed, kProbes);
+  std::uint64_t returned = 0;
+  const std::uint64_t probes = kProbesPerSweep * sweeps_.size();
+  for (std::uint64_t probe = 0; probe < probes; ++probe) {
+    const Ray ray{static_cast<std::uint32_t>(probe % sweeps_.size()), random.uniform(2 * probe),
+                  lowest_ + upright_ * random.uniform(2 * probe + 1)};
+    if (measure(ray, probe)) ++returned;
+  }
+  if (returned == 0) throw UsageError("--max-range: no ray reaches anything");
+  const auto weight = [&](const Sweep& sweep) { return sweep.station == 0 ? options_.station_factor : 1; };
+  double weights = 0;
+  for (const Sweep& sweep : sweeps_) weights += weight(sweep);
+  // Height over width of the field of rays.
+  const double aspect = scene_.flown
+                            ? upright_ * kTwoPi * (stations_[0].z - scene_.stand_low.z) / strip_length()
+                        : options_.drives ? kTwoPi * kDriveRange / strip_length()
+                                          : upright_;
+  std::uint64_t first = 0;
+  for (Sweep& sweep : sweeps_) {
+    const double rays = static_cast<double>(options_.points) * weight(sweep) / weights *
+                        static_cast<double>(probes) / static_cast<double>(returned);
+    const double scanlines = std::floor(std::sqrt(rays / aspect * options_.ring_ratio) + 0.5);
+    sweep.scanlines = static_cast<std::uint64_t>(std::max(scanlines, 1.0));
+    sweep.per_scanline =
+        static_cast<std::uint64_t>(std::max(std::floor(rays / std::max(scanlines, 1.0) + 0.5), 1.0));
+    sweep.first_ray = first;
+    first += sweep.scanlines * sweep.per_scanline;
+  }
+}
+
+// Rings that are far apart wobble no more than the points on them.
+Ray Scanner::ray(std::uint64_t index) const {
+  const double wobble = scene_.flown ? kFlightWobble : kWobble;
+  const double rise = wobble / std::max(1.0, options_.ring_ratio);
+  const auto after =
+      std::upper_bound(sweeps_.begin(), sweeps_.end(), index,
+                       [](std::uint64_t ray, const Sweep& sweep) { return ray < sweep.first_ray; });
+  const Sweep& sweep = *(after - 1);
+  const std::uint64_t own = index - sweep.first_ray;
+  const double across =
+      static_cast<double>(own / sweep.per_scanline) + wobble_.uniform(2 * index, -wobble, wobble);
+  const double up =
+      static_cast<double>(own % sweep.per_scanline) + 0.5 + wobble_.uniform(2 * index + 1, -rise, rise);
+  return {.sweep = static_cast<std::uint32_t>(after - sweeps_.begin() - 1),
+          .azimuth = across / static_cast<double>(sweep.scanlines),
+          .elevation = lowest_ + upright_ * (up / static_cast<double>(sweep.per_scanline))};
+}
+
+}  // namespace lacuna::synth

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of simple shapes, and what a ray hits first in them. Metres; z is up.
+#pragma once
+
+#include "bench/synth/shapes.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace lacuna::synth {
+
+struct Scene {
+  std::vector<Wall> walls;
+  std::vector<Box> boxes;
+  std::vector<Ball> balls;
+  std::vector<Column> columns;
+  std::vector<Pipe> pipes;
+  std::vector<Vault> vaults;
+  std::vector<House> houses;
+  std::vector<Terrain> terrains;
+  std::vector<Foliage> foliage;  // no shapes: they have no surface
+  Vec3 stand_low, stand_high;    // where a station may stand, its eye included
+  bool flown = false;            // scanned from above, in strips from stand_low to stand_high
+
+  // The name of the shape with this number.
+  const char* name_of(std::uint32_t shape) const;
+  bool is_wall(std::uint32_t shape) const { return shape < walls.size(); }
+  bool is_terrain(std::uint32_t shape) const;
+};
+
+// Calls `use(shape, number)` for each shape, in the order of their numbers.
+template <typename Use>
+void for_each_shape(const Scene& scene, const Use& use) {
+  std::uint32_t number = 0;
+  const auto use_all = [&](const auto& shapes) {
+    for (const auto& shape : shapes) use(shape, number++);
+  };
+  use_all(scene.walls);
+  use_all(scene.boxes);
+  use_all(scene.balls);
+  use_all(scene.columns);
+  use_all(scene.pipes);
+  use_all(scene.vaults);
+  use_all(scene.houses);
+  use_all(scene.terrains);
+}
+
+enum class SceneKind { kRoom, kCourt, kHall, kVault, kStreet, kPlant, kAerial };
+
+// The seed places houses and trees of the aerial scene. The others are always the same.
+Scene make_scene(SceneKind kind, std::uint64_t seed = 1);
+
+// The nearest by range; every shape is tried.
+Hit cast(const Scene& scene, const Beam& beam);
+
+// The share of rays that pass the leaves within `range`.
+double share_through_leaves(const Scene& scene, const Beam& beam, double range);
+
+// Is a shape closer than `clearance` to this place? (Walls, vaults, houses and ground are not looked at.)
+bool occupied(const Scene& scene, Vec3 place, double clearance);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The grid that a synthetic surface is made of: which of its nodes exist, and where it ends.
+#pragma once
+
+#include "bench/synth/surface_options.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace lacuna::synth {
+
+// A node of the grid is written row * columns + column. Columns beyond `step_column` are thinned to every
+// `stride`-th, and so are the rows there.
+struct SurfaceGrid {
+  std::uint32_t rows = 0, columns = 0;
+  bool wrap_rows = false, wrap_columns = false;  // the last row (column) is next to the first
+  std::uint32_t step_column = 0;
+  std::uint32_t stride = 1;
+  // The columns are those of so many square panels side by side: the faces of a cube, or of one blown up to a
+  // sphere. Panels are neighbours in space, not in the grid, and their nodes are the middles of its squares.
+  std::uint32_t panels = 1;
+
+  std::uint32_t panel_columns() const { return columns / panels; }
+  std::uint64_t nodes() const { return std::uint64_t{rows} * columns; }
+  std::uint64_t node(std::uint32_t row, std::uint32_t column) const {
+    return std::uint64_t{row} * columns + column;
+  }
+  bool thinned(std::uint32_t column) const { return stride > 1 && column > step_column; }
+  bool exists(std::uint32_t row, std::uint32_t column) const {
+    return !thinned(column) || (row % stride == 0 && (column - step_column) % stride == 0);
+  }
+};
+
+// Between the nodes: fractions of rows and columns.
+struct Place {
+  double row = 0, column = 0;
+};
+
+// A closed curve in the plane of the grid, from 0 to 1.
+struct Outline {
+  double length = 0;  // nodes; of an ellipse a bound from above
+  std::function<Place(double)> at;
+};
+
+// The numbers of points, or of the nodes that they stand for, in the order of a closed loop.
+using NumberLoop = std::vector<std::uint64_t>;
+
+// A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that
+// is too few or too many.
+SurfaceGrid lay_grid(const SurfaceOptions& options);
+
+// The outer edges, each in the order of its nodes. A sheet has one, a tube two, a torus, a sphere or a cube
+// none. Where the density steps, fine and coarse quads join without a gap.
+std::vector<NumberLoop> rims(const SurfaceGrid& grid);
+
+// Returns the outer edges as curves.
+std::vector<Outline> outer_edges(const SurfaceGrid& grid);
+
+}  // namespace lacuna::synth

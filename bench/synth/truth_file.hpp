@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The file of true loops of a synthetic scan.
+#pragma once
+
+#include "io/files/output_file.hpp"
+#include "io/loops/loops_reader.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::synth {
+
+// How each file of true loops begins: an earlier one is recognised by it.
+inline constexpr std::string_view kTruthMark = io::kLoopsTextMark;
+
+// `truth`, or next to the scan if empty, as NAME.loops.txt. Throws `Error` when that is the scan itself.
+std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std::filesystem::path& truth);
+
+void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
+// A comment with what the loop is, and a line with its ids.
+void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
+// A step of density: a comment with the ids along it, for io::read_steps().
+void write_step(io::OutputFile& file, const std::vector<std::uint64_t>& step);
+
+}  // namespace lacuna::synth

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// From which stations a place of a scene's surface is sampled, and why not from the others.
+#pragma once
+
+#include "bench/synth/scanner.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::synth {
+
+// Why a station does not sample a place.
+struct Cause {
+  enum Kind : std::uint8_t {
+    kNone,
+    kEdge,    // the surface of the shape ends there, or turns away
+    kShadow,  // of the shape
+    kWindow,
+    kDoor,
+    kWater,
+    kBelow,  // the field of view of the station
+    kAbove,
+    kStrip,  // to a side of it, or past its ends
+    kFar
+  } kind = kNone;
+  std::uint32_t number = 0;  // of the shape, or of the station
+
+  friend bool operator==(const Cause&, const Cause&) = default;
+  friend auto operator<=>(const Cause&, const Cause&) = default;
+};
+
+// As a person would say it.
+std::string in_words(const Cause& cause, const Scene& scene);
+
+struct SurfacePlace {
+  Vec3 position, normal;
+  std::uint32_t shape;
+  bool two_sided;
+};
+
+class Visibility {
+ public:
+  // By the sweeps of all stations.
+  explicit Visibility(const Scanner& scanner);
+
+  // By those of one station, or of all others.
+  Visibility only(std::uint32_t station) const;
+  Visibility without(std::uint32_t station) const;
+
+  // Numbers in Scanner::sweeps().
+  const std::vector<std::uint32_t>& sweeps() const { return sweeps_; }
+
+  // The cause is kNone if the sweep samples the place.
+  Cause cause(const SurfacePlace& place, std::uint32_t sweep) const;
+  bool any(const SurfacePlace& place) const;
+
+  // The normal on the side of the first station that samples the place; none: no station does.
+  std::optional<Vec3> facing(const SurfacePlace& place) const;
+
+  // Points per square metre that one sweep leaves around the place; 0 if it does not sample it.
+  double density(const SurfacePlace& place, std::uint32_t sweep) const;
+
+  // Mean distance of the points that all sweeps leave around the place; 0 if none samples it. For a scanner
+  // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
+  // so, since their points lie close in one direction only.
+  double spacing(const SurfacePlace& place) const;
+
+ private:
+  const Scanner& scanner_;
+  double lowest_, highest_;  // sines of the elevation
+  std::vector<std::uint32_t> sweeps_;
+};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops of the spanning graph as the search finds them: by their vertices alone.
+#pragma once
+
+#include "engine/evaluate/tile_outputs.hpp"
+#include "engine/loops/loops.hpp"
+#include "engine/model/boundary_graph.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/column.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace lacuna::paper {
+
+// An owned point of a tile that a loop may pass through.
+struct StoredVertex {
+  LocalIndex owned;
+  StoredLoopPoint point;
+};
+inline constexpr RecordStream<StoredVertex> kVertices{"vertices"};  // in ascending owned index
+
+class RawLoops {
+ public:
+  explicit RawLoops(std::filesystem::path file) : vertices_(std::move(file)) {}
+
+  void add(std::span<const Vertex> loop);  // from any thread
+  std::size_t size() const { return counts_.size(); }
+
+  // Joins each vertex with its point, and sorts the loops. Cost: a pass over the tiles' vertices.
+  Loops with_points(const TileOutputs& outputs, const Tiling& tiling, Job& job) const;
+
+ private:
+  Column<Vertex> vertices_;            // loop after loop
+  std::vector<std::uint64_t> counts_;  // of each loop's vertices
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
+};
+
+}  // namespace lacuna::paper

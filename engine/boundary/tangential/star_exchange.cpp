@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/boundary/tangential/star_exchange.hpp"
+
+#include "engine/store/merge_runs.hpp"
+#include "engine/store/row_runs.hpp"
+
+#include <span>
+#include <tuple>
+
+namespace lacuna::tangential {
+
+bool operator<(const RemoteTriangle& a, const RemoteTriangle& b) {
+  return std::tie(a.to, a.from, a.other) < std::tie(b.to, b.from, b.other);
+}
+
+StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, const Job& job)
+    : outputs(outputs),
+      tiling(tiling),
+      active(tiling.row_count()),
+      around(tiling.tiles.size()),
+      sites(job.file("sites")),
+      samples(job.file("samples")),
+      remote_triangles(job.file("remote-triangles"), tiling.tiles.size(), job.memory.spills / 8),
+      belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.memory.spills / 16),
+      belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.memory.spills / 16) {
+  job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+    const auto t = static_cast<TileIndex>(i);
+    for (const LocalIndex p : outputs.read(kActive, t)) active.insert(tiling.tiles[t].row(p));
+    around[t] = tiling.tiles_of(outputs.read(kBeltRows, t));
+  });
+}
+
+void StarExchange::publish(TileIndex tile) {
+  std::vector<Row> rows;
+  for (const LocalIndex p : outputs.read(kSampled, tile)) rows.push_back(tiling.tiles[tile].row(p));
+  write_rows<Site>(sites, rows, outputs.read(kSites, tile));
+  write_rows<StarSample>(samples, rows, outputs.read(kSamples, tile));
+}
+
+void StarExchange::add_belt_stars(TileIndex tile, const OpenStars& stars) {
+  belt_stars_.append(tile, stars.stars);
+  belt_vertices_.append(tile, stars.vertices);
+}
+
+OpenStars StarExchange::open_stars(TileIndex tile) const {
+  OpenStars open{outputs.read(kOpenStars, tile), outputs.read(kOpenVertices, tile)};
+  const auto before = static_cast<std::uint32_t>(open.vertices.size());
+  for (OpenStar star : belt_stars_.read(tile)) {
+    star.place.begin += before;
+    open.stars.push_back(star);
+  }
+  const std::vector<OpenLinkVertex> vertices = belt_vertices_.read(tile);
+  open.vertices.insert(open.vertices.end(), vertices.begin(), vertices.end());
+  merge_runs(open.stars, [](const OpenStar& a, const OpenStar& b) { return a.owned < b.owned; });
+  return open;
+}
+
+std::uint64_t StarExchange::open_star_count(TileIndex tile) const {
+  return outputs.count(kOpenStars, tile) + belt_stars_.count(tile);
+}
+
+std::uint64_t StarExchange::open_vertex_count(TileIndex tile) const {
+  return outputs.count(kOpenVertices, tile) + belt_vertices_.count(tile);
+}
+
+}  // namespace lacuna::tangential

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a tile puts out of its stars, for the exchange between tiles.
+#pragma once
+
+#include "engine/boundary/tangential/sampling_radius.hpp"
+#include "engine/boundary/tangential/stars.hpp"
+#include "engine/boundary/tangential/wedge.hpp"
+#include "engine/evaluate/tile_outputs.hpp"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace lacuna::tangential {
+
+// A point of a tile's belt: it has neighbours in other tiles (border), or neighbours that have.
+struct BeltPoint {
+  StoredLoopPoint point;
+  LocalIndex owned;
+  LocalIndex place;  // among the rows of the belt
+  std::uint32_t neighbours;
+  double normal[3];
+  bool is_border;
+};
+
+// A measured star some of whose triangles depend on other tiles. Its link goes by rows, which all tiles know.
+struct OpenStar {
+  StoredLoopPoint point;
+  LocalIndex owned;
+  StarPlace place;                                     // among the tile's open link vertices
+  double distance;                                     // `Sampling::distance`
+  std::array<double, kScales.size()> sampling_radius;  // by scale
+  float surface;                                       // mean surface share of the point's neighbours
+};
+
+// A link vertex of an open star, with the consistency of the triangle that begins here.
+struct OpenLinkVertex {
+  LinkEnd end;
+  float radius;
+  Consistency consistency;
+};
+template <class Visit>
+void for_each_row(OpenLinkVertex& record, Visit&& visit) {
+  visit(record.end.row);
+}
+
+// Open stars of one tile.
+struct OpenStars {
+  std::vector<OpenStar> stars;
+  std::vector<OpenLinkVertex> vertices;
+
+  void add(const StoredLoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
+           SamplingRadius& sampling_radius, float surface) {
+    stars.push_back(
+        {point,
+         owned,
+         {static_cast<std::uint32_t>(vertices.size()), 0, bound},
+         distance,
+         {sampling_radius.within(bound.fine * distance), sampling_radius.within(bound.coarse * distance)},
+         surface});
+  }
+  void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
+    vertices.push_back(vertex);
+    ++stars.back().place.size;
+  }
+};
+
+// What the stars around a point need of it.
+struct StarSample {
+  Sampling sampling;
+  StarRadii radii;
+  float surface;  // `Evaluation::surface_share`
+};
+
+inline constexpr RecordStream<LocalIndex> kActive{"active"};  // owned points, ascending
+inline constexpr RecordStream<Wedge> kWedges{"wedges"};  // those that the tile is sure of, in ascending row
+inline constexpr RecordStream<OpenStar> kOpenStars{"open stars"};  // in ascending owned index
+inline constexpr RecordStream<OpenLinkVertex> kOpenVertices{"open vertices"};
+inline constexpr RecordStream<BeltPoint> kBelt{"belt"};     // in ascending owned index
+inline constexpr RecordStream<Row> kBeltRows{"belt rows"};  // of these points and their neighbours, ascending
+// The neighbours of one belt point after the other, in neighbour order: places of rows.
+inline constexpr RecordStream<LocalIndex> kBeltNeighbours{"belt neighbours"};
+// Owned points among the rows of the belt, ascending; their sites and samples.
+inline constexpr RecordStream<LocalIndex> kSampled{"sampled"};
+inline constexpr RecordStream<Site> kSites{"sites"};
+inline constexpr RecordStream<StarSample> kSamples{"samples"};
+
+}  // namespace lacuna::tangential

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the steps behind the evaluation need of the tiles: named streams of plain records.
+//
+// It is all that is left of an evaluated tile: the neighbour graph never touches the disk. The global steps
+// read the streams tile by tile. A run whose workspace is kept seals the outputs, so that no tile is
+// evaluated twice. Any other run buffers them in memory, and spills what does not fit to one file without a
+// name.
+#pragma once
+
+#include "engine/model/tiling.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/workspace/kept_outputs.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace lacuna {
+
+// The name of a stream, at most 23 characters, and the type of its records.
+template <class Record>
+struct RecordStream {
+  static_assert(std::is_trivially_copyable_v<Record>);
+  std::string_view name;
+};
+
+// for_each_row(record, visit): visit(row) for each row of a record, by reference. Sealed records have the
+// number of a tile and a place in it instead of a row. So an output stays right where other tiles get more or
+// fewer points.
+template <class Visit>
+void for_each_row(Row& row, Visit&& visit) {
+  visit(row);
+}
+template <class Record>
+concept HasRows = requires(Record& record) {
+  for_each_row(record, [](Row&) {});
+};
+
+// The sealed form of a row, and back. The latter throws `Error` where the tile has no such row.
+Row to_stored_row(Row row, const Tiling& tiling);
+Row from_stored_row(Row stored, const Tiling& tiling);
+
+// The output of one tile, while its consumers put their records into it.
+class TileOutput {
+ public:
+  // `stream`: one that was not added before.
+  template <class Record>
+  void add(const RecordStream<Record>& stream, std::span<const Record> records) {
+    if (records.empty()) return;
+    const std::span<const std::byte> bytes = std::as_bytes(records);
+    streams_.push_back({stream.name, {bytes.begin(), bytes.end()}, nullptr});
+    if constexpr (HasRows<Record>) streams_.back().store_rows = store_rows_of<Record>;
+  }
+  template <class Record>
+  void add(const RecordStream<Record>& stream, const std::vector<Record>& records) {
+    add(stream, std::span<const Record>(records));
+  }
+
+ private:
+  friend class TileOutputs;
+  struct Stream {
+    std::string_view name;
+    std::vector<std::byte> bytes;
+    void (*store_rows)(std::span<std::byte> records, const Tiling& tiling);  // null: the records have no rows
+  };
+
+  template <class Record>
+  static void store_rows_of(std::span<std::byte> records, const Tiling& tiling) {
+    for (; records.size() >= sizeof(Record); records = records.subspan(sizeof(Record))) {
+      Record record;
+      std::memcpy(&record, records.data(), sizeof record);
+      for_each_row(record, [&](Row& row) { row = to_stored_row(row, tiling); });
+      std::memcpy(records.data(), &record, sizeof record);
+    }
+  }
+
+  std::vector<Stream> streams_;
+};
+
+// The outputs of all tiles of a level. Tiles are added from any thread. A stream is read after `finish`.
+class TileOutputs {
+ public:
+  // `kept`: where a workspace keeps the outputs. `tiling` must outlive this.
+  TileOutputs(const Tiling& tiling, std::optional<KeptOutputs> kept, const Job& job);
+
+  // Tiles whose outputs are not there yet, ascending.
+  std::vector<TileIndex> missing() const;
+  bool is_kept() const { return kept_.has_value(); }
+  // Adds the output that the run before an update has sealed for a tile. `content`: the fingerprint of all
+  // that the tile's output depends on. Returns false if there is no such output.
+  bool add_earlier(TileIndex tile, const Digest& content) {
+    return kept_ && kept_->add_earlier(tile, content);
+  }
+  // `content`: as above, where the outputs are kept.
+  void add(TileIndex tile, TileOutput output, const Digest& content);
+  void finish();
+
+  // In the order in which they were added. Throws `Error` where a sealed stream is broken.
+  template <class Record>
+  std::vector<Record> read(const RecordStream<Record>& stream, TileIndex tile) const {
+    std::vector<Record> records(count(stream, tile));
+    read_bytes(stream.name, tile, std::as_writable_bytes(std::span(records)));
+    if constexpr (HasRows<Record>) {
+      if (!kept_) return records;
+      for (Record& record : records)
+        for_each_row(record, [&](Row& row) { row = from_stored_row(row, *tiling_); });
+    }
+    return records;
+  }
+  template <class Record>
+  std::uint64_t count(const RecordStream<Record>& stream, TileIndex tile) const {
+    return record_count(stream.name, tile, sizeof(Record));
+  }
+
+ private:
+  static constexpr std::size_t kUnknown = SIZE_MAX;
+
+  std::size_t list_of(std::string_view stream, TileIndex tile) const;
+  std::size_t make_list(std::string_view stream, TileIndex tile);
+  std::uint64_t record_count(std::string_view stream, TileIndex tile, std::size_t record_bytes) const;
+  void read_bytes(std::string_view stream, TileIndex tile, std::span<std::byte> to) const;
+
+  const Tiling* tiling_;
+  std::optional<KeptOutputs> kept_;
+  // Without a workspace: a list for each stream and tile, stream by stream.
+  std::vector<std::string_view> streams_;
+  AppendBytes lists_;
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of new streams
+};
+
+}  // namespace lacuna

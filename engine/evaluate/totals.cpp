@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/evaluate/totals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lacuna {
+namespace {
+
+// A power of two so small that no edge is lost: 2^-60 of the scan's extent.
+double length_unit(double extent) {
+  return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
+}
+
+// The sums of a tile, as plain data.
+struct TileSums {
+  std::uint64_t points, neighbours, candidates, undefined_normals;
+  ProbabilityBins probabilities;
+  std::uint64_t edge_length_low;
+  std::int64_t edge_length_high;
+};
+struct DistanceBin {
+  std::uint64_t bin, count;
+};
+
+constexpr RecordStream<TileSums> kSums{"sums"};
+constexpr RecordStream<DistanceBin> kDistances{"distances"};
+
+}  // namespace
+
+Totals::Totals(double extent) : length_unit(lacuna::length_unit(extent)) {}
+
+double Totals::mean_neighbours() const {
+  return points == 0 ? 0 : static_cast<double>(neighbours) / static_cast<double>(points);
+}
+
+double Totals::mean_edge_length() const {
+  if (neighbours == 0) return 0;
+  return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
+}
+
+double Totals::surface_area() const {
+  return std::numbers::pi * 2.25 * distances.sum_of_squares() / (mean_neighbours() + 2.5);
+}
+
+Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
+              double extent, std::vector<LocalIndex>& candidates) {
+  Totals totals(extent);
+  totals.points = evaluations.size();
+  totals.neighbours = neighbourhoods.indices.size();
+  std::vector<std::uint32_t> distances(LengthBins::bin_of(std::numeric_limits<double>::infinity()));
+  for (LocalIndex p = 0; p < evaluations.size(); ++p) {
+    const Evaluation& e = evaluations[p];
+    if (e.probability > threshold) candidates.push_back(p);
+    ++totals.probabilities[std::min(kProbabilityBins - 1,
+                                    static_cast<std::size_t>(e.probability * kProbabilityBins))];
+    totals.undefined_normals += !e.normal.allFinite();
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
+      ++distances[LengthBins::bin_of(e.mean_distance)];
+    const double length =
+        e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / totals.length_unit;
+    constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
+    totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
+  }
+  totals.candidates = candidates.size();
+  for (std::uint32_t bin = 0; bin < distances.size(); ++bin)
+    if (distances[bin] > 0) totals.distances.counts[bin] = distances[bin];
+  return totals;
+}
+
+void emit_totals(const Totals& sums, TileOutput& output) {
+  std::vector<TileSums> stored(1);
+  stored.front() = {.points = sums.points,
+                    .neighbours = sums.neighbours,
+                    .candidates = sums.candidates,
+                    .undefined_normals = sums.undefined_normals,
+                    .probabilities = sums.probabilities,
+                    .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
+                    .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
+  output.add(kSums, stored);
+  std::vector<DistanceBin> bins;
+  for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
+  output.add(kDistances, bins);
+}
+
+Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent) {
+  Totals totals(extent);
+  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
+    for (const TileSums& sums : outputs.read(kSums, tile)) {
+      totals.points += sums.points;
+      totals.neighbours += sums.neighbours;
+      totals.candidates += sums.candidates;
+      totals.undefined_normals += sums.undefined_normals;
+      totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
+      for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
+        totals.probabilities[bin] += sums.probabilities[bin];
+    }
+    for (const DistanceBin& bin : outputs.read(kDistances, tile))
+      totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
+  }
+  return totals;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// totals: sums over the evaluated points of a tile, and of a level.
+#pragma once
+
+#include "engine/criteria/evaluation.hpp"
+#include "engine/evaluate/tile_outputs.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/model/length_bins.hpp"
+#include "engine/model/neighbourhoods.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+__extension__ using Int128 = __int128;
+
+// Sums over distinct points, exact in any order.
+struct Totals {
+  // `extent`: the largest distance between points of the scan.
+  explicit Totals(double extent = 0);
+
+  std::uint64_t points = 0;
+  std::uint64_t neighbours = 0;  // of |N_p|
+  std::uint64_t candidates = 0;  // Pi above the threshold
+  std::uint64_t undefined_normals = 0;
+  ProbabilityBins probabilities{};
+  Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
+  double length_unit = 1;
+  LengthBins distances;  // mean distances to the neighbours, where there are any
+
+  double mean_neighbours() const;   // K
+  double mean_edge_length() const;  // over the edges of G
+  double median_distance() const { return distances.median(); }
+  // The surface, where its points are even: the sum of the areas that they stand for. A disc of 3/2
+  // the mean distance holds its neighbours, the point and, as measured for k from 8 to 50, 1.5 more. Within
+  // 2 % on even samplings; points near a boundary count for more.
+  double surface_area() const;
+};
+
+// The sums of a tile. `extent`: the largest distance between points of the scan. `candidates` gets the points
+// whose probability exceeds the threshold, ascending: one sweep for both, since the evaluations do not fit in
+// the cache.
+Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
+              double extent, std::vector<LocalIndex>& candidates);
+
+void emit_totals(const Totals& sums, TileOutput& output);
+
+// The sums of all tiles.
+Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent);
+
+}  // namespace lacuna

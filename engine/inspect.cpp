@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/inspect.hpp"
+
+#include "engine/pipeline_steps.hpp"
+#include "engine/run/job.hpp"
+#include "engine/summarise.hpp"
+
+namespace lacuna {
+
+Inspection inspect(PointSource& scan, const Config& given, const std::filesystem::path& workspace,
+                   Progress& progress) {
+  check_config(given);
+  const Config config = with_min_hole(given);
+  Job job(config, workspace, progress);
+  const Level level = first_level(scan, {}, job);
+  return {.summary = summarise(level, job),
+          .cell_size = level.survey.grid.edge(),
+          .cells = level.store.tiling().cells.size()};
+}
+
+}  // namespace lacuna

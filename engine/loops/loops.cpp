@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/loops/loops.hpp"
+
+#include "engine/store/column_writer.hpp"
+
+namespace lacuna {
+
+void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
+                const std::function<StoredLoopPoint(std::uint64_t)>& point) {
+  const std::lock_guard lock(*mutex_);
+  index_.push_back({points_.size(), count, point(0).point.id, evidence});
+  ColumnWriter<StoredLoopPoint> writer(points_);
+  for (std::uint64_t i = 0; i < count; ++i) writer.add(point(i));
+  writer.finish();
+}
+
+void Loops::for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const {
+  const std::uint64_t first = index_[loop].first;
+  ColumnReader<StoredLoopPoint> points(points_);
+  for (std::uint64_t i = first; i < first + index_[loop].count; ++i) visit(points[i]);
+}
+
+int Loops::compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j) {
+  if (i.first_id != j.first_id) return i.first_id < j.first_id ? -1 : 1;
+  if (i.count != j.count) return i.count < j.count ? -1 : 1;
+  ColumnReader<StoredLoopPoint> of_a(a.points_), of_b(b.points_);
+  for (std::uint64_t k = 0; k < i.count; ++k) {
+    const PointId id_a = of_a[i.first + k].point.id, id_b = of_b[j.first + k].point.id;
+    if (id_a != id_b) return id_a < id_b ? -1 : 1;
+  }
+  return 0;
+}
+
+int compare_points(const Loops& a, std::size_t i, const Loops& b, std::size_t j) {
+  return Loops::compare(a, a.index_[i], b, b.index_[j]);
+}
+
+void Loops::sort() {
+  std::sort(index_.begin(), index_.end(), [&](const Entry& a, const Entry& b) {
+    const int order = &a == &b ? 0 : compare(*this, a, *this, b);
+    return order != 0 ? order < 0 : a.evidence.is_coarse < b.evidence.is_coarse;
+  });
+}
+
+}  // namespace lacuna

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of a level, on disk: a loop may be larger than memory. In memory is only where each one lies.
+#pragma once
+
+#include "engine/model/loop.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/column.hpp"
+#include "engine/store/point_column.hpp"
+#include "engine/store/scratch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// A point of a loop as plain data, from the boundary edges to the results.
+struct StoredLoopPoint {
+  StoredPoint point;
+  std::array<float, 3> surface;  // mu_p - p
+  float probability;
+};
+
+inline LoopPoint loaded(const StoredLoopPoint& p) {
+  return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
+}
+
+// What a method finds of a loop besides its points (method.md, C.6). The paper's method does not measure it.
+struct LoopEvidence {
+  double clearness = 1;     // of its wedges, [0, 1]
+  double surface = 1;       // how much the neighbourhoods around it resemble a surface, [0, 1]
+  double spacing = 0;       // of the points along it; a length
+  double sampling_gap = 0;  // sampling radius over the distance to the neighbours, along it
+  bool is_coarse = false;   // found within the coarse bound
+
+  // It may be reported, or be a link of a track. Others are gaps of the sampling.
+  bool may_be_hole() const {
+    constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;
+    return clearness >= kLeastClearness && surface >= kLeastSurface;
+  }
+};
+
+class Loops {
+ public:
+  explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
+
+  // point(i): the i-th of `count` points. From any thread.
+  void add(std::uint64_t count, const LoopEvidence& evidence,
+           const std::function<StoredLoopPoint(std::uint64_t)>& point);
+  // Numbers the loops in the order of (first id, length, ids), a fine loop before the same coarse one.
+  void sort();
+
+  std::size_t size() const { return index_.size(); }
+  std::uint64_t points() const { return points_.size(); }  // of all loops
+  std::uint64_t count(std::size_t loop) const { return index_[loop].count; }
+  const LoopEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
+  // to: `count` points.
+  void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
+  // In the order of the loop, in blocks.
+  void for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const;
+
+  // Compares the points of two loops by (first id, length, ids): less than 0 where a comes first, 0 where
+  // they have the same points.
+  friend int compare_points(const Loops& a, std::size_t i, const Loops& b, std::size_t j);
+
+ private:
+  struct Entry {
+    std::uint64_t first, count;  // of its points
+    PointId first_id;
+    LoopEvidence evidence;
+  };
+  static int compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j);
+
+  Column<StoredLoopPoint> points_;
+  std::vector<Entry> index_;
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
+};
+
+// Loops of several levels, of which some are chosen.
+struct ChosenLoops {
+  struct Place {
+    std::uint32_t level, loop;
+  };
+  std::vector<Loops> levels;
+  std::vector<Place> chosen;  // in the order of (first id, length, ids)
+
+  std::size_t size() const { return chosen.size(); }
+  std::uint64_t points() const {
+    std::uint64_t points = 0;
+    for (std::size_t i = 0; i < size(); ++i) points += count(i);
+    return points;
+  }
+  std::uint64_t count(std::size_t i) const { return levels[chosen[i].level].count(chosen[i].loop); }
+  void read(std::size_t i, std::span<StoredLoopPoint> to) const {
+    levels[chosen[i].level].read(chosen[i].loop, to);
+  }
+  void for_each_point(std::size_t i, const std::function<void(const StoredLoopPoint&)>& visit) const {
+    levels[chosen[i].level].for_each_point(chosen[i].loop, visit);
+  }
+};
+
+// visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a share
+// of the limit, whatever the length of a loop.
+template <class LoopSet, class Visit>
+void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
+  std::vector<std::uint64_t> needs;
+  const std::uint64_t most = job.memory.global / (2 * job.arena.threads());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(StoredLoopPoint)));
+  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t i) {
+    Scratch scratch(job.workspace, most);
+    const std::span<StoredLoopPoint> points = scratch.array<StoredLoopPoint>(loops.count(i));
+    loops.read(i, points);
+    visit(i, std::span<const StoredLoopPoint>(points), scratch);
+  });
+}
+
+}  // namespace lacuna

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps of a run that other processes may do, too (unit.hpp). Each takes from the workspace what is
+// there.
+#pragma once
+
+#include "engine/evaluate/evaluated_tile.hpp"
+#include "engine/evaluate/tile_outputs.hpp"
+#include "engine/evaluate/totals.hpp"
+#include "engine/model/points.hpp"
+#include "engine/run/job.hpp"
+#include "engine/thin/level.hpp"
+#include "engine/workspace/workspace.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+// Survey, bucket, thin: the points of the first level. Where the config has a resolution, one point for each
+// cell of its lattice is left. Reads the input twice, or once where it reads slowly. Throws `Error`.
+Level first_level(PointSource& scan, const Workspace& workspace, Job& job);
+
+// Thin: the level above, made from the points of the one below. None where too few are left for a hole.
+std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
+                                 Job& job);
+
+// One of several processes that evaluate a level: the tiles' points are shared out evenly.
+struct TaskShare {
+  std::size_t task = 0, tasks = 1;
+};
+
+// Halo, evaluate: the outputs of all tiles of a level; or, with a share, at least of its tiles.
+TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
+                           const Workspace& workspace, Job& job,
+                           const std::optional<TaskShare>& share = std::nullopt);
+
+}  // namespace lacuna

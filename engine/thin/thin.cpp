@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/thin/thin.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+// As the tiles were put together before an update, if that suits these points.
+TileJoin join_for(std::optional<TileJoin> earlier, const Tiling& below, const ChosenPoints& chosen,
+                  const Job& job) {
+  if (earlier && job.tile_bytes(2 * earlier->tile_points) <= job.memory.tiles &&
+      suits(*earlier, below, chosen))
+    return *std::move(earlier);
+  return join_tiles(below, chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
+}
+
+// The chosen points as a level.
+Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, LevelPlace place,
+               Job& job) {
+  TileJoin join = join_for(std::move(place.join), below.store.tiling(), chosen, job);
+  return {.number = number,
+          .edge = edge,
+          .survey = below.survey,
+          .extent = below.extent,
+          .guide = below.guide,
+          .join = join,
+          .store = store_chosen(below.store, chosen, join, std::move(place.files), job),
+          .represented = std::move(chosen.represented)};
+}
+
+// Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
+// has no more at any resolution.
+void refuse_too_coarse(std::uint64_t left, const SurveyedScan& survey, const Config& config) {
+  const std::uint64_t finite = survey.points - survey.dropped;
+  const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
+  if (left > k || finite <= k || survey.bounds.sizes().isZero(0)) return;
+  const Eigen::Vector3d size = survey.bounds.sizes();
+  const ScaleConfig& scale = config.scale;
+  const bool is_of_hole = scale.resolution == 0;
+  std::ostringstream message;
+  message << "a resolution of " << first_edge(scale);
+  if (is_of_hole) message << ", for holes of " << scale.min_hole << ",";
+  message << " leaves " << left << " of " << finite << " points, too few for k = " << k
+          << " neighbours; the scan's size is " << size.x() << " x " << size.y() << " x " << size.z()
+          << "; allowed: a smaller " << (is_of_hole ? "--min-hole" : "--resolution");
+  throw Error(message.str());
+}
+
+// The first power of sqrt 2 above a length.
+double power_above(double length) {
+  const double octave = std::ldexp(1.0, std::ilogb(length));
+  return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
+}
+
+// The share of the points that cells of this edge leave. Where a cell of a surface has n points on average,
+// that is about 1 / (1 + n / 2).
+double share_left(const LengthBins& distances, double edge) {
+  constexpr double kCellsOfSurface = 1.3;  // to cover one cell's area, as surfaces are tilted
+  double left = 0, all = 0;
+  for (const auto& [bin, count] : distances.counts) {
+    const double cells_per_spacing = edge * kDistanceOverSpacing / LengthBins::start_of(bin);
+    left += static_cast<double>(count) / (1 + cells_per_spacing * cells_per_spacing / kCellsOfSurface / 2);
+    all += static_cast<double>(count);
+  }
+  return left / all;
+}
+
+constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
+
+// The first edge above a length that leaves as few points as a level is to have; 0 where no point has a
+// neighbour.
+double edge_above(const LengthBins& distances, double length) {
+  if (distances.counts.empty()) return 0;
+  double edge = power_above(std::max(length, LengthBins::start_of(distances.counts.begin()->first) / 4));
+  while (share_left(distances, edge) > kWantedLeft) edge = power_above(edge * 1.0001);
+  return edge;
+}
+
+}  // namespace
+
+Level thin_to_first(const Level& all, LevelPlace place, Job& job) {
+  Phase phase(job, "thin", all.store.tiling().points());
+  const double edge = first_edge(job.config.scale);
+  ChosenPoints chosen = choose_points(all.store, edge, job.config.results.points ? all.survey.ids : 0, job);
+  refuse_too_coarse(chosen.count, all.survey, job.config);
+  return level_of(std::move(chosen), all, 0, edge, std::move(place), job);
+}
+
+std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
+                                const std::function<LevelPlace()>& place, Job& job) {
+  constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
+  const std::uint64_t points = below.store.tiling().points();
+  // Edges are rounded powers.
+  for (double edge = edge_above(distances, below.edge * 1.0001); edge > 0;
+       edge = power_above(edge * 1.0001)) {
+    ChosenPoints chosen = choose_points(below.store, edge, 0, job);
+    if (chosen.count < kFewest) break;
+    if (static_cast<double>(chosen.count) <= kMostLeft * static_cast<double>(points))
+      return level_of(std::move(chosen), below, below.number + 1, edge, place(), job);
+  }
+  return std::nullopt;
+}
+
+bool has_levels(const Config& config) {
+  const ScaleConfig& scale = config.scale;
+  return config.loops.method == LoopMethod::kTangential && !scale.every_point && scale.resolution == 0;
+}
+
+}  // namespace lacuna

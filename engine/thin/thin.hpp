@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// thin: a level on a lattice, made from the points of the level below, without the input.
+#pragma once
+
+#include "engine/config/config.hpp"
+#include "engine/model/length_bins.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/tile_store.hpp"
+#include "engine/thin/level.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace lacuna {
+
+// What a new level takes from the workspace: empty files for its store and, in an update, how the run before
+// has put its tiles together.
+struct LevelPlace {
+  StoreFiles files;
+  std::optional<TileJoin> join;
+};
+
+// Thins all points of a scan to the first level that the config's resolution or smallest hole wants. Throws
+// `Error` where too few points are left to have neighbours.
+Level thin_to_first(const Level& all, LevelPlace place, Job& job);
+
+// The level above: one point for each cell of a lattice. Edges are powers of sqrt 2, so that lattices do not
+// depend on the scan. The edge is the first one that leaves about six in ten points. None where too few are
+// left for a hole. `distances`: mean distances to the neighbours, of all points of the level below. `place`
+// is called once the points are chosen.
+std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
+                                const std::function<LevelPlace()>& place, Job& job);
+
+// Whether a run with this config has levels above the first one: unless the config names one level, or the
+// method is the paper's.
+bool has_levels(const Config& config);
+
+}  // namespace lacuna

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/workspace/sealed_level.hpp"
+
+#include "engine/store/sealed_part.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iomanip>
+#include <span>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kPoints = ".points", *kNormals = ".normals";
+
+struct StoredBox {
+  double min[3], max[3];
+
+  StoredBox() = default;
+  explicit StoredBox(const Eigen::AlignedBox3d& box) {
+    for (int axis = 0; axis < 3; ++axis) min[axis] = box.min()[axis], max[axis] = box.max()[axis];
+  }
+  Eigen::AlignedBox3d box() const { return {Eigen::Vector3d(min), Eigen::Vector3d(max)}; }
+};
+
+struct StoredCell {
+  StoredBox box;
+  std::uint64_t first_row, points;
+};
+
+struct StoredLevel {
+  StoredBox bounds;
+  double middle[3], grid_origin[3];
+  std::int64_t grid_finest, grid_shift;
+  std::uint64_t points, dropped, ids, is_single;
+  double extent, edge;
+  std::uint64_t tile_points, cell_points, joined_tile_points, joined_cell_points, has_normals;
+  std::uint64_t represented;  // lists; 0: none
+  std::uint64_t points_bytes, normals_bytes;
+  Digest points_digest, normals_digest;
+};
+
+StoredLevel stored(const Level& level) {
+  const SurveyedScan& survey = level.survey;
+  StoredLevel stored{.bounds = StoredBox(survey.bounds),
+                     .grid_finest = survey.grid.finest,
+                     .grid_shift = survey.grid.shift,
+                     .points = survey.points,
+                     .dropped = survey.dropped,
+                     .ids = survey.ids,
+                     .is_single = survey.is_single,
+                     .extent = level.extent,
+                     .edge = level.edge,
+                     .tile_points = level.guide.tile_points,
+                     .cell_points = level.guide.cell_points,
+                     .joined_tile_points = level.join.tile_points,
+                     .joined_cell_points = level.join.cell_points,
+                     .has_normals = level.store.has_normals(),
+                     .represented = level.represented ? level.represented->lists() : 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    stored.middle[axis] = survey.middle[axis];
+    stored.grid_origin[axis] = survey.grid.origin[static_cast<std::size_t>(axis)];
+  }
+  return stored;
+}
+
+SurveyedScan survey_of(const StoredLevel& stored) {
+  return {.grid = {.finest = static_cast<int>(stored.grid_finest),
+                   .shift = static_cast<int>(stored.grid_shift),
+                   .origin = {stored.grid_origin[0], stored.grid_origin[1], stored.grid_origin[2]}},
+          .cells = {},
+          .bounds = stored.bounds.box(),
+          .middle = Eigen::Vector3d(stored.middle),
+          .points = stored.points,
+          .dropped = stored.dropped,
+          .ids = stored.ids,
+          .is_single = stored.is_single != 0};
+}
+
+TileGuide guide_of(const StoredLevel& stored, const PartReader& part) {
+  return {.grid = survey_of(stored).grid,
+          .cuts = part.records<Cut>("cuts", 0),
+          .tile_points = stored.tile_points,
+          .cell_points = stored.cell_points};
+}
+
+TileJoin join_of(const StoredLevel& stored, const PartReader& part) {
+  return {.first = part.records<TileIndex>("joined", 0),
+          .tile_points = stored.joined_tile_points,
+          .cell_points = stored.joined_cell_points};
+}
+
+Tiling tiling_of(const PartReader& part) {
+  Tiling tiling;
+  tiling.tiles = part.records<Tile>("tiles", 0);
+  for (const StoredCell& cell : part.records<StoredCell>("cells", 0))
+    tiling.cells.push_back({cell.box.box(), Row{cell.first_row}, cell.points});
+  tiling.build_tree();
+  return tiling;
+}
+
+// for_each(visit): the records, of which some thousands are in memory at a time.
+template <class Record, class ForEach>
+void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key, ForEach&& for_each) {
+  constexpr std::size_t kTogether = 1 << 14;
+  std::vector<Record> block;
+  const auto write = [&] {
+    part.add(stream, key, std::span<const Record>(block));
+    block.clear();
+  };
+  for_each([&](const Record& record) {
+    block.push_back(record);
+    if (block.size() == kTogether) write();
+  });
+  if (!block.empty()) write();
+}
+
+std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored, const PartReader& part,
+                                                       const Job& job) {
+  if (stored.represented == 0) return std::nullopt;
+  AppendLists<Represented> represented(job.file("represented"), stored.represented, job.memory.spills / 8);
+  for (std::uint64_t list = 0; list < stored.represented; ++list) {
+    part.for_each<Represented>("represented", list,
+                               [&](std::span<const Represented> some) { represented.append(list, some); });
+  }
+  return represented;
+}
+
+// A file that is as it was sealed.
+std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, const Digest& digest) {
+  std::optional<StoreFile> file = StoreFile::open_sealed(path);
+  if (file && (file->size() != bytes || digest_of(*file) != digest)) return std::nullopt;
+  return file;
+}
+
+// The level of the run before an update.
+std::optional<PartReader> open_earlier(std::size_t number, const Workspace& workspace) {
+  if (workspace.earlier.empty()) return std::nullopt;
+  return PartReader::open(level_path(workspace.earlier, number), std::nullopt);
+}
+
+std::optional<StoredLevel> record_of(const PartReader& part) {
+  const std::vector<StoredLevel> records = part.records<StoredLevel>("level", 0);
+  if (records.size() != 1) return std::nullopt;
+  return records.front();
+}
+
+bool fits(const Tiling& tiling, const Job& job) {
+  return std::all_of(tiling.tiles.begin(), tiling.tiles.end(),
+                     [&](const Tile& tile) { return job.tile_bytes(tile.points) <= job.memory.tiles; });
+}
+
+// Columns have the names of their content: two processes that make the same level do each other no harm.
+fs::path column_of(std::size_t number, const Digest& digest, const char* extension,
+                   const Workspace& workspace) {
+  std::ostringstream name;
+  name << level_path(workspace.folder, number).string() << "-" << std::hex << std::setfill('0')
+       << std::setw(16) << digest[0] << extension;
+  return name.str();
+}
+
+void remove_other_columns(std::size_t number, Level& level, const Workspace& workspace) {
+  const std::string prefix = level_path(workspace.folder, number).string() + "-";
+  for (const fs::path& file : workspace_files(workspace.folder)) {
+    if (file.string().starts_with(prefix) && file != level.store.points_file().path() &&
+        file != level.store.normals_file().path())
+      remove_part(file);
+  }
+}
+
+// What the tiles of a level are evaluated from, but for the outputs that a user wants of them.
+std::string evaluation_of(const Digest& checksum, const Config& config) {
+  return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n" +
+         evaluation_parameters(config);
+}
+
+}  // namespace
+
+StoreFiles level_files(std::size_t number, const Workspace& workspace, const Job& job) {
+  if (!workspace.is_kept()) return temporary_files(job);
+  const auto create = [&](const char* extension) {
+    return StoreFile(
+        level_path(workspace.folder, number).string() + "-" + random_digits() + extension + kUnsealed,
+        StoreFile::Name::kKept);
+  };
+  return {create(kPoints), create(kNormals), job.file("duplicates")};
+}
+
+StoreFiles temporary_files(const Job& job) {
+  return {StoreFile(job.file("points")), StoreFile(job.file("normals")), job.file("duplicates")};
+}
+
+void seal_level(Level& level, const std::string& made_from, const Workspace& workspace, const Job& job) {
+  if (!workspace.is_kept()) return;
+  StoredLevel record = stored(level);
+  StoreFile &points = level.store.points_file(), &normals = level.store.normals_file();
+  points.start_sync();
+  normals.start_sync();
+  record.points_bytes = points.size();
+  record.normals_bytes = normals.size();
+  record.points_digest = digest_of(points);
+  record.normals_digest = digest_of(normals);
+  points.seal(column_of(level.number, record.points_digest, kPoints, workspace));
+  normals.seal(column_of(level.number, record.normals_digest, kNormals, workspace));
+
+  PartWriter part(level_path(workspace.folder, level.number));
+  part.add("level", 0, std::span<const StoredLevel>(&record, 1));
+  const Tiling& tiling = level.store.tiling();
+  part.add("tiles", 0, std::span<const Tile>(tiling.tiles));
+  std::vector<StoredCell> cells;
+  for (const Cell& cell : tiling.cells)
+    cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
+  part.add("cells", 0, std::span<const StoredCell>(cells));
+  part.add("cuts", 0, std::span<const Cut>(level.guide.cuts));
+  part.add("joined", 0, std::span<const TileIndex>(level.join.first));
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    add_in_blocks<Duplicate>(part, "duplicates", t,
+                             [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });
+  }
+  part.add("input", 0, std::span<const std::uint64_t>(level.input));
+  for (std::uint64_t list = 0; list < record.represented; ++list) {
+    add_in_blocks<Represented>(part, "represented", list,
+                               [&](auto&& visit) { level.represented->for_each(list, visit); });
+  }
+  level.evaluation = evaluation_of(part.seal(digest_of(made_from)), job.config);
+  if (!workspace.is_unit) remove_other_columns(level.number, level, workspace);
+}
+
+std::optional<Level> open_level(std::size_t number, const std::string& made_from, const Workspace& workspace,
+                                const Job& job) {
+  if (!workspace.is_kept()) return std::nullopt;
+  const std::optional<PartReader> part =
+      PartReader::open(level_path(workspace.folder, number), digest_of(made_from));
+  if (!part) return std::nullopt;
+  const std::optional<StoredLevel> stored = record_of(*part);
+  if (!stored) return std::nullopt;
+  const StoredLevel& record = *stored;
+  Tiling tiling = tiling_of(*part);
+  if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
+  std::optional<StoreFile> points = open_file(column_of(number, record.points_digest, kPoints, workspace),
+                                              record.points_bytes, record.points_digest);
+  std::optional<StoreFile> normals = open_file(column_of(number, record.normals_digest, kNormals, workspace),
+                                               record.normals_bytes, record.normals_digest);
+  if (!points || !normals) return std::nullopt;
+  TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
+                  survey_of(record).precision(), record.has_normals != 0, job.memory.spills / 8);
+  for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
+    part->for_each<Duplicate>(
+        "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
+  return Level{.number = number,
+               .edge = record.edge,
+               .survey = survey_of(record),
+               .extent = record.extent,
+               .guide = guide_of(record, *part),
+               .join = join_of(record, *part),
+               .store = std::move(store),
+               .evaluation = evaluation_of(part->checksum(), job.config),
+               .input = part->records<std::uint64_t>("input", 0),
+               .represented = represented_of(record, *part, job)};
+}
+
+std::optional<Level> find_level(std::size_t number, const Workspace& workspace, const Job& job) {
+  std::string made_from = workspace.made_from;
+  for (std::size_t below = 0; below < number; ++below) {
+    const std::optional<PartReader> part =
+        PartReader::open(level_path(workspace.folder, below), digest_of(made_from));
+    if (!part) return std::nullopt;
+    made_from = evaluation_of(part->checksum(), job.config);
+  }
+  return open_level(number, made_from, workspace, job);
+}
+
+std::optional<TileGuide> find_guide(const Workspace& workspace, const Job& job) {
+  const std::optional<PartReader> part = open_earlier(0, workspace);
+  if (!part) return std::nullopt;
+  const std::optional<StoredLevel> record = record_of(*part);
+  if (!record || job.tile_bytes(2 * record->tile_points) > job.memory.tiles) return std::nullopt;
+  return guide_of(*record, *part);
+}
+
+std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace) {
+  const std::optional<PartReader> part = open_earlier(number, workspace);
+  if (!part) return std::nullopt;
+  const std::optional<StoredLevel> record = record_of(*part);
+  if (!record) return std::nullopt;
+  return join_of(*record, *part);
+}
+
+std::optional<KeptOutputs> find_outputs(const Level& level, PartReader::Check check,
+                                        const Workspace& workspace, const Config& config) {
+  if (!workspace.is_kept()) return std::nullopt;
+  // Levels above the first one have no outputs but those of their loops.
+  const std::string wanted = level.number == 0 ? output_parameters(config) : "";
+  std::string earlier;
+  if (const std::optional<PartReader> part = open_earlier(level.number, workspace))
+    earlier = evaluation_of(part->checksum(), config) + wanted;
+  return std::optional<KeptOutputs>(std::in_place, level.number, level.store.tiling().tiles.size(),
+                                    level.evaluation + wanted, earlier, check, workspace);
+}
+
+}  // namespace lacuna

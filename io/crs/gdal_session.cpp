@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/crs/gdal_session.hpp"
+
+#include <cmath>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <gdal_frmts.h>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
+
+namespace lacuna::io {
+
+void register_gdal_drivers() {
+  static const bool done = [] {
+    const GdalSetting no_file_of_the_user("GDAL_CONFIG_FILE", "");
+    RegisterOGRGeoPackage();
+    RegisterOGRGeoJSON();
+    RegisterOGRShape();
+    GDALRegister_GTiff();
+    OSRSetPROJEnableNetwork(FALSE);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+bool read_crs(const std::string& text, OGRSpatialReference& crs) {
+  const char* const within_text[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  const bool is_read = crs.SetFromUserInput(text.c_str(), within_text) == OGRERR_NONE;
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return is_read;
+}
+
+std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs) {
+  OGRSpatialReference target;
+  const bool is_geocentric = crs.IsGeocentric() != 0;
+  constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, with z as it is or with the height
+  if (target.importFromEPSG(is_geocentric ? kSolid : kFlat) != OGRERR_NONE) return nullptr;
+  target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!is_geocentric) crs.StripVertical();
+  return std::unique_ptr<OGRCoordinateTransformation>(OGRCreateCoordinateTransformation(&crs, &target));
+}
+
+bool convert_to_degrees(OGRCoordinateTransformation& conversion, Eigen::Vector3d& position) {
+  double &x = position.x(), &y = position.y(), &z = position.z();
+  return conversion.Transform(1, &x, &y, &z) && std::abs(x) <= 180 && std::abs(y) <= 90;
+}
+
+GdalSetting::GdalSetting(const char* key, const char* value) : key_(key) {
+  CPLSetThreadLocalConfigOption(key, value);
+}
+
+GdalSetting::~GdalSetting() {
+  CPLSetThreadLocalConfigOption(key_, nullptr);
+}
+
+GdalFailures::GdalFailures() {
+  CPLPushErrorHandlerEx(
+      [](CPLErr level, CPLErrorNum, const char* text) {
+        auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
+        if (level >= CE_Failure && first.empty()) first = text;
+      },
+      &first_);
+}
+
+GdalFailures::~GdalFailures() {
+  CPLPopErrorHandler();
+}
+
+GdalTextSink::GdalTextSink(const Take& take) : take_(take) {
+  VSIStdoutSetRedirection(&GdalTextSink::write, reinterpret_cast<FILE*>(this));
+}
+
+GdalTextSink::~GdalTextSink() {
+  VSIStdoutSetRedirection(&std::fwrite, stdout);
+}
+
+void GdalTextSink::check() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+std::size_t GdalTextSink::write(const void* data, std::size_t size, std::size_t count, FILE* stream) {
+  auto& sink = *reinterpret_cast<GdalTextSink*>(stream);
+  try {
+    if (!sink.failure_) sink.take_({static_cast<const char*>(data), size * count});
+  } catch (...) {  // passes no frame of GDAL's
+    sink.failure_ = std::current_exception();
+  }
+  return sink.failure_ ? 0 : count;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/crs/length_unit.hpp"
+
+#include "io/crs/crs_text.hpp"
+#include "io/files/number.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lacuna::io {
+namespace {
+
+struct Unit {
+  const char* name;
+  double metres;
+};
+
+constexpr Unit kUnits[] = {{"m", 1},       {"km", 1000},   {"cm", 0.01},
+                           {"mm", 0.001},  {"ft", 0.3048}, {"us-ft", 1200.0 / 3937},
+                           {"in", 0.0254}, {"yd", 0.9144}};
+
+}  // namespace
+
+std::string unit_of_metres(double metres) {
+  constexpr double kTolerance = 1e-7;  // the two feet differ by 2e-6
+  const auto* const unit = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& known) {
+    return std::abs(metres / known.metres - 1) < kTolerance;
+  });
+  return unit == std::end(kUnits) ? "" : unit->name;
+}
+
+std::optional<double> metres_of_unit(std::string_view unit) {
+  const auto* const known = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                         [&](const Unit& other) { return unit == other.name; });
+  return known == std::end(kUnits) ? std::nullopt : std::optional(known->metres);
+}
+
+std::string length_unit(std::string_view crs) {
+  if (is_geographic(crs)) return "";
+  // Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
+  const std::string_view system = horizontal_system(crs);
+  const std::size_t unit = system.rfind("UNIT[\"");
+  if (unit == system.npos) return "";
+  const std::size_t comma = system.find("\",", unit);
+  if (comma == system.npos) return "";
+  std::string_view factor = system.substr(comma + 2);
+  factor = factor.substr(0, std::min(factor.size(), factor.find_first_of(",]")));
+  while (factor.starts_with(' ')) factor.remove_prefix(1);
+  double metres = 0;
+  return parse_number(factor, metres) ? unit_of_metres(metres) : "";
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as text, read and written.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace lacuna::io {
+
+// What std::from_chars leaves open: infinite where a number is too large for the type, 0 or denormal where
+// it is too small.
+float parse_extreme(std::string_view text, float);
+double parse_extreme(std::string_view text, double);
+
+// False unless all of `text` is one number that fits the type. It is rounded once, to the type of `value`.
+// "nan" and "inf" are floating point numbers; a leading + is allowed.
+template <class T>
+bool parse_number(std::string_view text, T& value) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, value);
+  if (stop != end || text.empty()) return false;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (status == std::errc::result_out_of_range) value = parse_extreme(text, T{});
+    return status != std::errc::invalid_argument;
+  }
+  return status == std::errc{};
+}
+
+// Reads numbers as other languages write them, too: a decimal comma, an exponent of Fortran ("1.0D+02"), and
+// Microsoft's NaN and infinity ("-1.#IND", "1.#QNAN", "1.#INF").
+bool parse_foreign_number(std::string_view text, double& value);
+
+// Adds the shortest digits that read back as the same number, such as "0.1" or "1e-07". What is not finite is
+// "nan", "inf" or "-inf".
+void append_shortest(std::string& text, double value);
+
+// Does so without an exponent, such as "500000.125", for formats whose readers may not know exponents. Below
+// 1e-15 and from 1e15 on there is one.
+void append_plain(std::string& text, double value);
+
+// What `parse_number<T>` takes, for error messages.
+std::string describe_whole_number(std::int64_t least, std::uint64_t most);
+template <class T>
+std::string describe_number() {
+  if constexpr (std::is_floating_point_v<T>) {
+    return "a number";
+  } else {
+    return describe_whole_number(std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
+  }
+}
+
+// Takes the next field off `rest`. With the separator ' ', any run of blanks divides fields. Any other
+// character divides fields itself: blanks around it are not part of the field, and nothing is expected after
+// a last separator. False when there is none left.
+inline bool next_field(std::string_view& rest, char separator, std::string_view& field) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
+  std::size_t begin = 0;
+  while (begin < rest.size() && is_blank(rest[begin])) ++begin;
+  if (begin == rest.size()) return false;
+  std::size_t end = begin;
+  if (separator == ' ') {
+    while (end < rest.size() && !is_blank(rest[end])) ++end;
+    field = rest.substr(begin, end - begin);
+    rest.remove_prefix(end);
+    return true;
+  }
+  while (end < rest.size() && rest[end] != separator) ++end;
+  field = rest.substr(begin, end - begin);
+  rest.remove_prefix(end < rest.size() ? end + 1 : end);
+  while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
+  return true;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/files/property_name.hpp"
+
+namespace lacuna::io {
+
+std::string known_name(std::string_view given) {
+  std::string lower(given);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char* known : {"x", "y", "z", "nx", "ny", "nz"}) {
+    if (lower == known) return lower;
+  }
+  return std::string(given);
+}
+
+std::string property_name(std::string_view given) {
+  std::string name = known_name(given);
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
+  }
+  return name;
+}
+
+std::string bare_name(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
+    if (c >= 'a' && c <= 'z') bare += c;
+  }
+  return bare.starts_with("scalar") ? bare.substr(6) : bare;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/formats.hpp"
+
+#include "io/e57/e57_reader.hpp"
+#include "io/files/input_file.hpp"
+#include "io/las/las_reader.hpp"
+#include "io/mesh/obj_reader.hpp"
+#include "io/mesh/off_reader.hpp"
+#include "io/mesh/stl_reader.hpp"
+#include "io/pcd/pcd_reader.hpp"
+#include "io/ply/ply_reader.hpp"
+#include "io/text/ptx_reader.hpp"
+#include "io/text/text_reader.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace lacuna::io {
+namespace {
+
+struct Format {
+  const char* name;
+  bool (*recognises)(const FileStart& start);
+  std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
+};
+
+// Tried in this order: those with a name of their own at the beginning come first.
+constexpr std::array kFormats = {
+    Format{"PLY", looks_like_ply, open_ply},
+    Format{"LAS", looks_like_las, open_las},
+    Format{"PCD", looks_like_pcd, open_pcd},
+    Format{"E57", looks_like_e57, open_e57},
+    Format{"STL", looks_like_stl, open_stl},
+    Format{"OBJ", looks_like_obj, open_obj},
+    Format{"OFF", looks_like_off, open_off},
+    Format{"PTX", looks_like_ptx, open_ptx},
+    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+};
+
+using std::string_view_literals::operator""sv;
+
+struct OtherFormat {
+  std::string_view begins;
+  std::string_view name;
+  std::string_view way_out;
+};
+
+constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
+constexpr std::string_view kUnpack = "unpack it first";
+
+constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
+
+constexpr std::array kOtherFormats = {
+    OtherFormat{"\x1f\x8b"sv, "a file packed by gzip", kUnpack},
+    OtherFormat{"BZh"sv, "a file packed by bzip2", kUnpack},
+    OtherFormat{"\xfd\x37zXZ"sv, "a file packed by xz", kUnpack},
+    OtherFormat{"\x28\xb5\x2f\xfd"sv, "a file packed by zstd", kUnpack},
+    OtherFormat{"PK\x03\x04"sv, "a zip archive", kUnpack},
+    OtherFormat{"\x89HDF\r\n\x1a\n"sv, "HDF5", "its points must be exported to LAS, PLY or text"},
+    OtherFormat{"# vtk DataFile"sv, "VTK", "ParaView exports it as PLY"},
+    OtherFormat{"<VTKFile"sv, "VTK XML", "ParaView exports it as PLY"},
+    OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
+    OtherFormat{"glTF"sv, "binary glTF", "CloudCompare or Blender export it as PLY"},
+    OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
+                "`git lfs pull` fetches the file itself"},
+    OtherFormat{"<?xml"sv, "XML", kConvert},
+    OtherFormat{"\xff\xfe"sv, "text in UTF-16", kSaveAsUtf8},
+    OtherFormat{"\xfe\xff"sv, "text in UTF-16", kSaveAsUtf8},
+    OtherFormat{"<!DOCTYPE"sv, "a web page", "a download may have failed"},
+    OtherFormat{"<html"sv, "a web page", "a download may have failed"},
+};
+
+// Names a format that is not read, and a way out.
+std::optional<std::string> describe_other_format(std::string_view first_bytes) {
+  for (const OtherFormat& format : kOtherFormats) {
+    if (first_bytes.starts_with(format.begins))
+      return "this is " + std::string(format.name) + ", which is not read; " + std::string(format.way_out);
+  }
+  return std::nullopt;
+}
+
+constexpr std::size_t kFirstBytes = 4096;
+
+FileStart file_start(InputFile& in) {
+  const std::uint64_t size = in.remaining();
+  return {.first_bytes = in.peek(kFirstBytes), .size = size};
+}
+
+const Format* find_format(const FileStart& start) {
+  for (const Format& format : kFormats) {
+    if (format.recognises(start)) return &format;
+  }
+  return nullptr;
+}
+
+// A binary STL has no beginning of its own, and is recognised by its size.
+bool is_named_stl(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".stl" || ending == ".STL";
+}
+
+std::string format_names() {
+  std::string names;
+  for (const Format& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
+}  // namespace
+
+Recognised recognise(const std::filesystem::path& file) {
+  InputFile in(file, kFirstBytes);
+  const FileStart start = file_start(in);
+  const Format* const format = find_format(start);
+  if (start.first_bytes.empty() || describe_other_format(start.first_bytes) || format == nullptr)
+    return Recognised::kNo;
+  return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
+}
+
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
+  InputFile in(file, kFirstBytes);
+  const FileStart start = file_start(in);
+  if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
+  if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);
+  if (const Format* const format = find_format(start)) return format->open(file, options);
+  if (is_named_stl(file)) return open_stl(file, options);  // says which size it must have
+  in.fail_at_byte(
+      0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the results in JSON share.
+#pragma once
+
+#include "engine/model/detection.hpp"
+#include "engine/model/points.hpp"
+#include "io/options/options.hpp"
+#include "io/scan/row_filter.hpp"
+#include "io/stations/cause.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace lacuna::io {
+
+class FileScan;
+
+// The form of holes.json, which docs/holes.schema.json describes.
+inline constexpr std::string_view kHolesSchema = "holes 2";
+
+using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
+
+// The first keys of each file: the program's version and the form of the file, such as "holes 1".
+Json begin_json(std::string_view schema);
+
+// With the indent of nlohmann::json: -1 for one line. A path need not be UTF-8, the text is.
+std::string print(const Json& json, int indent);
+
+// The content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does it.
+// Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: printing and
+// copying such values is recursive. `needed` is for the error.
+Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {},
+               std::string_view needed = "a result of lacuna detect");
+
+Json list(const Eigen::Vector3d& vector);
+Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty
+Json stations_json(const std::vector<StationSummary>& stations);
+Json strays_json(const Strays& strays);
+Json counts_of(const FilteredOut& filtered);  // by filter
+
+// The keys `crs`, null where there is none, and `unit`, empty where it is not known.
+void put_crs(const FileScan& scan, Json& json);
+// The values of the sections that `is_wanted` names, by section and key.
+Json parameter_values(FilesConfig config, const std::function<bool(std::string_view section)>& is_wanted);
+
+}  // namespace lacuna::io

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/rows/scalar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace lacuna::io {
+namespace {
+
+struct Names {
+  const char* name;
+  std::string_view other;
+};
+
+// In the order of `Scalar`.
+constexpr std::array<Names, 8> kNames = {{{"char", "int8"},
+                                          {"uchar", "uint8"},
+                                          {"short", "int16"},
+                                          {"ushort", "uint16"},
+                                          {"int", "int32"},
+                                          {"uint", "uint32"},
+                                          {"float", "float32"},
+                                          {"double", "float64"}}};
+
+}  // namespace
+
+std::size_t size_of(Scalar type) {
+  return with_type(type, [](auto value) { return sizeof(value); });
+}
+
+const char* ply_name(Scalar type) {
+  return kNames[static_cast<std::size_t>(type)].name;
+}
+
+std::optional<Scalar> scalar_from_name(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (name == kNames[i].name || name == kNames[i].other) return static_cast<Scalar>(i);
+  }
+  return std::nullopt;
+}
+
+bool is_integer(Scalar type) {
+  return type != Scalar::kFloat32 && type != Scalar::kFloat64;
+}
+
+void copy_column(ConstColumn from, Column to, std::size_t count) {
+  assert(from.type == to.type || to.type == Scalar::kFloat64);
+  with_type(from.type, [&](auto value) {
+    const bool same = from.type == to.type;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(&value, from.data + i * from.stride, sizeof(value));
+      if (same) {
+        std::memcpy(to.data + i * to.stride, &value, sizeof(value));
+      } else {
+        const double wide = static_cast<double>(value);
+        std::memcpy(to.data + i * to.stride, &wide, sizeof(wide));
+      }
+    }
+  });
+}
+
+float nearest_float(double value) {
+  using Limits = std::numeric_limits<float>;
+  if (std::abs(value) > static_cast<double>(Limits::max()))
+    return value > 0 ? Limits::infinity() : -Limits::infinity();
+  return static_cast<float>(value);
+}
+
+void put_floating(std::byte* to, Scalar type, double value) {
+  assert(!is_integer(type));
+  if (type == Scalar::kFloat32) {
+    const float narrow = nearest_float(value);
+    std::memcpy(to, &narrow, sizeof(narrow));
+  } else {
+    std::memcpy(to, &value, sizeof(value));
+  }
+}
+
+void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count) {
+  if (!summand) return copy_column(from, to, count);
+  with_type(from.type, [&](auto value) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(&value, from.data + i * from.stride, sizeof(value));
+      put_floating(to.data + i * to.stride, to.type, static_cast<double>(value) + *summand);
+    }
+  });
+}
+
+void fill_missing(Column to, std::size_t count) {
+  with_type(to.type, [&](auto value) {
+    using T = decltype(value);
+    if constexpr (std::is_floating_point_v<T>) value = std::numeric_limits<T>::quiet_NaN();
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(to.data + i * to.stride, &value, sizeof(value));
+  });
+}
+
+void swap_bytes(Column column, std::size_t count) {
+  with_type(column.type, [&](auto value) {
+    std::array<std::byte, sizeof(value)> bytes;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(bytes.data(), column.data + i * column.stride, sizeof(value));
+      std::reverse(bytes.begin(), bytes.end());
+      std::memcpy(column.data + i * column.stride, bytes.data(), sizeof(value));
+    }
+  });
+}
+
+RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properties) {
+  RowLayout layout;
+  for (const auto& [name, type] : properties) {
+    layout.properties.push_back({.name = name, .type = type, .offset = layout.stride});
+    layout.stride += size_of(type);
+  }
+  return layout;
+}
+
+const Property* RowLayout::find(std::string_view name) const {
+  for (const Property& property : properties) {
+    if (property.name == name) return &property;
+  }
+  return nullptr;
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be done with a `Scalar` known only at run time.
+#pragma once
+
+#include "io/rows/scan_reader.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace lacuna::io {
+
+// Both spellings of the PLY format: "char" and "int8", ...
+std::optional<Scalar> scalar_from_name(std::string_view name);
+
+bool is_integer(Scalar type);
+
+// Calls `visit(T{})` with the C++ type that `type` stands for.
+template <class Visit>
+decltype(auto) with_type(Scalar type, Visit&& visit) {
+  switch (type) {
+    case Scalar::kInt8:
+      return visit(std::int8_t{});
+    case Scalar::kUint8:
+      return visit(std::uint8_t{});
+    case Scalar::kInt16:
+      return visit(std::int16_t{});
+    case Scalar::kUint16:
+      return visit(std::uint16_t{});
+    case Scalar::kInt32:
+      return visit(std::int32_t{});
+    case Scalar::kUint32:
+      return visit(std::uint32_t{});
+    case Scalar::kFloat32:
+      return visit(float{});
+    case Scalar::kFloat64:
+      break;
+  }
+  return visit(double{});
+}
+
+// A column of rows: `count` values, the first at `data`, each `stride` bytes after the one before.
+struct ConstColumn {
+  const std::byte* data;
+  std::size_t stride;
+  Scalar type;
+};
+struct Column {
+  std::byte* data;
+  std::size_t stride;
+  Scalar type;
+};
+
+// Copies `count` values. The types are equal, or `to` is kFloat64, which holds every other exactly.
+void copy_column(ConstColumn from, Column to, std::size_t count);
+
+// The nearest float; infinite where it is too large for one.
+float nearest_float(double value);
+
+// Puts a value to where a kFloat32 or kFloat64 lies.
+void put_floating(std::byte* to, Scalar type, double value);
+
+// The same with `summand` added in double precision, if there is one. `to` is kFloat32 or kFloat64 then.
+void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count);
+
+// NaN in a column of floats, 0 in one of integers.
+void fill_missing(Column to, std::size_t count);
+
+// Reverses the bytes of every value: big to little endian and back.
+void swap_bytes(Column column, std::size_t count);
+
+// The properties one after the other without padding.
+RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properties);
+
+}  // namespace lacuna::io

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/rows/scan_reader.hpp"
+
+#include "io/crs/crs_text.hpp"
+#include "io/crs/length_unit.hpp"
+
+namespace lacuna::io {
+
+bool ScanReader::is_geographic() const {
+  return io::is_geographic(crs());
+}
+
+std::string ScanReader::length_unit() const {
+  return io::length_unit(crs());
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading a scan file: every format delivers rows of scalars in bounded batches.
+#pragma once
+
+#include "engine/export.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+enum class Scalar : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+LACUNA_API std::size_t size_of(Scalar type);
+LACUNA_API const char* ply_name(Scalar type);  // "char", "uchar", ..., "float", "double"
+
+// A scalar of every row, at a fixed byte offset, in the machine's byte order.
+struct Property {
+  std::string name;
+  Scalar type;
+  std::size_t offset;
+};
+
+// Every reader refuses rows with more columns than this, since it holds the names and types of columns in
+// memory.
+inline constexpr std::size_t kMostColumns = 10'000;
+inline constexpr const char* kTooManyColumns = "more than the 10,000 columns that are read";
+
+struct RowLayout {
+  std::vector<Property> properties;  // in file order; lists are skipped
+  std::size_t stride = 0;            // bytes per row, no padding
+
+  LACUNA_API const Property* find(std::string_view name) const;  // one after the other
+};
+
+struct RowBatch {
+  std::size_t count = 0;
+  std::vector<std::byte> bytes;  // count * stride
+};
+
+// Where a scanner stood, as a file says.
+struct ScannerPose {
+  Eigen::Vector3d place;
+  Eigen::Vector3d axis{0, 0, 1};        // of unit length: the scanner turns around it
+  std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; none: all rows
+};
+
+// Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
+// (line or byte) and the reason.
+class LACUNA_API ScanReader {
+ public:
+  virtual ~ScanReader() = default;
+  virtual std::string format() const = 0;       // "text", or "PLY, ascii" and so on
+  virtual const RowLayout& layout() const = 0;  // has x, y and z
+  virtual std::optional<std::uint64_t> expected_rows() const = 0;
+  // The next rows, at most `max_rows`; false at the end, when the file was found complete.
+  virtual bool next(RowBatch& batch, std::size_t max_rows) = 0;
+  // Slower than a file of plain numbers, so that what is read more than once had better be kept.
+  virtual bool is_slow() const { return false; }
+  // The coordinate reference system, as well-known text or by a code such as "EPSG:25832"; empty: not known.
+  virtual std::string crs() const { return {}; }
+  // Whether positions are longitude and latitude.
+  virtual bool is_geographic() const;
+  // The unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty: not known.
+  virtual std::string length_unit() const;
+  // The scanners of the rows read so far, and maybe of others.
+  virtual std::vector<ScannerPose> scanners() const { return {}; }
+  // Positions that stand for a ray without return: 0 0 0, and the scanner's own where the file has it.
+  virtual std::vector<Eigen::Vector3d> no_return_places() const { return {Eigen::Vector3d::Zero()}; }
+};
+
+struct ReadOptions {
+  std::string columns;  // text files: column names, space separated; empty: from the header line
+  // Bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
+  std::uint64_t memory = std::uint64_t{64} << 20;
+};
+
+// What a format is recognised by.
+struct FileStart {
+  std::string_view first_bytes;
+  std::uint64_t size = 0;  // of the whole file
+
+  bool is_whole() const { return first_bytes.size() == size; }
+};
+
+}  // namespace lacuna::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns of rows as numbers: one by one, and three together as positions or normals.
+#pragma once
+
+#include "io/rows/scan_reader.hpp"
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+// A value of each row.
+void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
+                 std::vector<double>& values);
+
+using VectorNames = std::array<const char*, 3>;
+inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
+inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
+
+bool is_component(std::string_view property, const VectorNames& names);
+// Returns the same columns, packed. The components have this type.
+RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
+bool has_vectors(const RowLayout& layout, const VectorNames& names);
+
+// All three columns must be there; to store, as doubles.
+void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNames& names,
+                  std::vector<Eigen::Vector3d>& vectors);
+void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,
+                   const VectorNames& names, RowBatch& rows);
+
+}  // namespace lacuna::io

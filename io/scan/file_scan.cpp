@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scan/file_scan.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/formats.hpp"
+#include "io/rows/vectors.hpp"
+#include "io/scan/posed_reader.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+// The first of those that are not empty, where the others are the same. Empty where two differ.
+template <class Same>
+std::string common(const std::vector<std::string>& names, const Same& is_same) {
+  std::string first;
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
+    if (first.empty()) first = name;
+    if (!is_same(name, first)) return "";
+  }
+  return first;
+}
+
+}  // namespace
+
+std::filesystem::path full_name(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal();
+}
+
+FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
+    : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
+  for (ScanInput& input : inputs) {
+    states_.push_back(input.arrays ? FileState() : file_state(input.file));
+    arrays_.push_back(std::move(input.arrays));
+    files_.push_back(std::move(input.file));
+    poses_.push_back(std::move(input.pose));
+    const auto reader = open(files_.size() - 1);
+    const RowFilter filter(config_, files_.back(), *reader);
+    layouts_.push_back(reader->layout());
+    crs_.push_back(reader->crs());
+    units_.push_back(reader->length_unit());
+    is_geographic_.push_back(reader->is_geographic());
+    formats_.push_back(reader->format());
+    reads_slowly_ = reads_slowly_ || reader->is_slow();
+    has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
+    has_scanners_ = has_scanners_ || !reader->scanners().empty();
+    rows_read_.push_back(0);
+    expected_rows_.push_back(reader->expected_rows());
+    if (expected_points_ && expected_rows_.back()) {
+      *expected_points_ += *expected_rows_.back();
+    } else {
+      expected_points_.reset();
+    }
+  }
+  choose_crs();
+}
+
+void FileScan::choose_crs() {
+  common_crs_ = stated_.crs.empty() ? common(crs_, is_same_crs) : stated_.crs;
+  if (!stated_.unit.empty()) {
+    common_unit_ = stated_.unit;
+    return;
+  }
+  const bool differ = common_crs_.empty() && std::any_of(crs_.begin(), crs_.end(),
+                                                         [](const std::string& crs) { return !crs.empty(); });
+  const bool all_have_one =
+      std::none_of(units_.begin(), units_.end(), [](const std::string& unit) { return unit.empty(); });
+  if (!differ || all_have_one) common_unit_ = common(units_, std::equal_to<>());
+}
+
+std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
+  if (arrays_[file]) return read_arrays(*arrays_[file]);
+  io::check_unchanged(files_[file], states_[file]);
+  auto reader = open_scan(files_[file], {.columns = config_.columns, .memory = memory_});
+  return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
+}
+
+std::size_t FileScan::batch_rows(std::size_t file) const {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
+  return std::clamp<std::uint64_t>(memory_ / 2 / layouts_[file].stride, 1, kMost);
+}
+
+void FileScan::check_unchanged() const {
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    if (!arrays_[i]) io::check_unchanged(files_[i], states_[i]);
+  }
+}
+
+// The engine does so too, but knows no files.
+void FileScan::refuse_too_far(const PointBatch& batch) const {
+  const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
+  if (found == batch.positions.end()) return;
+  const std::uint64_t row = rows_read_[file_] + static_cast<std::uint64_t>(found - batch.positions.begin());
+  std::ostringstream message;
+  message << files_[file_].string() << ": point " << row << " lies at " << found->x() << " " << found->y()
+          << " " << found->z() << "; coordinates must be within 1e153";
+  throw Error(message.str());
+}
+
+void FileScan::rewind() {
+  file_ = 0;
+  next_id_ = 0;
+  reader_.reset();
+  filtered_out_ = {};
+  before_filters_ = {};
+  if (observer_) observer_->begin();
+}
+
+bool FileScan::next(PointBatch& batch) {
+  batch.first = PointId{next_id_};
+  batch.positions.clear();
+  batch.normals.clear();
+  for (; file_ < files_.size(); ++file_, reader_.reset()) {
+    if (!reader_) {
+      reader_ = open(file_);
+      rows_read_[file_] = 0;
+      filter_.emplace(config_, files_[file_], *reader_);
+    }
+    if (!reader_->next(rows_, batch_rows(file_))) continue;
+    const RowLayout& layout = reader_->layout();
+    load_vectors(rows_, layout, kPositionNames, batch.positions);
+    if (observer_) read_ = batch.positions;
+    filter_->apply(rows_, batch.positions, filtered_out_, before_filters_);
+    if (observer_) observer_->take(file_, *reader_, rows_, read_, batch.positions);
+    if (has_vectors(layout, kNormalNames)) {
+      load_vectors(rows_, layout, kNormalNames, batch.normals);
+    } else if (has_normals_) {
+      batch.normals.assign(rows_.count, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    }
+    refuse_too_far(batch);
+    rows_read_[file_] += rows_.count;
+    next_id_ += rows_.count;
+    return true;
+  }
+  if (filtered_out_.total() > 0 && before_filters_.kept == 0)
+    throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
+  if (observer_) observer_->end();
+  return false;
+}
+
+void FileScan::read_all(RowObserver& observer) {
+  observe(&observer);
+  rewind();
+  PointBatch batch;
+  while (next(batch)) {
+  }
+  observe(nullptr);
+}
+
+std::optional<std::uint64_t> FileScan::expected_points() const {
+  return expected_points_;
+}
+
+bool FileScan::has_normals() const {
+  return has_normals_;
+}
+
+bool FileScan::reads_slowly() const {
+  return reads_slowly_;
+}
+
+std::vector<std::string> FileScan::identity() const {
+  std::vector<std::string> lines;
+  if (std::any_of(arrays_.begin(), arrays_.end(), std::identity())) return lines;
+  const std::vector<std::string> names = this->names();
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::ostringstream line;
+    const Digest sample = sample_digest(files_[i], states_[i]);
+    line << names[3 * i + 1] << ", " << states_[i].size << " bytes, written at " << states_[i].mtime
+         << " ns, sample " << std::hex << sample[0] << sample[1];
+    if (poses_[i]) line << ", pose " << names[3 * i + 2];
+    lines.push_back(line.str());
+  }
+  FilesConfig config, defaults;
+  config.input = config_;
+  const std::vector<Parameter> all = file_parameters(config), unchanged = file_parameters(defaults);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].print() != unchanged[i].print())
+      lines.push_back(std::string(all[i].key) + " = " + all[i].print());
+  }
+  return lines;
+}
+
+std::vector<std::string> FileScan::names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    std::ostringstream pose;
+    if (poses_[i]) pose << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+    names.insert(names.end(), {files_[i].string(), full_name(files_[i]).string(), pose.str()});
+  }
+  return names;
+}
+
+std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
+  std::vector<ScanInput> inputs;
+  if (names.size() % 3 != 0) fail_inconsistent("an input of a workspace has no name");
+  for (; !names.empty(); names = names.subspan(3)) {
+    const std::string& file = full_name(names[0]) == names[1] ? names[0] : names[1];
+    inputs.emplace_back(file, names[2].empty() ? std::nullopt : std::optional(parse_pose(names[2])));
+  }
+  return inputs;
+}
+
+std::vector<std::uint64_t> FileScan::pass_counts() const {
+  std::vector<std::uint64_t> counts = rows_read_;
+  for (const std::uint64_t left_out : {filtered_out_.origin, filtered_out_.bounds, filtered_out_.boxes,
+                                       filtered_out_.classes, filtered_out_.returns})
+    counts.push_back(left_out);
+  return counts;
+}
+
+void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
+  if (counts.size() != rows_read_.size() + 5)
+    fail_inconsistent("the workspace counts another number of files");
+  std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
+  const auto left_out = counts.subspan(rows_read_.size());
+  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3], left_out[4]};
+}
+
+bool FileScan::single_precision() const {
+  return std::all_of(layouts_.begin(), layouts_.end(), [](const RowLayout& layout) {
+    return std::all_of(kPositionNames.begin(), kPositionNames.end(),
+                       [&](const char* name) { return layout.find(name)->type == Scalar::kFloat32; });
+  });
+}
+
+void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
+  for (const auto& input : scan.files()) {
+    std::error_code error;  // where nothing is, nothing can be lost
+    if (std::filesystem::equivalent(file, input, error)) {
+      throw Error(input.string() + ": is an input in the place of a result; another output folder is needed");
+    }
+  }
+}
+
+}  // namespace lacuna::io

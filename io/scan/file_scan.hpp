@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several scan files, or arrays, as one registered scan: the engine's view of the input.
+#pragma once
+
+#include "engine/export.hpp"
+#include "engine/model/points.hpp"
+#include "io/crs/stated_crs.hpp"
+#include "io/files/file_state.hpp"
+#include "io/rows/pose.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "io/scan/row_filter.hpp"
+#include "io/scan/scan_arrays.hpp"
+
+#include <concepts>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna::io {
+
+struct ScanInput {
+  template <std::convertible_to<std::filesystem::path> Name>
+  ScanInput(Name&& name, std::optional<Pose> pose = {})
+      : file(std::forward<Name>(name)), pose(std::move(pose)) {}
+  ScanInput(std::string name, ScanArrays arrays)
+      : file(std::move(name)), arrays(std::make_shared<const ScanArrays>(std::move(arrays))) {}
+
+  std::filesystem::path file;
+  std::optional<Pose> pose;                  // of its coordinates in the registered scan
+  std::shared_ptr<const ScanArrays> arrays;  // read in place of a file, of which it has the name
+};
+
+LACUNA_API std::filesystem::path full_name(const std::filesystem::path& file);  // absolute, without dots
+// The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
+LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> names);
+
+// Sees all rows that are read of a scan, in order.
+class RowObserver {
+ public:
+  virtual ~RowObserver() = default;
+  virtual void begin() {}  // at the first row, or at the first again
+  // `read`: where the rows lie; `kept`: likewise, NaN where a filter has left a row out.
+  virtual void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
+                    std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) = 0;
+  virtual void end() {}  // every row was there
+};
+
+// Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
+// points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
+// position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
+// first opening is an `Error` when it is opened again.
+class LACUNA_API FileScan : public PointSource {
+ public:
+  // Opens every file once. So a missing or broken file, or one that lacks what a filter needs, is an `Error`
+  // before any work is done. Reading takes `memory` bytes at most, but for a row. Batches have fewer rows
+  // where these are long.
+  FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory = ReadOptions{}.memory);
+
+  void rewind() override;
+  bool next(PointBatch& batch) override;
+  std::optional<std::uint64_t> expected_points() const override;
+  bool has_normals() const override;   // any file has nx ny nz
+  bool reads_slowly() const override;  // any file does
+  // Name, size, time and a sample of each file, its pose, and the parameters of input that are not the
+  // default. None where there are arrays.
+  std::vector<std::string> identity() const override;
+  // Three of each file: its name as given, the absolute one, and its pose or nothing.
+  std::vector<std::string> names() const override;
+  // Rows that were read of each file, and those that the filters left out.
+  std::vector<std::uint64_t> pass_counts() const override;
+  void set_pass_counts(std::span<const std::uint64_t> counts) override;
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  const std::vector<std::optional<Pose>>& poses() const { return poses_; }  // one per file
+  const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
+  // Rows that each file's header declares; text files declare none.
+  const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
+  // The format of each file, as ScanReader::format says.
+  const std::vector<std::string>& formats() const { return formats_; }
+  // The CRS of each file; empty where it names none, or has a pose.
+  const std::vector<std::string>& crs() const { return crs_; }
+  // The unit of length of each file; empty where it names none.
+  const std::vector<std::string>& units() const { return units_; }
+  // Whether positions of a file are longitude and latitude, as it says.
+  bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
+  // What --crs and --unit of the config state; empty: nothing.
+  const StatedCrs& stated_crs() const { return stated_; }
+  // The system that the config states, else the one that all files with a system share; empty: they differ,
+  // or name none.
+  const std::string& common_crs() const { return common_crs_; }
+  // The unit of length that the config states, else the one that all files with a unit share. It is empty
+  // where these differ, where there is none, or where files have different systems and one has no unit.
+  const std::string& length_unit() const { return common_unit_; }
+  // The rows of a file: as its header declares, else as many as the last pass has read of it.
+  std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
+  std::uint64_t memory() const { return memory_; }
+  // Rows of a file to be read at a time.
+  std::size_t batch_rows(std::size_t file) const;
+  // From its first row on, moved by its pose, without filters.
+  std::unique_ptr<ScanReader> open(std::size_t file) const;
+  // Counts the points read since the last rewind.
+  const FilteredOut& filtered_out() const { return filtered_out_; }
+  // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
+  // an earlier one.
+  void check_unchanged() const;
+  void observe(RowObserver* observer) { observer_ = observer; }  // null: nobody
+  void read_all(RowObserver& observer);                          // for this observer alone, once
+  bool has_scanners() const { return has_scanners_; }            // a file says where one stood
+  bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
+
+ private:
+  void choose_crs();
+  void refuse_too_far(const PointBatch& batch) const;
+
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::optional<Pose>> poses_;                 // one per file
+  std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null: it is one
+  InputConfig config_;
+  std::uint64_t memory_;
+  std::vector<FileState> states_;  // of arrays: nothing
+  std::vector<RowLayout> layouts_;
+  std::vector<std::string> crs_, units_, formats_;
+  std::vector<bool> is_geographic_;
+  StatedCrs stated_;
+  std::string common_crs_, common_unit_;
+  bool has_normals_ = false, reads_slowly_ = false, has_scanners_ = false;
+  std::vector<std::optional<std::uint64_t>> expected_rows_;
+  std::optional<std::uint64_t> expected_points_;
+  std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
+  // where reading stands
+  std::size_t file_ = 0;
+  std::uint64_t next_id_ = 0;
+  std::unique_ptr<ScanReader> reader_;
+  std::optional<RowFilter> filter_;
+  RowBatch rows_;
+  FilteredOut filtered_out_;
+  BeforeFilters before_filters_;
+  RowObserver* observer_ = nullptr;
+  std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
+};
+
+// Throws `Error` where `file`, which is to be replaced or removed, is an input of the scan.
+void check_not_input(const std::filesystem::path& file, const FileScan& scan);
+
+}  // namespace lacuna::io

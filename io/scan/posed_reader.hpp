@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scan moved to where it stands in the registered scan.
+#pragma once
+
+#include "io/rows/pose.hpp"
+#include "io/rows/scan_reader.hpp"
+
+#include <memory>
+
+namespace lacuna::io {
+
+// The rows of `reader` with their positions moved by the pose, and their normals turned. These are doubles
+// then; all else stays as it is.
+std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose);
+
+}  // namespace lacuna::io

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scan/row_filter.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/vectors.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace lacuna::io {
+namespace {
+
+std::optional<Eigen::AlignedBox3d> box_of(std::span<const double> bounds) {
+  if (bounds.empty()) return std::nullopt;
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const bool is_flat = bounds.size() == 4;
+  const double* const min = bounds.data();
+  const double* const max = min + bounds.size() / 2;
+  return Eigen::AlignedBox3d(Eigen::Vector3d(min[0], min[1], is_flat ? -kInfinite : min[2]),
+                             Eigen::Vector3d(max[0], max[1], is_flat ? kInfinite : max[2]));
+}
+
+Property find_property(const std::filesystem::path& file, const RowLayout& layout, const char* name,
+                       const char* option) {
+  for (const Property& property : layout.properties) {
+    if (bare_name(property.name) == bare_name(name)) return property;
+  }
+  throw Error(file.string() + ": its points have no " + name + ", which " + option + " needs");
+}
+
+}  // namespace
+
+RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader)
+    : stride_(reader.layout().stride),
+      bounds_(box_of(config.bounds)),
+      chosen_classes_(config.classes),
+      chosen_returns_(config.returns) {
+  const auto column = [&](const char* name, const char* option) {
+    return Values{.property = find_property(file, reader.layout(), name, option), .values = {}};
+  };
+  for (std::size_t at = 0; at < config.leave_out.size(); at += 6)
+    boxes_.push_back(*box_of(std::span(config.leave_out).subspan(at, 6)));
+  if (config.drop_origin) no_return_places_ = reader.no_return_places();
+  if (!chosen_classes_.empty()) class_ = column("classification", "--classes");
+  if (chosen_returns_ == Returns::kFirst || chosen_returns_ == Returns::kLast)
+    return_number_ = column("return_number", "--returns");
+  if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
+    number_of_returns_ = column("number_of_returns", "--returns");
+  is_active_ =
+      config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ || number_of_returns_;
+}
+
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
+                                 const BeforeFilters& before) {
+  std::ostringstream text;
+  text.precision(10);
+  text << "the filters leave none of the " << filtered.total() << " points";
+  const char* separator = ": ";
+  const auto add = [&](const char* option, std::uint64_t count) -> std::ostream& {
+    text << separator << option << " leaves out " << count;
+    separator = "; ";
+    return text;
+  };
+  if (config.drop_origin && filtered.origin > 0) add("--drop-origin", filtered.origin);
+  if (!config.bounds.empty()) {
+    add("--bounds", filtered.bounds);
+    if (!before.bounds.isEmpty()) {
+      const Eigen::Vector3d min = before.bounds.min(), max = before.bounds.max();
+      text << ", the scan lies from " << min.x() << " " << min.y() << " " << min.z() << " to " << max.x()
+           << " " << max.y() << " " << max.z();
+    }
+  }
+  if (!config.leave_out.empty()) add("--leave-out", filtered.boxes);
+  if (!config.classes.empty()) {
+    add("--classes", filtered.classes);
+    const char* between = ", the classes here are ";
+    for (const auto& [number, count] : before.classes) {
+      text << between << number << " (" << count << " points)";
+      between = ", ";
+    }
+  }
+  if (config.returns != Returns::kAll) add("--returns", filtered.returns);
+  return text.str();
+}
+
+void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
+                      BeforeFilters& before) {
+  if (!is_active_) return;
+  load(rows, class_);
+  load(rows, return_number_);
+  load(rows, number_of_returns_);
+  for (std::size_t row = 0; row < positions.size(); ++row) {
+    Eigen::Vector3d& position = positions[row];
+    if (!position.allFinite()) continue;
+    std::uint64_t* const count = refusing(row, position, filtered, before);
+    if (count == nullptr) {
+      ++before.kept;
+      continue;
+    }
+    ++*count;
+    position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+// The count of the first filter that refuses the row; null: none does.
+std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
+                                   BeforeFilters& before) const {
+  constexpr std::size_t kMostClasses = 256;
+  if (is_no_return(position)) return &filtered.origin;
+  if (bounds_) {
+    before.bounds.extend(position);
+    if (!bounds_->contains(position)) return &filtered.bounds;
+  }
+  if (std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& box) { return box.contains(position); }))
+    return &filtered.boxes;
+  if (class_ && before.kept == 0) {  // afterwards nobody needs to know
+    const double found = class_->values[row];
+    if (before.classes.size() < kMostClasses || before.classes.contains(found)) ++before.classes[found];
+  }
+  if (!has_chosen_class(row)) return &filtered.classes;
+  return is_chosen_return(row) ? nullptr : &filtered.returns;
+}
+
+void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {
+  if (!column) return;
+  load_column(rows, stride_, column->property, column->values);
+}
+
+bool RowFilter::is_no_return(const Eigen::Vector3d& position) const {
+  return std::find(no_return_places_.begin(), no_return_places_.end(), position) != no_return_places_.end();
+}
+
+bool RowFilter::has_chosen_class(std::size_t row) const {
+  return !class_ || std::any_of(chosen_classes_.begin(), chosen_classes_.end(), [&](std::int64_t chosen) {
+    return class_->values[row] == static_cast<double>(chosen);
+  });
+}
+
+bool RowFilter::is_chosen_return(std::size_t row) const {
+  switch (chosen_returns_) {
+    case Returns::kAll:
+      break;
+    case Returns::kFirst:
+      return return_number_->values[row] == 1;
+    case Returns::kLast:
+      return return_number_->values[row] == number_of_returns_->values[row];
+    case Returns::kOnly:
+      return number_of_returns_->values[row] == 1;
+  }
+  return true;
+}
+
+}  // namespace lacuna::io

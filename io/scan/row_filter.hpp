@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rows of a scan take part: the user's choice by place, class and return.
+#pragma once
+
+#include "io/options/options.hpp"
+#include "io/rows/scan_reader.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna::io {
+
+// Rows left out, each counted by the first of these filters that refuses it. A row that is not finite is in
+// none of them.
+struct FilteredOut {
+  std::uint64_t origin = 0;
+  std::uint64_t bounds = 0;
+  std::uint64_t boxes = 0;
+  std::uint64_t classes = 0;
+  std::uint64_t returns = 0;
+
+  std::uint64_t total() const { return origin + bounds + boxes + classes + returns; }
+};
+
+// What the filters found, for the error where they leave no row.
+struct BeforeFilters {
+  Eigen::AlignedBox3d bounds;               // of all finite rows but those without a return
+  std::map<double, std::uint64_t> classes;  // of the rows that reach the filter of classes; few at most
+  std::uint64_t kept = 0;                   // finite rows that every filter accepts
+};
+
+// The message of an error: which filter left out how many rows, and what these are.
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
+                                 const BeforeFilters& before);
+
+class RowFilter {
+ public:
+  // For the rows of one file. Throws `Error` where these have no class or return, and the choice needs it.
+  RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
+
+  // Makes the positions of rows that do not take part NaN, and counts them.
+  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
+             BeforeFilters& before);
+
+ private:
+  struct Values {  // of one column, for the rows at hand
+    Property property;
+    std::vector<double> values;
+  };
+  void load(const RowBatch& rows, std::optional<Values>& column) const;
+  std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
+                          BeforeFilters& before) const;
+  bool is_no_return(const Eigen::Vector3d& position) const;
+  bool has_chosen_class(std::size_t row) const;
+  bool is_chosen_return(std::size_t row) const;
+
+  bool is_active_;
+  std::size_t stride_;
+  std::vector<Eigen::Vector3d> no_return_places_;
+  std::optional<Eigen::AlignedBox3d> bounds_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // whose points are left out
+  std::vector<std::int64_t> chosen_classes_;
+  Returns chosen_returns_;
+  std::optional<Values> class_, return_number_, number_of_returns_;
+};
+
+}  // namespace lacuna::io

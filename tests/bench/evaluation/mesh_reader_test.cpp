@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/mesh_reader.hpp"
+
+#include "tests/io/broken_files.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+using namespace io;
+using namespace evaluation;
+
+namespace {
+
+using Triangles = std::vector<Triangle>;
+
+const std::string kFour =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n";
+
+std::string header(const std::string& format, const std::string& body) {
+  return "ply\nformat " + format + " 1.0\n" + body + "end_header\n";
+}
+
+std::string format_of(std::endian order) {
+  return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
+}
+
+std::string four_rows() {
+  return "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n";
+}
+
+Bytes& four_rows(Bytes& bytes) {
+  for (int i = 0; i < 4; ++i) bytes << 0.f << 1.f << 2.f << std::uint8_t{1};
+  return bytes;
+}
+
+// Everything that may stand around the corners: an element before the faces and one after, a scalar and a
+// list of floats in each face. A square, a triangle, a line and nothing.
+const std::string kCrowded = kFour +
+                             "element edge 1\nproperty int vertex1\n"
+                             "element face 4\nproperty float area\nproperty list uchar float texcoord\n"
+                             "property list uchar int vertex_indices\nproperty uchar flag\n"
+                             "element last 1\nproperty list short double values\n";
+
+std::string crowded_binary(std::endian order) {
+  using U8 = std::uint8_t;
+  Bytes bytes(order);
+  four_rows(bytes) << 7;
+  bytes << 0.5f << U8{2} << 1.f << 2.f << U8{4} << 0 << 1 << 2 << 3 << U8{9};
+  bytes << 0.5f << U8{0} << U8{3} << 3 << 2 << 1 << U8{9};
+  bytes << 0.5f << U8{0} << U8{2} << 3 << 2 << U8{9};
+  bytes << 0.5f << U8{0} << U8{0} << U8{9};
+  bytes << std::int16_t{1} << 1e300;
+  return header(format_of(order), kCrowded) + bytes.str();
+}
+
+const std::string kCrowdedAscii = header("ascii", kCrowded) + four_rows() +
+                                  "7\n0.5 2 1 2.5 4 0 1 2 3 9\n0.5 0 3 3 2 1 9\n0.5 0 2 3 2 9\n0.5 0 0 9\n"
+                                  "1 5\n";
+
+const Triangles kCrowdedTriangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}};
+
+void visit_triangles(const std::filesystem::path& file, std::size_t, std::uint64_t most,
+                     const PointVisitor& visit) {
+  const Triangles triangles = read_triangles(file);
+  if (triangles.size() > most) throw std::logic_error("more triangles than the file can hold");
+  for (const Triangle& corners : triangles) {
+    for (const std::uint64_t corner : corners) {
+      if (corner > most) throw std::logic_error("a corner is no vertex");
+    }
+    visit({double(corners[0]), double(corners[1]), double(corners[2])});
+  }
+}
+
+std::vector<WholeFile> whole_files() {
+  const std::string little = crowded_binary(std::endian::little), big = crowded_binary(std::endian::big);
+  const std::size_t without_end = kCrowdedAscii.size() - 1;  // of the last line
+  return {{.name = "a.ply", .bytes = kCrowdedAscii, .complete_from = without_end, .read = visit_triangles},
+          {.name = "little.ply", .bytes = little, .complete_from = little.size(), .read = visit_triangles},
+          {.name = "big.ply", .bytes = big, .complete_from = big.size(), .read = visit_triangles}};
+}
+
+std::string mesh_error(const std::filesystem::path& file) {
+  return error_of([&] { read_triangles(file); });
+}
+
+}  // namespace
+
+TEST_CASE("polygons come as fans of triangles, whatever stands around them, in every encoding", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string& content :
+       {kCrowdedAscii, crowded_binary(std::endian::little), crowded_binary(std::endian::big)}) {
+    CHECK(read_triangles(folder.write("a.ply", content)) == kCrowdedTriangles);
+  }
+}
+
+TEST_CASE("corners may have any integer type, and so may their number", "[io]") {
+  const ScratchFolder folder;
+  for (const Scalar type :
+       {Scalar::kInt8, Scalar::kUint8, Scalar::kInt16, Scalar::kUint16, Scalar::kInt32, Scalar::kUint32}) {
+    for (const Scalar count_type : {Scalar::kInt8, Scalar::kUint16, Scalar::kUint32}) {
+      const std::string body = kFour + "element face 1\nproperty list " + ply_name(count_type) + " " +
+                               ply_name(type) + " vertex_index\n";
+      CHECK(read_triangles(folder.write("a.ply", header("ascii", body) + four_rows() + "3 3 1 2\n")) ==
+            Triangles{{3, 1, 2}});
+      for (const std::endian order : {std::endian::little, std::endian::big}) {
+        Bytes bytes(order);
+        four_rows(bytes);
+        with_type(count_type, [&](auto zero) { bytes << static_cast<decltype(zero)>(3); });
+        with_type(type, [&](auto zero) {
+          using T = decltype(zero);
+          bytes << T{3} << T{1} << T{2};
+        });
+        CHECK(read_triangles(folder.write("a.ply", header(format_of(order), body) + bytes.str())) ==
+              Triangles{{3, 1, 2}});
+      }
+    }
+  }
+}
+
+TEST_CASE("faces may stand before the vertices", "[io]") {
+  const ScratchFolder folder;
+  const auto file = folder.write(
+      "a.ply", header("ascii", "element face 1\nproperty list uchar int vertex_indices\n" + kFour) +
+                   "3 0 1 3\n" + four_rows());
+  CHECK(read_triangles(file) == Triangles{{0, 1, 3}});
+}
+
+TEST_CASE("a file without a mesh is reported with the place and what is allowed", "[io]") {
+  const ScratchFolder folder;
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+  const auto error = [&](const std::string& body, const std::string& rows) {
+    return mesh_error(folder.write("a.ply", header("ascii", body) + rows));
+  };
+  using Catch::Matchers::Contains;
+  CHECK_THAT(error(kFour, four_rows()), Contains("no element 'face'") && Contains("line 8"));
+  CHECK_THAT(error(face, "3 0 1 2\n"), Contains("no element 'vertex'"));
+  CHECK_THAT(error(kFour + "element face 0\nproperty list uchar float vertex_indices\n", four_rows()),
+             Contains("no list of integers named 'vertex_indices' or 'vertex_index'"));
+  CHECK_THAT(error(kFour + face, four_rows() + "3 0 1 4\n"),
+             Contains("face 0 (from 0): vertex 4; the file has 4, counted from 0"));
+  CHECK_THAT(error(kFour + face, four_rows() + "3 0 1 -1\n"), Contains("vertex -1"));
+  CHECK_THAT(error(kFour + face, four_rows() + "3 0 1 1.5\n"), Contains("line 15") && Contains("'1.5'"));
+  CHECK_THAT(error(kFour + face, four_rows() + "4 0 1 2\n"), Contains("line 15: fewer values"));
+  CHECK_THAT(error(kFour + face, four_rows() + "3 0 1 2 3\n"), Contains("line 15: more values"));
+  CHECK_THAT(error(kFour + face, four_rows() + "3 0 1 2\n3 0 1 2\n"), Contains("more data"));
+}
+
+TEST_CASE("a list longer than the file is an error before anything is allocated for it", "[io]") {
+  const ScratchFolder folder;
+  Bytes bytes;
+  four_rows(bytes) << std::uint32_t{4'000'000'000} << 0 << 1 << 2;
+  const auto file = folder.write(
+      "a.ply",
+      header("binary_little_endian", kFour + "element face 1\nproperty list uint int vertex_indices\n") +
+          bytes.str());
+  CHECK_THAT(mesh_error(file), Catch::Matchers::Contains("more bytes should follow"));
+}
+
+TEST_CASE("a broken mesh gives one error or all its triangles", "[io]") {
+  check_broken_files(whole_files(), 2);
+}
+
+TEST_CASE("many broken meshes give one error or all their triangles", "[io][.slow]") {
+  check_many_broken_files(whole_files(), 2);
+}
+
+}  // namespace lacuna::test

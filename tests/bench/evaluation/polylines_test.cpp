@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/polylines.hpp"
+
+#include "bench/evaluation/evaluation.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <array>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::evaluation {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::ScratchFolder;
+
+std::string ply(const std::string& vertices, int count, const std::string& edges, int edge_count) {
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement edge " +
+         std::to_string(edge_count) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
+         vertices + edges;
+}
+
+std::string zeros(int count) {
+  std::string rows;
+  for (int i = 0; i < count; ++i) rows += "0 0 0\n";
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("loops follow the edges of a PLY file, whatever the order of its edges") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.ply", ply(zeros(8), 8, "5 3\n0 7\n3 1\n7 2\n1 5\n2 0\n", 6));
+  CHECK(has_polylines(file));
+  CHECK(read_polylines(file) == std::vector<io::LoopIds>{{0, 7, 2}, {1, 3, 5}});
+}
+
+TEST_CASE("lines that are no closed loops are refused in one line that names the vertex or the edge") {
+  const ScratchFolder folder;
+  const auto refused = [&](const std::string& edges, int count, const std::string& reason) {
+    CHECK_THROWS_WITH(read_polylines(folder.write("a.ply", ply(zeros(5), 5, edges, count))),
+                      Contains(reason));
+  };
+  refused("0 1\n1 2\n", 2, "vertex 0 (from 0) has one edge; a loop is closed");
+  refused("0 1\n1 2\n2 0\n0 3\n", 4, "vertex 0 (from 0) has more than two edges; a loop does not branch");
+  refused("0 1\n1 5\n", 2, "edge 1 (from 0): vertex 5; the file has 5, counted from 0");
+  refused("0 -1\n", 1, "edge 0 (from 0): vertex -1");
+  const auto points = folder.write("b.ply",
+                                   "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+                                   "property float y\nproperty float z\nend_header\n");
+  CHECK_THROWS_WITH(has_polylines(points), Contains("has no loops"));
+}
+
+TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, though no vertex is a point") {
+  const ScratchFolder folder;
+  // A sheet of 30 x 30 points, a unit apart. The true loop is the square from (10, 10) to (14, 14).
+  std::string rows;
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 30; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  }
+  const auto scan = folder.write("scan.xyz", rows);
+  std::string truth_row, vertices, edges;
+  const auto place = [](int i) {  // on the square, counted along it
+    const int side = i / 4, step = i % 4;
+    return std::array<int, 2>{side == 0   ? step
+                              : side == 1 ? 4
+                              : side == 2 ? 4 - step
+                                          : 0,
+                              side == 0   ? 0
+                              : side == 1 ? step
+                              : side == 2 ? 4
+                                          : 4 - step};
+  };
+  for (int i = 0; i < 16; ++i) {
+    const auto [x, y] = place(i);
+    truth_row += std::to_string((10 + y) * 30 + 10 + x) + " ";
+  }
+  for (int loop = 0; loop < 2; ++loop) {
+    for (int i = 0; i < 16; ++i) {
+      const auto [x, y] = place(i);
+      vertices += std::to_string(10.3 + x + 12 * loop) + " " + std::to_string(10.3 + y) + " 0.2\n";
+      edges += std::to_string(16 * loop + i) + " " + std::to_string(16 * loop + (i + 1) % 16) + "\n";
+    }
+  }
+  const auto truth_file = folder.write("true.txt", truth_row + "\n");
+  Result result = read_result(folder.write("found.ply", ply(vertices, 32, edges, 32)));
+  const Truth truth = read_truth(truth_file, {io::ScanInput(scan)}, result);
+  CHECK(truth.positions.size() == 900 + 32);
+  CHECK(truth.spacing == Approx(1));
+  const Evaluation evaluation = evaluate(result, truth, {});
+  REQUIRE(evaluation.loops.loops.size() == 2);
+  CHECK(evaluation.loops.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(evaluation.loops.loops[1].verdict == EdgeDecision::kFalse);
+}
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Synthetic scans, read back: the vocabulary of the tests of `lacuna-bench synth`.
+#pragma once
+
+#include "bench/synth/scan.hpp"
+#include "bench/synth/surface.hpp"
+#include "engine/run/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::synth {
+
+using Position = std::array<float, 3>;
+
+using test::read_file;
+using test::ScratchFolder;
+
+inline std::uint64_t fnv1a(const std::string& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  return hash;
+}
+
+// `options` make a scan, and after `change` are refused in one line that leaves no file.
+template <typename Options, typename Summary, typename Change>
+void check_refused(const ScratchFolder& folder, Options options, Summary (*write)(const Options&),
+                   const Change& change) {
+  change(options);
+  std::string reason;
+  try {
+    write(options);
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  CHECK(!reason.empty());
+  CHECK(reason.find('\n') == std::string::npos);
+  CHECK(folder.names().empty());
+}
+
+// The rows of a PLY as bytes, all of `stride`; fails the test when header and size disagree.
+// Rows have `stride` bytes, and those of moving scanners a time behind them.
+inline std::vector<std::string> rows_of(const std::filesystem::path& file, std::size_t stride) {
+  const std::string bytes = read_file(file);
+  const std::size_t body = bytes.find("end_header\n") + 11;
+  const std::size_t count = std::stoull(bytes.substr(bytes.find("element vertex ") + 15));
+  if (bytes.substr(0, body).find(" gps_time\n") != bytes.npos) stride += sizeof(double);
+  if (bytes.size() != body + count * stride) throw std::runtime_error("the header's count is not the rows'");
+  std::vector<std::string> rows;
+  for (std::size_t row = 0; row < count; ++row) rows.push_back(bytes.substr(body + row * stride, stride));
+  return rows;
+}
+
+template <typename T>
+T scalar(const std::string& row, std::size_t offset) {
+  T value;
+  std::memcpy(&value, row.data() + offset, sizeof value);
+  return value;
+}
+
+inline std::vector<Position> positions_of(const std::filesystem::path& file, std::size_t stride = 12) {
+  std::vector<Position> positions;
+  for (const std::string& row : rows_of(file, stride))
+    positions.push_back({scalar<float>(row, 0), scalar<float>(row, 4), scalar<float>(row, 8)});
+  return positions;
+}
+
+inline std::vector<std::vector<std::uint64_t>> loops_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::vector<std::uint64_t>> loops;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream words(line);
+    loops.emplace_back(std::istream_iterator<std::uint64_t>(words), std::istream_iterator<std::uint64_t>());
+  }
+  return loops;
+}
+
+// The lines of loops, without those of steps of density.
+inline std::string without_steps(const std::string& truth) {
+  std::istringstream in(truth);
+  std::string kept;
+  for (std::string line; std::getline(in, line);)
+    if (!line.starts_with("#step ")) kept += line + "\n";
+  return kept;
+}
+
+// What the comment before each loop says.
+inline std::vector<std::string> names_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line))
+    if (line.starts_with("# ")) names.push_back(line.substr(2));
+  return names;
+}
+
+inline double distance(const Position& a, const Position& b) {
+  return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
+}
+
+inline SurfaceOptions small_surface(const ScratchFolder& folder, SurfaceKind kind = SurfaceKind::kPlane) {
+  SurfaceOptions options;
+  options.out = folder / "made.ply";
+  options.truth = folder / "made.loops.txt";
+  options.kind = kind;
+  options.points = 20'000;
+  options.holes = 5;
+  options.hole_radius = {3, 7};
+  return options;
+}
+
+inline std::size_t rims_of(SurfaceKind kind) {
+  if (kind == SurfaceKind::kTorus || kind == SurfaceKind::kSphere || kind == SurfaceKind::kCube) return 0;
+  return kind == SurfaceKind::kCylinder ? 2 : 1;
+}
+
+inline constexpr std::array kAllKinds{SurfaceKind::kPlane, SurfaceKind::kWaves,     SurfaceKind::kCylinder,
+                                      SurfaceKind::kTorus, SurfaceKind::kSphereCap, SurfaceKind::kSphere,
+                                      SurfaceKind::kCube};
+inline constexpr std::array kAllScenes{SceneKind::kRoom,  SceneKind::kCourt,  SceneKind::kHall,
+                                       SceneKind::kVault, SceneKind::kStreet, SceneKind::kPlant,
+                                       SceneKind::kAerial};
+inline constexpr std::array kAllPositions{PositionKind::kJittered, PositionKind::kRandom};
+inline constexpr std::array kPanelKinds{SurfaceKind::kSphere, SurfaceKind::kCube};
+
+}  // namespace lacuna::synth

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/synth/permutation.hpp"
+#include "bench/synth/random.hpp"
+#include "bench/synth/trig.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+using namespace lacuna::synth;
+
+TEST_CASE("sine and cosine are within 4e-16 of the true ones") {
+  double worst = 0;
+  for (int i = -100'000; i <= 300'000; ++i) {
+    const double turns = i * 1e-5;
+    const long double angle = 2 * 3.14159265358979323846264338327950288L * static_cast<long double>(turns);
+    worst = std::fmax(worst, static_cast<double>(std::fabs(sin_cos(turns).sin - std::sin(angle))));
+    worst = std::fmax(worst, static_cast<double>(std::fabs(sin_cos(turns).cos - std::cos(angle))));
+  }
+  CHECK(worst < 4e-16);
+}
+
+TEST_CASE("quarter turns are exact") {
+  CHECK(sin_cos(0).cos == 1);
+  CHECK(sin_cos(0.25).sin == 1);
+  CHECK(sin_cos(0.5).cos == -1);
+  CHECK(sin_cos(-0.25).sin == -1);
+}
+
+TEST_CASE("a permutation visits every index once, for every size") {
+  for (std::uint64_t size = 1; size <= 300; ++size) {
+    const Permutation order(size, size);
+    std::vector<int> met(size);
+    for (std::uint64_t index = 0; index < size; ++index) ++met.at(order(index));
+    CHECK(met == std::vector<int>(size, 1));
+  }
+}
+
+TEST_CASE("a permutation keeps nothing near its place, and seeds differ") {
+  constexpr std::uint64_t kSize = 100'000;
+  const Permutation one(kSize, 1);
+  const Permutation two(kSize, 2);
+  std::uint64_t still = 0, same = 0, next = 0;
+  for (std::uint64_t index = 0; index < kSize; ++index) {
+    still += one(index) == index;
+    same += one(index) == two(index);
+    next += index > 0 && one(index) == one(index - 1) + 1;
+  }
+  CHECK(still < 10);
+  CHECK(same < 10);
+  CHECK(next < 10);
+}
+
+TEST_CASE("random numbers have the moments of their distributions") {
+  const Random random(7, 3);
+  constexpr int kCount = 1'000'000;
+  double uniform = 0, normal = 0, square = 0, fourth = 0;
+  for (int i = 0; i < kCount; ++i) {
+    uniform += random.uniform(i);
+    const double x = random.normal(i);
+    normal += x;
+    square += x * x;
+    fourth += x * x * x * x;
+  }
+  CHECK(uniform / kCount == Approx(0.5).margin(0.002));
+  CHECK(normal / kCount == Approx(0).margin(0.005));
+  CHECK(square / kCount == Approx(1).margin(0.01));
+  CHECK(fourth / kCount == Approx(2.9).margin(0.05));  // Irwin-Hall of twelve: 3 - 6 / (5 * 12)
+}

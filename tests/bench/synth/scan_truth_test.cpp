@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+// True loops of scenes whose outlines are computed by hand.
+#include "bench/synth/scanner.hpp"
+#include "bench/synth/trig.hpp"
+#include "bench/synth/vec3.hpp"
+#include "io/loops/loops_reader.hpp"
+#include "tests/bench/synth/made.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+using namespace lacuna;
+using namespace lacuna::synth;
+
+namespace {
+
+constexpr std::size_t kStride = 12 + 1 + 4;
+
+// A hall without a hole, 6 x 4 x 3 metres, with one place for stations.
+Scene closed_room(Vec3 eye) {
+  Scene scene;
+  constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
+  scene.walls.push_back({{0, 0, 0}, kX, kY, 6, 4, 0.8, {}, "floor"});
+  scene.walls.push_back({{0, 0, 3}, kX, kY, 6, 4, 0.8, {}, "ceiling"});
+  scene.walls.push_back({{0, 0, 0}, kX, kZ, 6, 3, 0.8, {}});
+  scene.walls.push_back({{0, 4, 0}, kX, kZ, 6, 3, 0.8, {}});
+  scene.walls.push_back({{0, 0, 0}, kY, kZ, 4, 3, 0.8, {}});
+  scene.walls.push_back({{6, 0, 0}, kY, kZ, 4, 3, 0.8, {}});
+  scene.stand_low = scene.stand_high = eye;
+  return scene;
+}
+
+// One station with the whole sphere in view.
+ScanOptions whole_sphere(const ScratchFolder& folder) {
+  ScanOptions options;
+  options.out = folder / "made.ply";
+  options.points = 100'000;
+  options.stations = 1;
+  options.field_of_view = {-90, 90};
+  return options;
+}
+
+struct Made {
+  std::vector<Position> points;
+  std::vector<std::vector<std::uint64_t>> loops;
+  std::vector<std::string> names;
+  double step;  // radians between rays
+};
+
+Made make(const ScanOptions& options, const Scene& scene) {
+  const ScanSummary summary = write_scan(options, scene);
+  Made made{positions_of(options.out, kStride), loops_of(summary.truth), names_of(summary.truth), 0};
+  REQUIRE(made.loops.size() == summary.loops);
+  REQUIRE(made.names.size() == summary.loops);
+  const double turns = (options.field_of_view[1] - options.field_of_view[0]) / 360;
+  made.step = kTwoPi * std::sqrt(turns * options.stations / static_cast<double>(summary.rays));
+  return made;
+}
+
+Vec3 vec(const Position& p) {
+  return {p[0], p[1], p[2]};
+}
+
+double length(Vec3 a) {
+  return std::sqrt(dot(a, a));
+}
+
+double to_edge(Vec3 p, Vec3 a, Vec3 b) {
+  const double share = std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+  return length(p - (a + share * (b - a)));
+}
+
+double to_outline(Vec3 p, const std::vector<Vec3>& outline) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    least = std::min(least, to_edge(p, outline[i], outline[(i + 1) % outline.size()]));
+  return least;
+}
+
+std::vector<Vec3> vertices(const Made& made, std::size_t loop) {
+  std::vector<Vec3> all;
+  for (const std::uint64_t id : made.loops[loop]) all.push_back(vec(made.points[id]));
+  return all;
+}
+
+// Both curves stay within two spacings of each other. The spacing is that of rays that reach a surface at
+// this least cosine.
+void check_follows(const Made& made, std::size_t loop, const std::vector<Vec3>& outline, Vec3 eye,
+                   double cosine) {
+  const std::vector<Vec3> found = vertices(made, loop);
+  const auto tolerance = [&](Vec3 p) { return 2 * length(p - eye) * made.step / cosine; };
+  for (const Vec3 p : found) CHECK(to_outline(p, outline) < tolerance(p));
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    for (double share = 0; share < 1; share += 0.05) {
+      const Vec3 p = outline[i] + share * (outline[(i + 1) % outline.size()] - outline[i]);
+      CHECK(to_outline(p, found) < tolerance(p));
+    }
+  }
+}
+
+double perimeter(const std::vector<Vec3>& outline) {
+  double sum = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    sum += length(outline[(i + 1) % outline.size()] - outline[i]);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a closed room has no true loop") {
+  const ScratchFolder folder;
+  CHECK(make(whole_sphere(folder), closed_room({2.5, 2, 1.5})).loops.empty());
+}
+
+TEST_CASE("a window is the one true loop of its room, along its edge") {
+  const ScratchFolder folder;
+  const Vec3 eye{2.5, 2, 1.5};
+  Scene scene = closed_room(eye);
+  scene.walls[2].openings.push_back({2, 1, 3.2, 2, Opening::kGlass});
+  const Made made = make(whole_sphere(folder), scene);
+  REQUIRE(made.loops.size() == 1);
+  CHECK(made.names[0] == "window");
+  const std::vector<Vec3> edge{{2, 0, 1}, {3.2, 0, 1}, {3.2, 0, 2}, {2, 0, 2}};
+  check_follows(made, 0, edge, eye, 0.8);
+  CHECK(perimeter(vertices(made, 0)) == Approx(4.4).epsilon(0.1));
+}
+
+TEST_CASE("a window narrower than four spacings is no hole, one of eight spacings is") {
+  const ScratchFolder folder;
+  const auto loops = [&](double width) {
+    Scene scene = closed_room({2.5, 2, 1.5});
+    scene.walls[2].openings.push_back({2.5 - width / 2, 1, 2.5 + width / 2, 2, Opening::kGlass});
+    return make(whole_sphere(folder), scene).loops.size();
+  };
+  const double spacing = 2 * kTwoPi * std::sqrt(0.5 / 100'000);
+  CHECK(loops(3.5 * spacing) == 0);
+  CHECK(loops(8 * spacing) == 1);
+}
+
+TEST_CASE("a box on the floor has one true loop: its shadow's outline, and the edges where it turns away") {
+  const ScratchFolder folder;
+  const Vec3 eye{1, 2, 1.5};
+  Scene scene = closed_room(eye);
+  scene.boxes.push_back({{3, 2, 0.25}, {0.25, 0.25, 0.25}, 1, 0, 0.8, "crate"});
+  const Made made = make(whole_sphere(folder), scene);
+  REQUIRE(made.loops.size() == 1);
+  CHECK(made.names[0] == "shadow of crate");
+  // The eye is three times as high as the lid: shadows lie 1.5 times as far away as what casts them.
+  const std::vector<Vec3> outline{{2.75, 1.75, 0},   {3.625, 1.625, 0}, {4.375, 1.625, 0}, {4.375, 2.375, 0},
+                                  {3.625, 2.375, 0}, {2.75, 2.25, 0},   {2.75, 2.25, 0.5}, {3.25, 2.25, 0.5},
+                                  {3.25, 1.75, 0.5}, {2.75, 1.75, 0.5}};
+  check_follows(made, 0, outline, eye, 1.5 / std::sqrt(1.5 * 1.5 + 3.4 * 3.4));
+  CHECK(perimeter(vertices(made, 0)) == Approx(perimeter(outline)).epsilon(0.1));
+}
+
+TEST_CASE("a shadow that runs up a wall is one loop") {
+  const ScratchFolder folder;
+  const Vec3 eye{1, 2, 1};
+  Scene scene = closed_room(eye);
+  scene.boxes.push_back({{5, 2, 0.5}, {0.2, 0.3, 0.5}, 1, 0, 0.8, "crate"});
+  const Made made = make(whole_sphere(folder), scene);
+  REQUIRE(made.loops.size() == 1);
+  // The eye is as high as the lid, which it does not sample. The shadow reaches the wall at x = 6.
+  const double half = 0.3 / 3.8 * 5;
+  const std::vector<Vec3> outline{{4.8, 1.7, 0},    {6, 2 - half, 0}, {6, 2 - half, 1}, {6, 2 + half, 1},
+                                  {6, 2 + half, 0}, {4.8, 2.3, 0},    {4.8, 2.3, 1},    {4.8, 1.7, 1}};
+  check_follows(made, 0, outline, eye, 0.2);
+}
+
+TEST_CASE("a column from floor to ceiling has two true loops, one on each side of it") {
+  const ScratchFolder folder;
+  Scene scene = closed_room({1, 2, 1.5});
+  scene.columns.push_back({{3, 2, 0}, 0.3, 3, 0.8});
+  const Made made = make(whole_sphere(folder), scene);
+  REQUIRE(made.loops.size() == 2);
+  std::multiset<bool> left;
+  for (std::size_t loop = 0; loop < 2; ++loop) {
+    CHECK(made.names[loop] == "shadow of column");
+    std::size_t beyond = 0;
+    const std::vector<Vec3> found = vertices(made, loop);
+    for (const Vec3 p : found) beyond += p.y > 2;
+    CHECK((beyond == 0 || beyond == found.size()));
+    left.insert(beyond > 0);
+  }
+  CHECK(left == std::multiset<bool>{false, true});
+}
+
+TEST_CASE("a ball in the air has two true loops: where it turns away, and its shadow on the wall") {
+  const ScratchFolder folder;
+  const Vec3 eye{1, 2, 1.5};
+  Scene scene = closed_room(eye);
+  scene.balls.push_back({{3, 2, 1.5}, 0.3, 0.8});
+  const Made made = make(whole_sphere(folder), scene);
+  REQUIRE(made.loops.size() == 2);
+  std::set<std::string> names(made.names.begin(), made.names.end());
+  CHECK(names == std::set<std::string>{"edge of ball", "shadow of ball"});
+  const double sine = 0.3 / 2;  // of half the angle under which the ball appears
+  const double radius = 5 * sine / std::sqrt(1 - sine * sine);
+  for (std::size_t loop = 0; loop < 2; ++loop) {
+    if (made.names[loop] != "shadow of ball") continue;
+    for (const Vec3 p : vertices(made, loop)) {
+      CHECK(p.x == Approx(6).margin(0.02));
+      CHECK(std::hypot(p.y - 2, p.z - 1.5) == Approx(radius).margin(2 * 5.1 * made.step));
+    }
+  }
+}
+
+TEST_CASE("circles below and above the scanner have the radius that the field of view gives") {
+  const ScratchFolder folder;
+  const Vec3 eye{2.5, 2, 1.8};
+  ScanOptions options = whole_sphere(folder);
+  const auto check_circle = [&](double low, double high, const char* name, double radius) {
+    options.field_of_view = {low, high};
+    const Made made = make(options, closed_room(eye));
+    REQUIRE(made.loops.size() == 1);
+    CHECK(made.names[0] == name);
+    REQUIRE(made.loops[0].size() > 50);
+    for (const Vec3 p : vertices(made, 0)) {
+      const double off = std::hypot(p.x - eye.x, p.y - eye.y) - radius;
+      CHECK(off > -0.01);
+      CHECK(off < 2 * 2.1 * made.step / 0.8);
+    }
+  };
+  check_circle(-60, 90, "tripod circle of station 0", 1.8 * std::tan(kTwoPi / 12));
+  check_circle(-90, 65, "zenith circle of station 0", 1.2 * std::tan(kTwoPi * 25 / 360));
+}
+
+TEST_CASE("a tripod circle that another station samples sparsely is a step of density, and no true loop") {
+  const ScratchFolder folder;
+  ScanOptions options = whole_sphere(folder);
+  options.field_of_view = {-60, 90};
+  Scene scene = closed_room({1, 2, 1.5});
+  scene.stand_high.x = 5;
+  CHECK(make(options, scene).loops.size() == 1);
+  CHECK(io::read_steps(folder / "made.loops.txt").empty());
+  options.stations = 2;
+  options.seed = 9;
+  const std::vector<Vec3> eyes = Scanner(options, scene).stations();
+  REQUIRE(std::fabs(eyes[0].x - eyes[1].x) > 3);  // so that no place lies in both circles
+  const Made made = make(options, scene);
+  CHECK(made.loops.empty());
+  const auto steps = io::read_steps(folder / "made.loops.txt");
+  REQUIRE(steps.size() == 2);
+  std::set<std::size_t> found;
+  for (const auto& step : steps) {
+    CHECK(step.size() > 50);
+    CHECK(step.front() == step.back());
+    const Vec3 first = vec(made.points[step[0]]);
+    const std::size_t station = std::fabs(first.x - eyes[0].x) < std::fabs(first.x - eyes[1].x) ? 0 : 1;
+    found.insert(station);
+    for (const std::uint64_t id : step) {
+      const Vec3 p = vec(made.points[id]);
+      const double radius = std::hypot(p.x - eyes[station].x, p.y - eyes[station].y);
+      CHECK(radius == Approx(1.5 * std::tan(kTwoPi / 12)).margin(0.05));
+    }
+  }
+  CHECK(found.size() == 2);
+}
+
+TEST_CASE("a denser station next to one as near leaves no step, one with a hundred times the points does") {
+  const ScratchFolder folder;
+  ScanOptions options = whole_sphere(folder);
+  options.stations = 2;
+  Scene scene = closed_room({1, 2, 1.5});
+  scene.stand_high.x = 5;
+  scene.boxes.push_back({{3, 2, 0.75}, {0.3, 0.3, 0.75}, 1, 0, 0.8, "crate"});
+  const auto longest = [&](double factor) {
+    options.station_factor = factor;
+    make(options, scene);
+    std::size_t most = 0;
+    for (const auto& step : io::read_steps(folder / "made.loops.txt")) most = std::max(most, step.size());
+    return most;
+  };
+  CHECK(longest(100) > longest(1));
+}
+
+TEST_CASE("a room with a vault for its ceiling has no true loop") {
+  const ScratchFolder folder;
+  Scene scene = closed_room({2.5, 2, 1.5});
+  scene.walls.erase(scene.walls.begin() + 1);  // the ceiling
+  scene.vaults.push_back({{0, 2, 3}, {1, 0, 0}, 6, 2, 0.8});
+  for (Wall& wall : scene.walls)
+    if (wall.u.y == 1) wall = {{wall.corner.x, -1, 0}, wall.u, wall.v, 6, 6, 0.8, {}};
+  CHECK(make(whole_sphere(folder), scene).loops.empty());
+}
+
+TEST_CASE("a pipe from wall to wall has two true loops, where it turns away and along its shadow") {
+  const ScratchFolder folder;
+  Scene scene = closed_room({2.5, 1, 1.5});
+  scene.pipes.push_back({{0, 3, 1.5}, {1, 0, 0}, 6, 0.2, 0.8});
+  const Made made = make(whole_sphere(folder), scene);
+  // The shadow on three walls and the far side of the pipe are one band around, with two edges.
+  REQUIRE(made.loops.size() == 2);
+  for (const std::string& name : made.names) CHECK(name == "shadow of pipe");
+}
+
+TEST_CASE("sweeps that are tilted leave a smaller circle below the scanner than an upright one") {
+  const ScratchFolder folder;
+  ScanOptions options = whole_sphere(folder);
+  options.field_of_view = {-50, 90};
+  const auto extent = [&](std::uint32_t sweeps) {
+    options.sweeps = sweeps;
+    const Made made = make(options, closed_room({2.5, 2, 1.8}));
+    REQUIRE(made.loops.size() == 1);
+    CHECK(made.names[0].starts_with("tripod circle of station 0"));
+    return perimeter(vertices(made, 0));
+  };
+  CHECK(extent(3) < 0.8 * extent(1));
+}
+
+namespace {
+
+// Level ground of 100 by 80 metres, seen from one strip.
+Scene level_ground() {
+  Scene scene;
+  scene.terrains.push_back({.length = 100, .width = 80, .reflectance = 0.5});
+  scene.stand_high = {100, 80, 0};
+  scene.flown = true;
+  return scene;
+}
+
+ScanOptions one_strip(const ScratchFolder& folder) {
+  ScanOptions options;
+  options.out = folder / "made.ply";
+  options.points = 30'000;
+  options.stations = 1;
+  return options;
+}
+
+std::multiset<std::string> names_in(const Made& made) {
+  return {made.names.begin(), made.names.end()};
+}
+
+}  // namespace
+
+TEST_CASE("a lake with an island has two true loops, along its shores, and the ground one around it") {
+  const ScratchFolder folder;
+  Scene scene = level_ground();
+  scene.terrains[0].lakes = {{{50, 40, 0}, 20, 20, 6}};
+  const Made made = make(one_strip(folder), scene);
+  REQUIRE(names_in(made) == std::multiset<std::string>{"edge of ground", "water", "water"});
+  const double spacing = std::sqrt(100 * 80 / 30'000.0);
+  for (std::size_t loop = 0; loop < 3; ++loop) {
+    if (made.names[loop] != "water") continue;
+    const Vec3 first = vec(made.points[made.loops[loop][0]]) - Vec3{50, 40, 0};
+    const double radius = length(first) < 13 ? 6 : 20;
+    for (const Vec3 p : vertices(made, loop))
+      CHECK(std::hypot(p.x - 50, p.y - 40) == Approx(radius).margin(3 * spacing));
+  }
+}
+
+TEST_CASE("a river that crosses the ground parts its outer edge, and a dam joins it again") {
+  const ScratchFolder folder;
+  Scene scene = level_ground();
+  scene.terrains[0].rivers = {{.middle = 40, .width = 20, .swing = 5, .turns_per_metre = 0.01}};
+  CHECK(make(one_strip(folder), scene).loops.size() == 2);
+  scene.terrains[0].rivers[0].dams = {50};
+  scene.terrains[0].rivers[0].dam_width = 8;
+  CHECK(make(one_strip(folder), scene).loops.size() == 1);
+}
+
+TEST_CASE("a house has two true loops from the air, around its roof and on the ground around it") {
+  for (const double y : {40, 70}) {  // below the strip, and to a side, where one wall has points
+    const ScratchFolder folder;
+    Scene scene = level_ground();
+    scene.houses.push_back({{50, y, -2}, 8, 6, 8, y == 40 ? 3.0 : 0.0, 1, 0, 0.5});
+    const Made made = make(one_strip(folder), scene);
+    REQUIRE(names_in(made) ==
+            std::multiset<std::string>{"edge of ground", "edge of house", "shadow of house"});
+    for (std::size_t loop = 0; loop < 3; ++loop) {
+      if (made.names[loop] == "edge of house")
+        CHECK(perimeter(vertices(made, loop)) == Approx(56).epsilon(0.15));
+    }
+  }
+}
+
+TEST_CASE("leaves have no true loop, and leave none in the ground below") {
+  const ScratchFolder folder;
+  Scene scene = level_ground();
+  for (const double x : {20.0, 50.0, 80.0}) scene.foliage.push_back({{x, 40, 6}, 4, 5, 16});
+  CHECK(names_in(make(one_strip(folder), scene)) == std::multiset<std::string>{"edge of ground"});
+}
+
+TEST_CASE("true loops of every scene are closed, simple and in canonical form, and say what they are") {
+  for (const SceneKind scene : kAllScenes) {
+    const ScratchFolder folder;
+    ScanOptions options = {.out = folder / "made.ply", .scene = scene, .points = 50'000};
+    const Made made = make(options, make_scene(scene));
+    CHECK(made.loops.size() > 8);
+    CHECK(std::is_sorted(made.loops.begin(), made.loops.end()));
+    for (const auto& loop : made.loops) {
+      REQUIRE(loop.size() >= 12);
+      CHECK(*std::min_element(loop.begin(), loop.end()) == loop.front());
+      CHECK(loop[1] < loop.back());
+      CHECK(std::set<std::uint64_t>(loop.begin(), loop.end()).size() == loop.size());
+      CHECK(*std::max_element(loop.begin(), loop.end()) < made.points.size());
+    }
+    for (const std::string& name : made.names) CHECK(!name.empty());
+    const char* const opening = scene == SceneKind::kAerial ? "water" : "window";
+    CHECK(std::count(made.names.begin(), made.names.end(), opening) >= 2);
+  }
+}
+
+TEST_CASE("the same options give the same true loops, and so does random order") {
+  const ScratchFolder folder;
+  ScanOptions options = {.out = folder / "made.ply", .points = 30'000};
+  const Scene scene = make_scene(options.scene);
+  const Made first = make(options, scene);
+  const std::string bytes = read_file(folder / "made.loops.txt");
+  const Made again = make(options, scene);
+  CHECK(read_file(folder / "made.loops.txt") == bytes);
+  options.order = Order::kRandom;
+  const Made shuffled = make(options, scene);
+  const auto places = [](const Made& made) {
+    std::multiset<std::set<Position>> all;
+    for (const auto& loop : made.loops) {
+      std::set<Position> points;
+      for (const std::uint64_t id : loop) points.insert(made.points[id]);
+      all.insert(points);
+    }
+    return all;
+  };
+  CHECK(places(shuffled) == places(first));
+}
+
+TEST_CASE("noise and errors of registration do not change true loops, and strays are on none") {
+  const ScratchFolder folder;
+  ScanOptions options = {.out = folder / "made.ply", .points = 30'000, .stations = 3};
+  const Scene scene = make_scene(options.scene);
+  options.noise = 0;
+  const Made clean = make(options, scene);
+  options.noise = 0.02;
+  options.registration = 0.05;
+  CHECK(make(options, scene).loops == clean.loops);
+  options.noise = options.registration = 0;
+  options.outliers = 0.1;
+  const Made strayed = make(options, scene);
+  CHECK(double(strayed.loops.size()) == Approx(double(clean.loops.size())).margin(1));
+  for (const auto& loop : strayed.loops)
+    for (const std::uint64_t id : loop) CHECK(strayed.points[id] == clean.points[id]);
+}
+
+TEST_CASE("the true loops go where --truth says, and never over the scan") {
+  const ScratchFolder folder;
+  ScanOptions options = whole_sphere(folder);
+  options.points = 2000;
+  options.truth = folder / "elsewhere.txt";
+  CHECK(write_scan(options).truth == options.truth);
+  CHECK(
+      read_file(options.truth).starts_with("# one boundary loop per line, 0-based point ids of made.ply\n"));
+  options.truth = options.out;
+  CHECK_THROWS_WITH(write_scan(options), Catch::Contains("two files"));
+}

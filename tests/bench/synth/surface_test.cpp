@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/synth/made.hpp"
+#include "tests/support/file_size_limit.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+using namespace lacuna;
+using namespace lacuna::synth;
+
+namespace {
+
+// Kilobytes of a field of /proc/self/status.
+long status_kilobytes(const std::string& field) {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(field)) return std::stol(line.substr(field.size()));
+  return 0;
+}
+
+}  // namespace
+
+// A truth file as it was before its loops had names.
+static std::string without_names(const std::string& truth) {
+  std::istringstream lines(truth);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (line != "# hole" && line != "# outer edge") kept += line + "\n";
+  return kept;
+}
+
+TEST_CASE("each true loop of a surface is named as a hole or an outer edge") {
+  const ScratchFolder folder;
+  for (const PositionKind positions : kAllPositions) {
+    SurfaceOptions options = small_surface(folder, SurfaceKind::kCylinder);
+    options.positions = positions;
+    write_surface(options);
+    const auto names = names_of(options.truth);
+    CHECK(names.size() == 7);
+    CHECK(std::count(names.begin(), names.end(), "hole") == 5);
+    CHECK(std::count(names.begin(), names.end(), "outer edge") == 2);
+  }
+}
+
+TEST_CASE("a surface has the bytes that it had on the machine where this test was written") {
+  const ScratchFolder folder;
+  const auto hash = [&](SurfaceKind kind, Order order, PositionKind positions = PositionKind::kJittered) {
+    SurfaceOptions options = small_surface(folder, kind);
+    options.positions = positions;
+    options.order = order;
+    options.noise = 0.2;
+    options.density_factor = 3;
+    write_surface(options);
+    return fnv1a(read_file(options.out) + without_names(read_file(options.truth)));
+  };
+  CHECK(hash(SurfaceKind::kPlane, Order::kScanline) == 0x04c4665fbb35768eu);
+  CHECK(hash(SurfaceKind::kWaves, Order::kRandom) == 0x7af4096c3f95e1f9u);
+  CHECK(hash(SurfaceKind::kCylinder, Order::kRandom) == 0xff7fb20dcbc4a686u);
+  CHECK(hash(SurfaceKind::kTorus, Order::kScanline) == 0x9818274b4341e311u);
+  CHECK(hash(SurfaceKind::kSphereCap, Order::kScanline) == 0x4b9de0821496cf48u);
+  CHECK(hash(SurfaceKind::kSphere, Order::kRandom) == 0xe52e054e9a81dc15u);
+  CHECK(hash(SurfaceKind::kCube, Order::kScanline) == 0x7d417f894d909c2au);
+  CHECK(hash(SurfaceKind::kWaves, Order::kScanline, PositionKind::kRandom) == 0x7cd9b3d156d856bdu);
+  CHECK(hash(SurfaceKind::kTorus, Order::kRandom, PositionKind::kRandom) == 0x5bd12665ec7b503au);
+  CHECK(hash(SurfaceKind::kSphere, Order::kScanline, PositionKind::kRandom) == 0x31666ed3485e1f4bu);
+}
+
+TEST_CASE("a cube has as many points on each face, none beyond it and none in its edges") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder, SurfaceKind::kCube);
+  options.spacing = 1;
+  options.holes = 0;
+  options.jitter = 0.5;
+  const SurfaceSummary made = write_surface(options);
+  CHECK(made.loops == 0);
+  CHECK(loops_of(options.truth).empty());
+  const double half = std::sqrt(made.points / 6.0) / 2;
+  std::map<std::array<int, 3>, std::size_t> on_face;
+  for (const Position& p : positions_of(options.out)) {
+    std::array<int, 3> face{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      CHECK(std::fabs(p[axis]) <= half);
+      if (std::fabs(p[axis]) > half * 0.999999) face[axis] = p[axis] > 0 ? 1 : -1;
+    }
+    ++on_face[face];
+  }
+  CHECK(on_face.size() == 6);
+  for (const auto& [face, count] : on_face) CHECK(count == made.points / 6);
+}
+
+TEST_CASE("a sphere has one radius and the area of its squares, evenly covered") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder, SurfaceKind::kSphere);
+  options.spacing = 1;
+  options.holes = 0;
+  const SurfaceSummary made = write_surface(options);
+  CHECK(loops_of(options.truth).empty());
+  const double radius = std::sqrt(made.points / (4 * std::acos(-1.0)));
+  std::array<double, 8> in_octant{};
+  double at_pole = 0, at_corner = 0;  // in caps of the same size
+  for (const Position& p : positions_of(options.out)) {
+    CHECK(std::hypot(p[0], p[1], p[2]) == Approx(radius).epsilon(1e-5));
+    ++in_octant[(p[0] > 0) + 2 * (p[1] > 0) + 4 * (p[2] > 0)];
+    at_pole += p[2] > 0.95 * radius;
+    at_corner += p[0] + p[1] + p[2] > 0.95 * radius * std::sqrt(3.0);
+  }
+  for (const double count : in_octant) CHECK(count == Approx(made.points / 8.0).epsilon(0.02));
+  CHECK(at_corner / at_pole > 1.1);
+  CHECK(at_corner / at_pole < 1.45);
+}
+
+TEST_CASE("panels join without a gap and without an overlap") {
+  for (const SurfaceKind kind : kPanelKinds) {
+    const ScratchFolder folder;
+    SurfaceOptions options = small_surface(folder, kind);
+    options.points = 2'000;
+    options.spacing = 1;
+    options.holes = 0;
+    options.jitter = 0;
+    write_surface(options);
+    const auto points = positions_of(options.out);
+    for (const Position& p : points) {
+      std::vector<double> distances;
+      for (const Position& q : points) distances.push_back(distance(p, q));
+      std::nth_element(distances.begin(), distances.begin() + 3, distances.end());
+      CHECK(distances[3] < 1.3);  // itself, and three neighbours even at a corner
+      CHECK(std::count_if(distances.begin(), distances.end(), [](double d) { return d < 0.65; }) == 1);
+    }
+  }
+}
+
+TEST_CASE("past the density step there is the promised part of the points, and the holes are before it") {
+  for (const PositionKind positions : kAllPositions)
+    for (const std::uint32_t step : {4u, 9u}) {
+      const ScratchFolder folder;
+      SurfaceOptions options = small_surface(folder);
+      options.positions = positions;
+      options.density_step = step;
+      options.points = 40'000;
+      options.holes = 3;
+      write_surface(options);
+      const auto points = positions_of(options.out);
+      float width = 0;
+      for (const Position& p : points) width = std::max(width, p[0]);
+      const auto between = [&](double low, double high) {
+        return double(std::count_if(points.begin(), points.end(), [&](const Position& p) {
+          return p[0] > low * width && p[0] < high * width;
+        }));
+      };
+      CHECK(between(0.05, 0.45) / between(0.55, 0.95) == Approx(step).epsilon(0.05));
+      const auto loops = loops_of(options.truth);
+      CHECK(loops.size() == 4);
+      std::size_t past = 0;
+      for (const auto& loop : loops)
+        past += std::any_of(loop.begin(), loop.end(),
+                            [&](std::uint64_t id) { return points[id][0] > 0.5 * width; });
+      CHECK(past == 1);  // the outer edge
+    }
+}
+
+TEST_CASE("the density factor is the ratio of the densities at two corners") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder);
+  options.points = 200'000;
+  options.holes = 0;
+  options.density_factor = 9;
+  write_surface(options);
+  const auto points = positions_of(options.out);
+  Position far{};
+  for (const Position& p : points)
+    for (int axis : {0, 1}) far[axis] = std::max(far[axis], p[axis]);
+  double dense = 0, sparse = 0;
+  for (const Position& p : points) {
+    dense += p[0] < 0.03 * far[0] && p[1] < 0.03 * far[1];
+    sparse += p[0] > 0.97 * far[0] && p[1] > 0.97 * far[1];
+  }
+  CHECK(dense / sparse > 7);
+  CHECK(dense / sparse < 10);
+}
+
+TEST_CASE("noise is along the normal and has the wanted deviation") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder);
+  options.noise = 0.5;
+  options.translate = {0, 0, 2};
+  write_surface(options);
+  double sum = 0, squares = 0;
+  const auto points = positions_of(options.out);
+  for (const Position& p : points) {
+    sum += p[2] - 2;
+    squares += (p[2] - 2) * (p[2] - 2);
+  }
+  CHECK(std::fabs(sum / points.size()) < 1e-4);
+  CHECK(std::sqrt(squares / points.size()) == Approx(0.5 * options.spacing).epsilon(0.02));
+}
+
+TEST_CASE("two million points take less than 32 MB of memory") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder, SurfaceKind::kTorus);
+  options.points = 2'000'000;
+  options.holes = 100;
+  options.order = Order::kRandom;
+  std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
+  const long before = status_kilobytes("VmRSS:");
+  write_surface(options);
+  CHECK(status_kilobytes("VmHWM:") - before < 32 * 1024);
+}
+
+TEST_CASE("surfaces that cannot be made are refused in one line and leave no file") {
+  const ScratchFolder folder;
+  const auto refused = [&](auto change) {
+    check_refused(folder, small_surface(folder), write_surface, change);
+  };
+  refused([](SurfaceOptions& o) { o.points = 10; });
+  refused([](SurfaceOptions& o) { o.holes = 1000; });
+  refused([](SurfaceOptions& o) { o.holes = 0 - std::uint64_t{1}; });
+  refused([](SurfaceOptions& o) { o.hole_radius = {5, 4}; });
+  refused([](SurfaceOptions& o) { o.hole_radius = {1, 4}; });
+  refused([](SurfaceOptions& o) { o.jitter = 0.6; });
+  refused([](SurfaceOptions& o) { o.noise = -1; });
+  refused([](SurfaceOptions& o) { o.spacing = std::nan(""); });
+  refused([](SurfaceOptions& o) { o.density_step = 5; });
+  refused([](SurfaceOptions& o) { o.density_factor = 0.5; });
+  for (const SurfaceKind kind : kPanelKinds) {
+    refused([kind](SurfaceOptions& o) {
+      o.kind = kind;
+      o.density_step = 4;
+    });
+  }
+  refused([](SurfaceOptions& o) { o.translate = {1e6, 0, 0}; });  // in floats
+  refused([](SurfaceOptions& o) { o.truth = o.out; });
+  refused([](SurfaceOptions& o) { o.out = o.out / "no-such-folder" / "made.ply"; });
+}
+
+TEST_CASE("a disk that takes no more is an error that names file and reason, and nothing appears") {
+  const ScratchFolder folder;
+  const SurfaceOptions options = small_surface(folder);
+  const auto write = [&] {
+    const test::FileSizeLimit full(100'000);
+    write_surface(options);
+  };
+  CHECK_THROWS_WITH(write(), Catch::Contains(options.out.string() + ": cannot be written: File too large"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a surface replaces an earlier one, and no file of another kind") {
+  const ScratchFolder folder;
+  SurfaceOptions options = small_surface(folder);
+  write_surface(options);
+  for (const auto& file : {options.out, options.truth}) {
+    write_surface(options);
+    const std::string mine = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
+    folder.write(file.filename(), mine);
+    CHECK_THROWS_WITH(write_surface(options),
+                      Catch::Contains(file.string() + ": exists, and this command did not write it"));
+    CHECK(read_file(file) == mine);
+    options.overwrite = io::Overwrite::kAny;
+    write_surface(options);
+    CHECK(read_file(file) != mine);
+    options.overwrite = io::Overwrite::kOwn;
+  }
+  CHECK(folder.names().size() == 2);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/rows/pose.hpp"
+
+#include "io/scan/file_scan.hpp"
+#include "tests/io/io_support.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+using namespace io;
+
+namespace {
+
+using Catch::Matchers::Contains;
+
+// A quarter turn around z, then a move.
+constexpr const char* kMatrix = "0 -1 0 10\n1 0 0 20\n0 0 1 30\n0 0 0 1\n";
+
+}  // namespace
+
+TEST_CASE("a pose is a matrix, its first three rows, or a translation and a quaternion") {
+  const Pose matrix = parse_pose(kMatrix);
+  CHECK(matrix * Eigen::Vector3d(1, 2, 3) == Eigen::Vector3d(8, 21, 33));
+  CHECK(parse_pose("0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30").matrix() == matrix.matrix());
+  const double half = std::sqrt(0.5);
+  const Pose turned = parse_pose("10 20 30 0 0 " + std::to_string(half) + " " + std::to_string(half));
+  CHECK((turned.matrix() - matrix.matrix()).norm() < 1e-5);
+  CHECK(parse_pose("1000 0 0 5 0 1000 0 6 0 0 1000 7") * Eigen::Vector3d(1, 2, 3) ==
+        Eigen::Vector3d(1005, 2006, 3007));
+}
+
+TEST_CASE("what does not only turn, scale and move is no pose") {
+  const auto error = [](const std::string& numbers) { return error_of([&] { parse_pose(numbers); }); };
+  CHECK_THAT(error("1 2 3"), Contains("a pose of 3 numbers; allowed: 16"));
+  CHECK_THAT(error("1 2 3 0 0 0 2"), Contains("the quaternion of a pose has length 2"));
+  CHECK_THAT(error("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"), Contains("may be transposed"));
+  CHECK_THAT(error("1 0 0 0 0 1 0 0 0 0 -1 0"), Contains("shears, mirrors or flattens"));
+  CHECK_THAT(error("1 0 0 0 0 1 0 0 0 0 0 0"), Contains("shears, mirrors or flattens"));
+  CHECK_THAT(error("0 0 0 0 0 0 0 0 0 0 0 0"), Contains("shears, mirrors or flattens"));
+  CHECK_THAT(error("1 0.1 0 0 0 1 0 0 0 0 1 0"), Contains("shears, mirrors or flattens"));
+  CHECK_THAT(error("1 0 0 0 0 one 0 0 0 0 1 0"), Contains("'one' is no number of a pose"));
+  CHECK_THAT(error("1 0 0 nan 0 1 0 0 0 0 1 0"), Contains("'nan' is no number of a pose"));
+}
+
+TEST_CASE("a file of a pose that holds none is an error that names it") {
+  const ScratchFolder folder;
+  CHECK(read_pose(folder.write("a.xf", kMatrix)).matrix() == parse_pose(kMatrix).matrix());
+  CHECK_THAT(error_of([&] { read_pose(folder.write("b.xf", "1 0 0\n")); }), Contains("b.xf: a pose of 3"));
+  CHECK_THAT(error_of([&] { read_pose(folder / "none.xf"); }), Contains("none.xf"));
+}
+
+TEST_CASE("a pose moves positions, turns normals without scaling them, and keeps all else") {
+  const ScratchFolder folder;
+  const auto ply = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar red\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float nx\nproperty float ny\nproperty float nz\nend_header\n"
+      "200 1 2 3 1 0 0\n");
+  const Pose pose = parse_pose("0 -2 0 10  2 0 0 20  0 0 2 30");
+  FileScan scan({{ply, pose}, {ply}}, {});
+  CHECK(scan.layouts()[0].find("x")->type == Scalar::kFloat64);
+  CHECK(scan.layouts()[0].find("red")->type == Scalar::kUint8);
+  CHECK_FALSE(scan.single_precision());
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  CHECK(batch.positions[0] == Eigen::Vector3d(6, 22, 36));
+  CHECK((batch.normals[0] - Eigen::Vector3d(0, 1, 0)).norm() < 1e-15);
+  REQUIRE(scan.next(batch));
+  CHECK(batch.positions[0] == Eigen::Vector3d(1, 2, 3));
+
+  const auto reader = scan.open(0);
+  RowBatch rows;
+  REQUIRE(reader->next(rows, 10));
+  CHECK(rows.bytes[reader->layout().find("red")->offset] == std::byte{200});
+}
+
+}  // namespace lacuna::test

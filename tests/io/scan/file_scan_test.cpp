@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scan/file_scan.hpp"
+
+#include "tests/io/io_support.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+using namespace io;
+
+namespace {
+
+const std::string kIntegers =
+    "ply\nformat ascii 1.0\nelement vertex 2\nproperty uchar x\nproperty short y\nproperty int "
+    "z\nend_header\n"
+    "255 -300 70000\n1 2 3\n";
+const std::string kNormals =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float nz\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float nx\nproperty float ny\nend_header\n1 0.1 5 6 0 0.5\n";
+const std::string kEmpty =
+    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+    "z\nend_header\n";
+
+struct Points {
+  std::vector<Eigen::Vector3d> positions, normals;
+};
+
+Points read_all(PointSource& source) {
+  Points all;
+  PointBatch batch;
+  while (source.next(batch)) {
+    REQUIRE(value(batch.first) == all.positions.size());
+    all.positions.insert(all.positions.end(), batch.positions.begin(), batch.positions.end());
+    all.normals.insert(all.normals.end(), batch.normals.begin(), batch.normals.end());
+  }
+  CHECK(batch.size() == 0);
+  CHECK(value(batch.first) == all.positions.size());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan(
+      {folder.write("a.ply", kIntegers), folder.write("b.ply", kEmpty), folder.write("c.ply", kNormals)}, {});
+  CHECK(scan.expected_points() == 3u);
+  CHECK(scan.has_normals());
+  CHECK_FALSE(scan.single_precision());
+  for (int pass = 0; pass < 2; ++pass) {
+    const Points all = read_all(scan);
+    REQUIRE(all.positions.size() == 3);
+    CHECK(all.positions[0] == Eigen::Vector3d(255, -300, 70000));
+    CHECK(all.positions[1] == Eigen::Vector3d(1, 2, 3));
+    CHECK(all.positions[2] == Eigen::Vector3d(0.1f, 5, 6));
+    REQUIRE(all.normals.size() == 3);
+    CHECK(std::isnan(all.normals[0].x()));
+    CHECK(std::isnan(all.normals[1].z()));
+    CHECK(all.normals[2] == Eigen::Vector3d(0, 0.5, 1));
+    scan.rewind();
+  }
+}
+
+TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", kNormals), folder.write("c.ply", kNormals)}, {});
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  scan.rewind();
+  CHECK(read_all(scan).positions.size() == 2);
+  CHECK(scan.single_precision());
+}
+
+TEST_CASE("a scan without normals has none, and a text file does not say its size", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
+  CHECK_FALSE(scan.has_normals());
+  CHECK_FALSE(scan.expected_points());
+  const Points all = read_all(scan);
+  CHECK(all.positions.size() == 1);
+  CHECK(all.normals.empty());
+}
+
+TEST_CASE("a scan is read in batches of bounded size", "[io]") {
+  const ScratchFolder folder;
+  std::string text;
+  for (int i = 0; i < 70'000; ++i) text += "1 2 3\n";
+  FileScan scan({folder.write("a.xyz", text)}, {});
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  CHECK(batch.size() == 65'536);
+  REQUIRE(scan.next(batch));
+  CHECK(batch.size() == 70'000 - 65'536);
+  CHECK(value(batch.first) == 65'536);
+  CHECK_FALSE(scan.next(batch));
+}
+
+TEST_CASE("a missing or broken file is an error before any point is read", "[io]") {
+  const ScratchFolder folder;
+  const auto good = folder.write("a.ply", kNormals);
+  CHECK(error_of([&] { FileScan({good, folder / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
+  const auto cut = folder.write("cut.ply", kNormals.substr(0, kNormals.size() - 8));
+  CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
+}
+
+// Keeps size and time.
+void replace_by_copy(const std::filesystem::path& file) {
+  const auto copy = std::filesystem::path(file).concat(".copy");
+  std::filesystem::copy_file(file, copy);
+  std::filesystem::last_write_time(copy, std::filesystem::last_write_time(file));
+  std::filesystem::rename(copy, file);
+}
+
+TEST_CASE("a file that is not the one that was opened first is an error that says what differs", "[io]") {
+  const ScratchFolder folder;
+  const auto write = [&] { return folder.write("b.ply", kNormals); };
+  const auto later = [](const auto& file, int milliseconds) {
+    const auto time = std::filesystem::last_write_time(file);
+    std::filesystem::last_write_time(file, time + std::chrono::milliseconds(milliseconds));
+  };
+  const auto write_with_time_set_back = [](const auto& file) {
+    const auto time = std::filesystem::last_write_time(file);
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(-2, std::ios::end) << "9";
+    std::filesystem::last_write_time(file, time);
+  };
+  const std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> changes = {
+      {"its content, names, owner or permissions", write_with_time_set_back},
+      {"another file", replace_by_copy},
+      {"bytes", [&](const auto&) { folder.write("b.ply", kNormals + "\n"); }},
+      {"written to", [&](const auto& file) { later(file, 1); }},
+      {"written to", [&](const auto& file) { later(file, -1); }},
+      {"cannot be found", [](const auto& file) { std::filesystem::remove(file); }}};
+  for (const auto& [named, change] : changes) {
+    const std::filesystem::path file = write();
+    FileScan scan({folder.write("a.ply", kNormals), file}, {});
+    CHECK(error_of([&] { scan.check_unchanged(); }).empty());
+    CHECK(read_all(scan).positions.size() == 2);
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(20));  // more than a tick of the file system's clock
+    change(file);
+    for (const std::string& error :
+         {error_of([&] { scan.check_unchanged(); }), error_of([&] { scan.open(1); }), error_of([&] {
+            scan.rewind();
+            for (PointBatch batch; scan.next(batch);) {
+            }
+          })}) {
+      INFO(error);
+      CHECK(error.find(file.string() + ": has changed during the run (") == 0);
+      CHECK(error.find(named) != std::string::npos);
+    }
+    CHECK(scan.open(0)->expected_rows() == 1u);
+  }
+}
+
+TEST_CASE("a point too far away is an error that names its file and its place in it", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
+  CHECK_THAT(error_of([&] { read_all(scan); }),
+             Catch::Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e153"));
+  FileScan bounded({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
+  CHECK(error_of([&] { read_all(bounded); }).empty());
+}
+
+}  // namespace lacuna::test

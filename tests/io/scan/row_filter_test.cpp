@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scan/file_scan.hpp"
+#include "tests/io/io_support.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::test {
+using namespace io;
+
+namespace {
+
+using Catch::Matchers::Contains;
+
+const std::string kRows =
+    "x y z Classification ReturnNumber NumberOfReturns\n"
+    "0 0 0 2 1 1\n"
+    "1 1 1 2 1 2\n"
+    "2 2 2 6 2 2\n"
+    "3 3 3 6 1 1\n"
+    "4 4 4 1 2 3\n"
+    "nan 5 5 2 1 1\n";
+
+struct Filtered {
+  std::vector<int> kept;  // rows with a finite position
+  FilteredOut out;
+};
+
+Filtered read_filtered(const std::vector<ScanInput>& inputs, const InputConfig& config) {
+  FileScan scan(inputs, config);
+  Filtered filtered;
+  for (int pass = 0; pass < 2; ++pass) {  // counts are of one pass
+    filtered.kept.clear();
+    scan.rewind();
+    for (PointBatch batch; scan.next(batch);) {
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        if (batch.positions[i].allFinite()) filtered.kept.push_back(static_cast<int>(value(batch.id(i))));
+      }
+    }
+  }
+  filtered.out = scan.filtered_out();
+  return filtered;
+}
+
+Filtered read_rows(const InputConfig& config) {
+  const ScratchFolder folder;
+  return read_filtered({folder.write("a.csv", kRows)}, config);
+}
+
+}  // namespace
+
+TEST_CASE("without a filter every finite point takes part") {
+  const Filtered all = read_rows({});
+  CHECK(all.kept == std::vector{0, 1, 2, 3, 4});
+  CHECK(all.out.total() == 0);
+}
+
+TEST_CASE("bounds keep their faces, and are open in z where they have four numbers") {
+  const Filtered flat = read_rows({.bounds = {1, 1, 3, 3}});
+  CHECK(flat.kept == std::vector{1, 2, 3});
+  CHECK(flat.out.bounds == 2);
+  CHECK(read_rows({.bounds = {0, 0, 1.5, 9, 9, 9}}).kept == std::vector{2, 3, 4});
+}
+
+TEST_CASE("classes and returns are chosen by their properties, whatever a program calls these") {
+  CHECK(read_rows({.classes = {6}}).kept == std::vector{2, 3});
+  CHECK(read_rows({.classes = {6, 1}}).kept == std::vector{2, 3, 4});
+  CHECK(read_rows({.returns = Returns::kFirst}).kept == std::vector{0, 1, 3});
+  CHECK(read_rows({.returns = Returns::kLast}).kept == std::vector{0, 2, 3});
+  CHECK(read_rows({.returns = Returns::kOnly}).kept == std::vector{0, 3});
+  const ScratchFolder folder;
+  const auto other = folder.write("a.csv", "x,y,z,scalar_Return_Number\n1,1,1,1\n2,2,2,2\n");
+  CHECK(read_filtered({other}, {.returns = Returns::kFirst}).kept == std::vector{0});
+}
+
+TEST_CASE("each row is counted by the first filter that refuses it, in each pass anew") {
+  const ScratchFolder folder;
+  const Filtered filtered = read_filtered(
+      {folder.write("a.csv", kRows + "2 1 2 2 2 2\n")},
+      {.bounds = {-1, -1, 3, 3}, .classes = {2, 1}, .returns = Returns::kLast, .drop_origin = true});
+  CHECK(filtered.kept == std::vector{6});
+  CHECK(filtered.out.origin == 1);   // row 0
+  CHECK(filtered.out.bounds == 1);   // row 4
+  CHECK(filtered.out.classes == 2);  // rows 2 and 3
+  CHECK(filtered.out.returns == 1);  // row 1
+}
+
+TEST_CASE("filters that leave no point are an error that names each of them and what there is") {
+  const auto error = [](const InputConfig& config) { return error_of([&] { read_rows(config); }); };
+  CHECK(
+      error({.classes = {99}}) ==
+      "the filters leave none of the 5 points: --classes leaves out 5, the classes here are 1 (1 points), 2 "
+      "(2 points), 6 (2 points)");
+  CHECK(error({.bounds = {10, 10, 11, 11}}) ==
+        "the filters leave none of the 5 points: --bounds leaves out 5, the scan lies from 0 0 0 to 4 4 4");
+  CHECK(error({.bounds = {-1, -1, 3, 3}, .classes = {1}, .drop_origin = true}) ==
+        "the filters leave none of the 5 points: --drop-origin leaves out 1; --bounds leaves out 1, the scan "
+        "lies from 1 1 1 to 4 4 4; --classes leaves out 3, the classes here are 2 (1 points), 6 (2 points)");
+}
+
+TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD names, before a pose") {
+  const ScratchFolder folder;
+  const auto scan = folder.write("a.pcd",
+                                 "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\n"
+                                 "HEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 4\nDATA ascii\n"
+                                 "0 0 0\n1 2 3\n1 2 4\n10 20 30\n");
+  CHECK(read_filtered({scan}, {}).kept == std::vector{0, 1, 2, 3});
+  CHECK(read_filtered({scan}, {.drop_origin = true}).kept == std::vector{2, 3});
+  const Pose pose = parse_pose("0.1 0.2 0.3 0 0 0.6 0.8");
+  CHECK(read_filtered({{scan, pose}}, {.drop_origin = true}).kept == std::vector{2, 3});
+}
+
+TEST_CASE("rays without return are at the camera of a PLY, too") {
+  const ScratchFolder folder;
+  const auto scan = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\n"
+      "property float view_pz\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n0 0 0\n1 2 3\n1 2 4\n");
+  CHECK(read_filtered({scan}, {.drop_origin = true}).kept == std::vector{2});
+}
+
+TEST_CASE("a file without the property that a filter needs is an error that names both") {
+  const ScratchFolder folder;
+  const auto bare = folder.write("a.xyz", "1 2 3\n");
+  CHECK_THAT(error_of([&] { FileScan({bare}, {.classes = {2}}); }),
+             Contains("a.xyz: its points have no classification, which --classes needs"));
+  CHECK_THAT(error_of([&] { FileScan({bare}, {.returns = Returns::kLast}); }),
+             Contains("no return_number, which --returns needs"));
+}
+
+}  // namespace lacuna::test

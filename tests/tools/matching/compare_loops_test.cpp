@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Holes of two results: closed, new, changed or the same.
+#include "tools/matching/compare_loops.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::matching {
+
+// As Catch prints and compares them.
+static bool operator==(const LoopChange& a, const LoopChange& b) {
+  return a.change == b.change && a.before == b.before && a.after == b.after;
+}
+
+namespace {
+
+ComparedLoop circle(double x, double radius, double phase = 0) {
+  constexpr int kPoints = 60;
+  ComparedLoop loop;
+  loop.measures.area = std::numbers::pi * radius * radius;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = phase + 2 * std::numbers::pi * i / kPoints;
+    loop.points.emplace_back(x + radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  return loop;
+}
+
+// The left or right half of a circle, along its diameter.
+ComparedLoop half(double x, double radius, double side) {
+  ComparedLoop loop;
+  loop.measures.area = std::numbers::pi * radius * radius / 2;
+  for (int i = -30; i <= 30; ++i) {
+    const double angle = std::numbers::pi * i / 60;
+    loop.points.emplace_back(x + side * radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  for (int i = 20; i >= -20; --i) loop.points.emplace_back(x + side * 0.15, radius * i / 21, 0);
+  return loop;
+}
+
+using Changes = std::vector<LoopChange>;
+
+Changes compared(const std::vector<ComparedLoop>& before, const std::vector<ComparedLoop>& after) {
+  return compare_loops(before, after, 0.2);
+}
+
+TEST_CASE("a result compared with itself has the same holes, whichever points the curves take") {
+  const std::vector<ComparedLoop> loops = {circle(0, 1), circle(5, 2), circle(20, 1)};
+  const Changes same = {{Change::kSame, 0, 0}, {Change::kSame, 1, 1}, {Change::kSame, 2, 2}};
+  CHECK(compared(loops, loops) == same);
+  CHECK(compared(loops, {circle(0, 1, 0.03), circle(5, 2, 0.1), circle(20.05, 1)}) == same);
+  CHECK(compared({}, {}).empty());
+}
+
+TEST_CASE("a hole that only one result has is closed or new") {
+  CHECK(compared({circle(0, 1), circle(5, 1)}, {circle(5, 1), circle(9, 1)}) ==
+        Changes{{Change::kSame, 1, 0}, {Change::kNew, {}, 1}, {Change::kClosed, 0, {}}});
+}
+
+TEST_CASE("a hole with another area has changed") {
+  CHECK(compared({circle(0, 1)}, {circle(0, 1.15)}) == Changes{{Change::kChanged, 0, 0}});
+}
+
+TEST_CASE("a hole that was divided has changed into each of its parts, and so have parts that were joined") {
+  const std::vector<ComparedLoop> whole = {circle(0, 3)}, halves = {half(0, 3, -1), half(0, 3, 1)};
+  CHECK(compared(whole, halves) == Changes{{Change::kChanged, 0, 0}, {Change::kChanged, 0, 1}});
+  CHECK(compared(halves, whole) == Changes{{Change::kChanged, 0, 0}, {Change::kChanged, 1, 0}});
+}
+
+}  // namespace
+}  // namespace lacuna::matching

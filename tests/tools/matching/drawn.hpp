@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawn truths: rings of points in the plane, and loops along parts of them.
+#pragma once
+
+#include "tools/matching/true_loops.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::matching {
+
+struct Drawing {
+  std::vector<Eigen::Vector3d> positions;
+
+  // A regular polygon of n points, a unit apart. Returns their ids, in order.
+  io::LoopIds ring(std::uint64_t n, double x, double y) {
+    const double radius = 0.5 / std::sin(std::numbers::pi / static_cast<double>(n));
+    io::LoopIds ids;
+    for (std::uint64_t i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+      ids.push_back(positions.size());
+      positions.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle), 0);
+    }
+    return ids;
+  }
+
+  std::uint64_t point(double x, double y, double z = 0) {
+    positions.emplace_back(x, y, z);
+    return positions.size() - 1;
+  }
+};
+
+// The first points of a loop.
+inline io::LoopIds part(const io::LoopIds& loop, double share) {
+  const auto count = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(loop.size())));
+  return {loop.begin(), loop.begin() + count};
+}
+
+}  // namespace lacuna::matching

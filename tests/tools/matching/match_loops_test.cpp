@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/matching/match_loops.hpp"
+
+#include "tests/tools/matching/drawn.hpp"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna::matching {
+using namespace io;
+
+namespace {
+
+LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,
+                   const std::vector<LoopIds>& truth, const MatchRule& rule = {.tolerance = 2}) {
+  return match_loops(loops, loops_through(truth, stand_ins(drawing.positions)), drawing.positions, rule);
+}
+
+// There and back again, so that no edge cuts across.
+LoopIds and_back(LoopIds ids) {
+  for (std::size_t i = ids.size() - 1; i-- > 1;) ids.push_back(ids[i]);
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  const LoopIds beside = drawing.ring(36, 0.3, 0);
+  const LoopIds far = drawing.ring(40, 100, 0);
+  const LoopAccuracy result = match(drawing, {beside, ring, ring}, {far, ring});
+  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(result.loops[1].verdict == EdgeDecision::kRepeated);
+  CHECK(result.loops[2].verdict == EdgeDecision::kRepeated);
+  CHECK(result.loops[0].true_loop == 1u);
+  CHECK(result.loops[0].on == 1);
+  CHECK(result.loops[0].covered == 1);
+  CHECK_FALSE(result.true_loops[0].found_by);
+  CHECK(result.true_loops[1].found_by == 0u);
+  const LoopScores& scores = result.scores;
+  CHECK((scores.true_loops == 2 && scores.found == 1 && scores.missed == 1));
+  CHECK((scores.loops == 3 && scores.false_loops == 0 && scores.repeated == 2));
+  CHECK(scores.recall == 0.5);
+  CHECK(scores.precision == 1);
+}
+
+TEST_CASE("a loop that covers less than 70 percent of a true one does not find it") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(100, 0, 0);
+  // The vertices within the tolerance beyond both ends are covered, too.
+  const LoopAccuracy less = match(drawing, {and_back(part(ring, 0.60))}, {ring}, {.tolerance = 1.5});
+  CHECK(less.loops[0].verdict == EdgeDecision::kParted);
+  CHECK(less.loops[0].true_loop == 0u);
+  CHECK(less.loops[0].on == 1);
+  CHECK(less.loops[0].covered == Approx(0.62));
+  CHECK(less.scores.found == 0);
+  CHECK(less.scores.precision == 0);
+  const LoopAccuracy more = match(drawing, {and_back(part(ring, 0.68))}, {ring}, {.tolerance = 1.5});
+  CHECK(more.loops[0].covered == Approx(0.70));
+  CHECK(more.loops[0].verdict == EdgeDecision::kFound);
+}
+
+TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  LoopIds away = ring;
+  for (int i = 0; i < 18; ++i) away.push_back(drawing.point(30 + i, 0));
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFalse);
+  CHECK(match(drawing, {away}, {ring}).loops[0].on == Approx(40.0 / 58));
+  away.pop_back();
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFound);
+}
+
+// A square of `side` edges of length 1 to a side, with a corner at (x, y), counterclockwise.
+LoopIds square(Drawing& drawing, int side, double x, double y) {
+  LoopIds ids;
+  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + i, y));
+  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + side, y + i));
+  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + side - i, y + side));
+  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x, y + side - i));
+  return ids;
+}
+
+LoopIds chain(LoopIds ids, const LoopIds& more) {
+  ids.insert(ids.end(), more.begin(), more.end());
+  return ids;
+}
+
+TEST_CASE("a loop along two true ones is joined") {
+  Drawing drawing;
+  const LoopIds left = square(drawing, 10, 0, 0);
+  const LoopIds right = square(drawing, 10, 20, 0);
+  const LoopAccuracy result = match(drawing, {chain(left, right)}, {left, right}, {.tolerance = 0.5});
+  CHECK(result.loops[0].verdict == EdgeDecision::kJoined);
+  CHECK(result.loops[0].true_loop == 0u);
+  CHECK(result.loops[0].on_any == 1);
+  CHECK(result.loops[0].on == 0.5);
+  CHECK(result.loops[0].covered == 1);
+  const LoopScores& scores = result.scores;
+  CHECK((scores.joined == 1 && scores.parted == 0 && scores.false_loops == 0 && scores.repeated == 0));
+  CHECK((scores.found == 0 && scores.missed == 2));
+  CHECK(scores.precision == 0);
+}
+
+TEST_CASE("a loop that covers a true one and most of which lies on another is joined") {
+  Drawing drawing;
+  const LoopIds small = square(drawing, 3, 0, 0);
+  const LoopIds large = square(drawing, 30, 20, 0);
+  const LoopIds loop = chain(small, part(large, 0.5));
+  const LoopAccuracy result = match(drawing, {loop}, {large, small}, {.tolerance = 0.5});
+  CHECK(result.loops[0].verdict == EdgeDecision::kJoined);
+  CHECK(result.loops[0].true_loop == 1u);
+  CHECK(result.loops[0].on == Approx(12.0 / 72));
+  // On the large one lie 60 of 72 points.
+  CHECK(match(drawing, {loop}, {large}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kParted);
+}
+
+TEST_CASE("a loop along parts of two true loops is joined, though it covers neither") {
+  Drawing drawing;
+  const LoopIds left = square(drawing, 10, 0, 0);
+  const LoopIds right = square(drawing, 10, 30, 0);
+  const LoopIds loop = chain(part(left, 0.5), part(right, 0.5));
+  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kJoined);
+  // Without the second one, half of it lies on nothing.
+  CHECK(match(drawing, {loop}, {left}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
+}
+
+TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 percent of it") {
+  Drawing drawing;
+  const LoopIds ring = square(drawing, 20, 0, 0);
+  const LoopIds below(ring.begin(), ring.begin() + 31), above(ring.begin() + 30, ring.end());
+  const LoopAccuracy result = match(drawing, {below, above}, {ring}, {.tolerance = 1});
+  CHECK(result.loops[0].verdict == EdgeDecision::kParted);
+  CHECK(result.loops[1].verdict == EdgeDecision::kParted);
+  CHECK((result.scores.parted == 2 && result.scores.false_loops == 0 && result.scores.missed == 1));
+  CHECK(result.scores.precision == 0);
+  const LoopIds most(ring.begin(), ring.begin() + 60), rest(ring.begin() + 60, ring.end());
+  const LoopAccuracy uneven = match(drawing, {most, rest}, {ring}, {.tolerance = 1});
+  CHECK(uneven.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(uneven.loops[1].verdict == EdgeDecision::kParted);
+}
+
+TEST_CASE("a loop lies on true loops if 70 percent of its points do, of all true loops together") {
+  Drawing drawing;
+  const LoopIds left = square(drawing, 10, 0, 0);
+  const LoopIds right = square(drawing, 10, 20, 0);
+  LoopIds loop = chain(part(left, 0.5), part(right, 0.5));
+  for (int i = 0; i < 17; ++i) loop.push_back(drawing.point(i, 50));
+  const LoopAccuracy most = match(drawing, {loop}, {left, right}, {.tolerance = 0.5});
+  CHECK(most.loops[0].on_any == Approx(40.0 / 57));
+  CHECK(most.loops[0].verdict == EdgeDecision::kJoined);
+  loop.push_back(drawing.point(17, 50));
+  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
+}
+
+TEST_CASE("a short true loop that a loop covers does not make it joined") {
+  Drawing drawing;
+  const LoopIds small = square(drawing, 1, 0, 0);
+  const LoopIds large = square(drawing, 10, 20, 0);
+  const LoopAccuracy result =
+      match(drawing, {chain(small, part(large, 0.5))}, {small, large}, {.tolerance = 0.5});
+  CHECK(result.loops[0].verdict == EdgeDecision::kParted);
+  CHECK(result.loops[0].true_loop == 1u);
+}
+
+TEST_CASE("a loop along several short true loops is false") {
+  Drawing drawing;
+  const LoopIds left = square(drawing, 1, 0, 0);
+  const LoopIds right = square(drawing, 1, 5, 0);
+  const LoopIds loop = chain(left, right);
+  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
+  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5, .min_vertices = 4}).loops[0].verdict ==
+        EdgeDecision::kJoined);
+}
+
+TEST_CASE("a loop that is near nothing has no true loop") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  const LoopIds far = drawing.ring(40, 100, 0);
+  const LoopAccuracy result = match(drawing, {far}, {ring});
+  CHECK(result.loops[0].verdict == EdgeDecision::kFalse);
+  CHECK_FALSE(result.loops[0].true_loop);
+  CHECK(result.scores.false_loops == 1);
+}
+
+TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {
+  Drawing drawing;
+  const LoopIds small = drawing.ring(7, 0, 0);
+  const LoopIds missed = drawing.ring(7, 50, 0);
+  const LoopIds large = drawing.ring(8, 100, 0);
+  const LoopAccuracy result = match(drawing, {small, small}, {small, missed, large});
+  CHECK(result.loops[0].verdict == EdgeDecision::kShort);
+  CHECK(result.loops[1].verdict == EdgeDecision::kShort);
+  CHECK_FALSE(result.true_loops[0].counts);
+  CHECK(result.true_loops[0].found_by == 0u);
+  const LoopScores& scores = result.scores;
+  CHECK((scores.true_loops == 1 && scores.short_loops == 2 && scores.found == 0 && scores.missed == 1));
+  CHECK((scores.false_loops == 0 && scores.repeated == 0 && scores.precision == 1));
+  CHECK(match(drawing, {small}, {small}, {.tolerance = 2, .min_vertices = 7}).scores.found == 1);
+}
+
+TEST_CASE("a loop on a short true loop next to a long one goes to the long one") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(20, 0, 0);
+  const LoopIds sparse = {ring[0], ring[4], ring[8], ring[12], ring[16]};
+  const LoopAccuracy result = match(drawing, {ring}, {sparse, ring});
+  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(result.loops[0].true_loop == 1u);
+}
+
+TEST_CASE("distances are to edges, so long ones hide nothing") {
+  Drawing drawing;
+  LoopIds corners, dense;
+  const double side = 30;
+  for (const auto& [x, y] : {std::pair{0., 0.}, {side, 0.}, {side, side}, {0., side}}) {
+    corners.push_back(drawing.point(x, y));
+  }
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(i, 0));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side, i));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side - i, side));
+  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(0, side - i));
+  const MatchRule rule{.tolerance = 0.5, .min_vertices = 4};
+  CHECK(match(drawing, {dense}, {corners}, rule).scores.found == 1);
+  CHECK(match(drawing, {corners}, {dense}, rule).scores.found == 1);
+}
+
+TEST_CASE("without loops and without truth there is no precision and no recall") {
+  const LoopAccuracy nothing = match(Drawing{}, {}, {});
+  CHECK_FALSE(nothing.scores.precision);
+  CHECK_FALSE(nothing.scores.recall);
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0);
+  CHECK(match(drawing, {}, {ring}).scores.recall == 0);
+  CHECK(match(drawing, {ring}, {}).scores.precision == 0);
+  CHECK(match(drawing, {ring}, {}).scores.false_loops == 1);
+}
+
+TEST_CASE("points that are not finite are near nothing") {
+  Drawing drawing;
+  LoopIds ring = drawing.ring(40, 0, 0);
+  drawing.positions[ring[3]].x() = std::numeric_limits<double>::quiet_NaN();
+  const LoopAccuracy result = match(drawing, {ring}, {ring});
+  CHECK(result.loops[0].on == Approx(39.0 / 40));
+  CHECK(result.scores.found == 1);
+}
+
+TEST_CASE("the area under the ROC curve is the share of pairs in the right order") {
+  const auto area = [](std::vector<EdgeDecision> verdicts, std::vector<double> confidence) {
+    std::vector<LoopMatch> loops;
+    for (const EdgeDecision verdict : verdicts) loops.push_back({.verdict = verdict});
+    return area_under_roc(loops, confidence);
+  };
+  using enum EdgeDecision;
+  CHECK(area({kFound, kRepeated, kFalse, kFalse}, {0.9, 0.8, 0.2, 0.1}) == 1);
+  CHECK(area({kFound, kFound, kFalse, kFalse}, {0.9, 0.15, 0.2, 0.1}) == 0.75);
+  CHECK(area({kFound, kFalse}, {0.5, 0.5}) == 0.5);
+  CHECK(area({kFound, kFalse}, {0.1, 0.2}) == 0);
+  CHECK(area({kFound, kFalse, kShort, kFalse}, {0.5, 0.4, 0.1, std::nan("")}) == 1);
+  CHECK(area({kFound, kJoined, kParted, kFalse}, {0.5, 0.9, 0.1, 0.4}) == 1);
+  CHECK_FALSE(area({kFound, kFound}, {0.5, 0.4}));
+  CHECK_FALSE(area({kFalse}, {0.5}));
+  CHECK_FALSE(area({}, {}));
+}
+
+}  // namespace lacuna::matching

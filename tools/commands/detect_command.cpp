@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/commands/detect_command.hpp"
+
+#include "engine/pipeline.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/temporary_folder.hpp"
+#include "engine/workspace/workspace.hpp"
+#include "engine/workspace/workspace_state.hpp"
+#include "io/results/results.hpp"
+#include "io/scan/file_scan.hpp"
+#include "io/stations/find_causes.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/commands/summary.hpp"
+#include "tools/commands/workspace_commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/overall_progress.hpp"
+#include "tools/console/shown_progress.hpp"
+#include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/disk_check.hpp"
+#include "tools/run/folders.hpp"
+#include "tools/run/input_files.hpp"
+#include "tools/run/own_process.hpp"
+#include "tools/run/parameter_options.hpp"
+#include "tools/run/scan_warnings.hpp"
+#include "tools/run/signals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// In the order of ProgressStyle.
+constexpr std::array<std::string_view, 3> kProgressStyles = {"bar", "plain", "none"};
+
+struct DetectArguments {
+  explicit DetectArguments(const Command& command) : run(command) {}
+
+  std::vector<fs::path> scans;
+  bool print_config = false;
+  ResultArguments run;
+};
+
+void require(const Command& command, const std::string& option) {
+  if (!command.option(option).is_given()) throw WrongOption(option + " is required");
+}
+
+// A workspace that this run alone uses.
+struct UsedWorkspace {
+  explicit UsedWorkspace(const fs::path& folder) : folder(folder), alone(this->folder.path()) {}
+  MadeFolder folder;
+  FolderLock alone;
+};
+
+// None where the name is empty.
+std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out) {
+  if (name.empty()) return nullptr;
+  std::error_code error;
+  if (fs::equivalent(name, out, error))
+    throw UsageError(name + ": is the folder of the results, too; allowed: another one for --workspace");
+  auto used = std::make_unique<UsedWorkspace>(name);
+  for (const fs::path& left : find_folders(used->folder.path(), "lacuna-"))
+    fs::remove(left, error);  // if it is empty
+  return used;
+}
+
+fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
+  if (!run.scratch.empty()) return run.scratch;
+  return run.workspace.empty() ? out : fs::path(run.workspace);
+}
+
+// Empty where every program reads what was written.
+std::string readers_note(const FileScan& scan, const OutputConfig& config) {
+  if (scan.single_precision() || config.local_coordinates) return "";
+  return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "
+         "--points "
+         "--points-format csv\n";
+}
+
+}  // namespace
+
+RunArguments::RunArguments(const Command& command) : parameters(command) {
+  const auto choose = [this](std::size_t style) { progress = static_cast<ProgressStyle>(style); };
+  command
+      .add_choice("--progress", kProgressStyles, choose,
+                  "How stderr shows progress. The default is bar on a terminal, else plain")
+      .rare();
+  command.add_flag("--quiet", quiet, "Print no progress and no summary, only warnings and errors").rare();
+}
+
+FilesConfig RunArguments::start(FilesConfig base) const {
+  auto [config, warnings] = parameters.read(std::move(base));
+  if (quiet) quiet_log();
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  prepare_process(config.run);
+  config.run.note = print_parameters(file_parameters(config));
+  return config;
+}
+
+std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) const {
+  return make_progress(quiet ? ProgressStyle::kNone : progress, expected_stages(config));
+}
+
+FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
+  FilesConfig config{run.config, {}, {}};
+  read_parameters(run.note, workspace, file_parameters(config));
+  return config;
+}
+
+std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
+  auto scan =
+      std::make_unique<FileScan>(inputs, config.input, Memory::share(config.run.memory_limit).reading);
+  refuse_degrees(*scan);
+  for (const std::string& warning : input_warnings(*scan)) spdlog::warn("{}", warning);
+  return scan;
+}
+
+ResultArguments::ResultArguments(const Command& command) : RunArguments(command) {
+  command.add_option("--out", out, "Folder for the results; created if missing").type("DIR");
+  command
+      .add_flag("--overwrite", overwrite,
+                "Replace files that lacuna detect did not write, too, where results need their names")
+      .rare();
+}
+
+std::string detect_to(const std::vector<ScanInput>& inputs, const FilesConfig& config,
+                      const ResultArguments& arguments, const WorkspaceSteps& steps) {
+  const Clock::time_point start = Clock::now();
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
+  FileScan& scan = *opened;
+
+  const MadeFolder out_folder(arguments.out);
+  const fs::path& out = out_folder.path();
+  const FolderLock alone(out);
+  check_output_folder(scan, config, out, overwrite);
+  watch_results(out, out / "holes.json");
+  for (const fs::path& left : find_folders(out, kTemporaryPrefix))
+    spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
+  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out);
+  if (workspace) {
+    const fs::path& folder = workspace->folder.path();
+    watch_workspace(folder);
+    if (steps.begin) steps.begin();
+    if (const std::optional<WorkspaceState> state = state_of_workspace(folder))
+      spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
+  }
+  const MadeFolder parent(scratch_parent(config.run, out));
+  const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
+  for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
+  for (const std::string& warning : check_disks(scan, config, parent.path(), out))
+    spdlog::warn("{}", warning);
+  const std::unique_ptr<Progress> progress = arguments.show_progress(config);
+
+  const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
+  ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
+  if (stations) find_causes(*stations, scan, config.run, detection);
+  const Clock::time_point writing = Clock::now();
+  progress->begin("write", 0);
+  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
+  note_complete_results();
+  const std::string more = steps.end ? steps.end() : "";
+  if (workspace) {
+    write_note(workspace->folder.path(), WorkspaceNote::kResults, full_name(out).string());
+    end_update(workspace->folder.path());
+  }
+  progress->end();
+  for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
+  for (const std::string& warning : scan_warnings(scan, detection.summary, config))
+    spdlog::warn("{}", warning);
+
+  const Clock::time_point end = Clock::now();
+  std::string summary = print_summary(detection, scan,
+                                      {.write_seconds = std::chrono::duration<double>(end - writing).count(),
+                                       .total_seconds = std::chrono::duration<double>(end - start).count()},
+                                      scan.length_unit());
+  for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
+  summary += readers_note(scan, config.output);
+  if (workspace)
+    summary += "kept: " + visible(config.run.workspace) +
+               ", from which the same command goes on; lacuna clean removes it\n";
+  return summary + more;
+}
+
+namespace {
+
+void run_detect(const Command& command, const DetectArguments& arguments) {
+  if (arguments.print_config) {
+    std::cout << print_config(arguments.run.parameters.read().config);
+    return;
+  }
+  const FilesConfig config = arguments.run.start();
+  require(command, "SCAN");
+  require(command, "--out");
+  if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
+  const ReadOptions options{.columns = config.input.columns,
+                            .memory = Memory::share(config.run.memory_limit).reading};
+  const std::string summary = detect_to(expand_inputs(arguments.scans, options), config, arguments.run);
+  if (!arguments.run.quiet) std::cout << summary;
+}
+
+}  // namespace
+
+void add_detect_command(const Command& program) {
+  const Command command =
+      program.add_command("detect", "Find the holes of a scan and write them to a folder");
+  // Its life ends with the callback's, the app's own.
+  const auto arguments = std::make_shared<DetectArguments>(command);
+  command
+      .add_option("SCAN", arguments->scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      .type("SCAN");
+  command
+      .add_flag("--print-config", arguments->print_config,
+                "Print the parameters in effect as a config file, and end")
+      .rare();
+  command.runs([command, arguments] { run_detect(command, *arguments); });
+}
+
+}  // namespace lacuna::tools

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lacuna detect`: from scan files to their holes on disk.
+#pragma once
+
+#include "engine/workspace/workspace.hpp"
+#include "io/scan/file_scan.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/shown_progress.hpp"
+#include "tools/run/parameter_options.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lacuna::tools {
+
+// What the commands have in common that run the engine.
+struct RunArguments {
+  explicit RunArguments(const Command& command);
+
+  // The parameters over those in `base`, with a note of those of files for a workspace. Sets up the log, and
+  // warns of what has no effect.
+  io::FilesConfig start(io::FilesConfig base = {}) const;
+
+  std::unique_ptr<Progress> show_progress(const Config& config) const;
+
+  ProgressStyle progress = default_progress_style();
+  bool quiet = false;
+  ParameterOptions parameters;
+};
+
+// Those that also write results.
+struct ResultArguments : RunArguments {
+  explicit ResultArguments(const Command& command);
+
+  std::filesystem::path out;
+  bool overwrite = false;
+};
+
+// The parameters of a run that a workspace keeps.
+io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& workspace);
+
+// The files of a run as one scan. Warns of what is odd, and refuses degrees. Throws `Error`.
+std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
+                                          const io::FilesConfig& config);
+
+// What a command does besides, with the workspace that this run alone uses.
+struct WorkspaceSteps {
+  std::function<void()> begin;       // before the run
+  std::function<std::string()> end;  // once the results are complete; returns what the summary says of it
+};
+
+// Finds the holes and writes the results; returns their summary.
+std::string detect_to(const std::vector<io::ScanInput>& inputs, const io::FilesConfig& config,
+                      const ResultArguments& arguments, const WorkspaceSteps& steps = {});
+
+}  // namespace lacuna::tools

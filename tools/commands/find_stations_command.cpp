@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/temporary_folder.hpp"
+#include "io/stations/find_station.hpp"
+#include "io/stations/list_lines.hpp"
+#include "io/stations/station_views.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
+#include "tools/run/input_files.hpp"
+#include "tools/run/own_process.hpp"
+#include "tools/run/parameter_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FindArguments {
+  explicit FindArguments(const Command& command) : parameters(command) {}
+
+  std::vector<fs::path> scans;
+  ParameterOptions parameters;
+};
+
+// A station of the list, with the line that --stations reads.
+struct Listed {
+  std::string line, subject;
+  double share = 0, certainty = 0;
+};
+
+std::string with_decimals(double value, int decimals) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(decimals) << value;
+  return out.str();
+}
+
+// Not in a field of a list: what ends a field or a line, or begins a comment.
+bool divides(char c) {
+  return kFieldDivisors.find(c) != kFieldDivisors.npos || c == '\n' || c == '#';
+}
+
+std::string without_divisors(std::string name) {
+  std::replace_if(name.begin(), name.end(), divides, '_');
+  return name;
+}
+
+// The last part alone, where no other file has it.
+std::string name_in_list(std::size_t file, const FileScan& scan) {
+  const fs::path last = scan.files()[file].filename();
+  const auto same = std::count_if(scan.files().begin(), scan.files().end(),
+                                  [&](const fs::path& other) { return other.filename() == last; });
+  return same == 1 ? last.string() : scan.files()[file].string();
+}
+
+// Its subject: the file, and the number.
+std::string subject_of(const Sweep& sweep, const FileScan& scan) {
+  const std::string number = sweep.source ? " " + std::to_string(*sweep.source) : "";
+  return scan.files()[sweep.file].string() + number;
+}
+
+Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& scan) {
+  const fs::path& file = scan.files()[sweep.file];
+  const std::string source = sweep.source ? std::to_string(*sweep.source) : "";
+  Listed station{.line = without_divisors(file.stem().string()) + (source.empty() ? "" : "_" + source),
+                 .subject = subject_of(sweep, scan),
+                 .share = found.share};
+  for (const double coordinate : found.place)
+    station.line += " " + with_decimals(std::round(1e4 * coordinate) / 1e4 + 0.0, 4);
+  station.line += " " + name_in_list(sweep.file, scan) + (source.empty() ? "" : " " + source);
+  return station;
+}
+
+// Shares of points that can have been seen from the stations, by their lines.
+void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
+  const MadeFolder parent(scratch_folder(run));
+  const TemporaryFolder folder(parent.path(), "lacuna-");
+  const fs::path list = folder.path() / "stations.txt";
+  std::ofstream out(list);
+  for (const Listed& station : stations) out << station.line << "\n";
+  out.close();
+  if (!out) throw Error(list.string() + ": cannot be written");
+  StationViews views(scan, list, folder.path());
+  views.complete(scan, TaskArena(static_cast<std::size_t>(run.threads)));
+  const std::vector<StationSummary> summaries = views.summaries();
+  for (std::size_t i = 0; i < stations.size(); ++i) stations[i].certainty = summaries[i].certainty;
+}
+
+void run_find_stations(const FindArguments& arguments) {
+  const FilesConfig config = arguments.parameters.read().config;
+  prepare_process(config.run);
+  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
+  FileScan scan(expand_inputs(arguments.scans, {.columns = config.input.columns, .memory = memory}),
+                config.input, memory);
+  std::vector<Listed> stations;
+  std::vector<std::string> others;
+  for (const Sweep& sweep : read_sweeps(scan)) {
+    const std::optional<FoundStation> found = find_station(sweep.jumps.jumps());
+    if (!found) {
+      others.push_back(subject_of(sweep, scan) + ": it has too few jumps in range");
+    } else if (found->share < FoundStation::kLeastShare) {
+      others.push_back(subject_of(sweep, scan) + ": its points are not in the order of one sweep");
+    } else if (std::ranges::any_of(name_in_list(sweep.file, scan), divides)) {
+      others.push_back(subject_of(sweep, scan) + ": a list cannot have this name, which is not one word");
+    } else {
+      stations.push_back(listed(sweep, *found, scan));
+    }
+  }
+  if (!stations.empty()) find_certainties(stations, scan, config.run);
+  std::string lines;
+  for (const Listed& station : stations) {
+    const std::string points =
+        with_decimals(100 * station.certainty, 2) + " % of its points can have been seen from there";
+    if (station.certainty < StationView::kLeastCertain) {
+      others.push_back(station.subject + ": only " + points);
+    } else {
+      lines += "# " + with_decimals(100 * station.share, 0) + " % of the jumps agree; " + points + "\n" +
+               station.line + "\n";
+    }
+  }
+  if (lines.empty()) throw Error("no station was found: " + others.front());
+  std::cout << "# Stations that lacuna find-stations found; lacuna detect --stations reads this list.\n"
+               "# name x y z points\n"
+            << lines;
+  for (const std::string& other : others) std::cout << "# no station: " << visible(other) << "\n";
+}
+
+}  // namespace
+
+void add_find_stations_command(const Command& program) {
+  const Command command = program.add_command(
+      "find-stations", "Find where scanners stood, from scans that are single sweeps in their order");
+  const auto arguments = std::make_shared<FindArguments>(command);
+  command.add_option("SCAN", arguments->scans, "Scan files, folders of them, or @LIST of their names")
+      .type("SCAN")
+      .required();
+  command.runs([arguments] { run_find_stations(*arguments); });
+}
+
+}  // namespace lacuna::tools

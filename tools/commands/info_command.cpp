@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/config/config.hpp"
+#include "engine/inspect.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/temporary_folder.hpp"
+#include "io/formats.hpp"
+#include "io/loops/json.hpp"
+#include "io/results/points.hpp"
+#include "io/results/result_bytes.hpp"
+#include "io/scan/file_scan.hpp"
+#include "io/stations/station_views.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/commands/summary.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/attribute_counts.hpp"
+#include "tools/run/folders.hpp"
+#include "tools/run/input_files.hpp"
+#include "tools/run/own_process.hpp"
+#include "tools/run/parameter_options.hpp"
+#include "tools/run/run_costs.hpp"
+#include "tools/run/scan_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoArguments {
+  explicit InfoArguments(const Command& command) : parameters(command) {}
+
+  std::vector<fs::path> scans;
+  bool json = false;
+  ParameterOptions parameters;
+};
+
+struct FileInfo {
+  fs::path file;
+  std::string format;
+  std::string crs, unit;
+  bool is_geographic = false;
+  RowLayout layout;
+  AttributeCounts counts;
+};
+
+struct RunInfo {
+  Inspection inspection;
+  RunCosts costs;
+  std::string points_file;
+  std::optional<std::uint64_t> points_bytes;  // with --points; none: they cannot be written
+  ResultBytes results;
+  std::vector<StationSummary> stations;
+};
+
+// Without a pass over the file, where its head has all.
+AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
+  const RowLayout& layout = reader.layout();
+  const bool has_attributes =
+      layout.find("classification") != nullptr || layout.find("return_number") != nullptr;
+  if (const auto expected = reader.expected_rows(); expected && !has_attributes) return {.rows = *expected};
+  return count_attributes(reader, rows_at_a_time);
+}
+
+FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
+  const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file], options);
+  return {.file = scan.files()[file],
+          .format = reader->format(),
+          .crs = reader->crs(),
+          .unit = reader->length_unit(),
+          .is_geographic = reader->is_geographic(),
+          .layout = reader->layout(),
+          .counts = counts_of_file(*reader, scan.batch_rows(file))};
+}
+
+// Some scans have more columns than a format holds with the results.
+std::optional<std::uint64_t> size_of_points(const FileScan& scan, const FilesConfig& config,
+                                            std::uint64_t rows) {
+  try {
+    return points_bytes(scan, config.output, rows).all;
+  } catch (const Error&) {
+    if (config.results.points) throw;
+    return std::nullopt;
+  }
+}
+
+RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
+  RunInfo run;
+  NoProgress silence;
+  const MadeFolder parent(scratch_folder(config.run));
+  const TemporaryFolder workspace(parent.path(), "lacuna-");
+  const auto stations = watch_stations(scan, config.output, workspace.path());
+  run.inspection = inspect(scan, config, workspace.path(), silence);
+  if (stations) {
+    const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+    stations->complete(scan, arena);
+    run.stations = stations->summaries();
+  }
+  const Summary& summary = run.inspection.summary;
+  const Counts& counts = summary.counts;
+  const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
+  run.points_file = points_name(config.output);
+  run.points_bytes = size_of_points(scan, config, counts.points);
+  run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
+  run.costs = run_costs(scan, config, counts.points, points);
+  return run;
+}
+
+std::string print_point(const Eigen::Vector3d& point) {
+  std::ostringstream out;
+  out.precision(10);
+  out << point.x() << " " << point.y() << " " << point.z();
+  return out.str();
+}
+
+std::string print_stations(const std::vector<StationSummary>& stations, std::string_view unit) {
+  const auto degrees = [](double radians) { return print_area(radians * 180 / std::numbers::pi, "") + "°"; };
+  std::vector<std::vector<std::string>> rows = {
+      {"stations", "place", "points", "elevations", "turn", "step", "farthest", "certainty"}};
+  for (const StationSummary& station : stations) {
+    const bool moved = station.path > 0;
+    rows.push_back({visible(station.name),
+                    moved ? "moved " + print_length(station.path, unit) : print_point(station.place),
+                    print_count(station.points),
+                    degrees(std::asin(station.lowest)) + " to " + degrees(std::asin(station.highest)),
+                    degrees(2 * std::numbers::pi * station.turn), moved ? "" : degrees(station.step),
+                    print_length(station.farthest, unit), print_share(station.certainty)});
+  }
+  return print_table(rows);
+}
+
+void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
+  for (const FileInfo& file : files) {
+    std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
+              << print_count(file.counts.rows);
+    if (!file.counts.classes.empty()) std::cout << "\n  classes     " << print_classes(file.counts);
+    if (file.counts.has_returns) std::cout << "\n  returns     " << print_returns(file.counts);
+    if (!file.crs.empty()) std::cout << "\n  crs         " << crs_name(file.crs);
+    if (file.is_geographic) std::cout << "\n  unit        degrees, which lacuna detect refuses";
+    if (!file.unit.empty()) std::cout << "\n  unit        " << file.unit;
+    std::cout << "\n  properties ";
+    for (const Property& property : file.layout.properties) {
+      std::cout << " " << property.name << " (" << ply_name(property.type) << ")";
+    }
+    std::cout << "\n";
+  }
+  if (!run.stations.empty()) std::cout << "\n" << print_stations(run.stations, scan.length_unit());
+  const Summary& summary = run.inspection.summary;
+  std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
+  std::cout << print_left_out(summary.counts, scan.filtered_out());
+  if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
+  if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
+  if (summary.resolution > 0) {
+    std::cout << "\n  resolution    " << summary.resolution << ": "
+              << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
+              << " points are used, one per cell";
+  }
+  std::cout << "\n  bounds        ";
+  if (summary.bounds.isEmpty()) {
+    std::cout << "none: no finite point";
+  } else {
+    std::cout << print_point(summary.bounds.min()) << " to " << print_point(summary.bounds.max());
+  }
+  std::cout << "\n  tiles         " << print_count(summary.tiles) << ", of at most "
+            << print_count(summary.tile_points) << " points"
+            << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
+            << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
+            << "\n  threads       " << summary.threads << "\n  workspace     about "
+            << print_size(run.costs.disk) << " on disk\n  results       about "
+            << print_size(run.results.all()) << " on disk, and more with more holes\n  " << run.points_file
+            << "    "
+            << (run.points_bytes ? print_size(*run.points_bytes) +
+                                       (run.results.points > 0 ? ", in these results" : ", with --points")
+                                 : "cannot hold all columns; --points-format ply can")
+            << "\n  time          about " << print_duration(run.costs.seconds)
+            << " on a machine that does nothing else\n";
+}
+
+Json returns_of(const AttributeCounts& counts) {
+  if (!counts.has_returns) return {};
+  return {{"only", counts.only}, {"first", counts.first}, {"later", counts.later}};
+}
+
+void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
+  Json root;
+  root["files"] = Json::array();
+  for (const FileInfo& file : files) {
+    Json properties = Json::array();
+    for (const Property& property : file.layout.properties) {
+      properties.push_back({{"name", property.name}, {"type", ply_name(property.type)}});
+    }
+    Json classes = Json::object();
+    for (const auto& [number, count] : file.counts.classes) classes[std::to_string(number)] = count;
+    root["files"].push_back({{"file", file.file.string()},
+                             {"format", file.format},
+                             {"points", file.counts.rows},
+                             {"classes", std::move(classes)},
+                             {"returns", returns_of(file.counts)},
+                             {"crs", file.crs.empty() ? Json() : Json(file.crs)},
+                             {"unit", file.is_geographic ? "degree" : file.unit},
+                             {"properties", std::move(properties)}});
+  }
+  const Summary& summary = run.inspection.summary;
+  put_crs(scan, root);
+  root["points"] = summary.counts.points;
+  root["dropped"] = summary.counts.dropped - scan.filtered_out().total();
+  root["filtered_out"] = counts_of(scan.filtered_out());
+  root["bounds"] = corners(summary.bounds);
+  root["strays"] = strays_json(summary.strays);
+  root["resolution"] = summary.resolution;
+  root["thinned_out"] = summary.counts.thinned_out;
+  root["stations"] = stations_json(run.stations);
+  root["tiles"] = summary.tiles;
+  root["tile_points"] = summary.tile_points;
+  root["cells"] = run.inspection.cells;
+  root["cell_size"] = run.inspection.cell_size;
+  root["memory_limit"] = summary.memory_limit;
+  root["threads"] = summary.threads;
+  root["workspace_bytes"] = run.costs.disk;
+  root["results_bytes"] = run.results.all();
+  root["points_file"] = run.points_file;
+  root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
+  root["estimated_seconds"] = run.costs.seconds;
+  std::cout << print(root, 2) << "\n";
+}
+
+void run_info(const InfoArguments& arguments) {
+  const FilesConfig config = arguments.parameters.read().config;
+  prepare_process(config.run);
+  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
+  const ReadOptions options{.columns = config.input.columns, .memory = memory};
+  FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
+  std::vector<FileInfo> files;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
+  const RunInfo run = inspect_run(scan, config);
+  if (arguments.json) {
+    print_json(files, scan, run);
+  } else {
+    print_text(files, scan, run);
+  }
+  const Summary& summary = run.inspection.summary;
+  if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+    spdlog::warn("{}", strays);
+}
+
+}  // namespace
+
+void add_info_command(const Command& program) {
+  const Command command =
+      program.add_command("info", "Show what scan files hold and what a run on them would take");
+  const auto arguments = std::make_shared<InfoArguments>(command);
+  command
+      .add_option("SCAN", arguments->scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      .type("SCAN")
+      .required();
+  command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
+  command.runs([arguments] { run_info(*arguments); });
+}
+
+}  // namespace lacuna::tools

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/error.hpp"
+#include "io/files/number.hpp"
+#include "io/files/output_set.hpp"
+#include "io/report/render.hpp"
+#include "io/report/section.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
+
+struct RenderArguments {
+  std::filesystem::path folder, out;
+  std::string view = "oblique", size = "1600x1000";
+  std::optional<double> most_height;
+  bool as_it_came = false;
+  bool overwrite = false;
+};
+
+std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  std::size_t width = 0, height = 0;
+  const auto is_allowed = [](std::size_t side) { return side >= kLeastSide && side <= kMostSide; };
+  if (cross == text.npos || !parse_number(text.substr(0, cross), width) ||
+      !parse_number(text.substr(cross + 1), height) || !is_allowed(width) || !is_allowed(height)) {
+    throw WrongOption("--size", text + " is not allowed; WIDTHxHEIGHT of 16 to 16384 pixels is");
+  }
+  return {width, height};
+}
+
+void run_render(const RenderArguments& arguments) {
+  const auto [width, height] = parse_size(arguments.size);
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  check_output(arguments.out, picture_mark(), overwrite);
+  if (arguments.most_height && !std::isfinite(*arguments.most_height))
+    throw WrongOption("--hide-above", "a finite height is allowed");
+  Scene scene = read_scene(arguments.folder);
+  if (arguments.most_height) hide_above(scene, *arguments.most_height);
+  const View view = find_view(scene, arguments.view, width, height);
+  const PictureSize size{width, height};
+  OutputSet set(overwrite);
+  PngWriter png(size, set.add(arguments.out, picture_mark()));
+  render(scene, view, size, arguments.as_it_came, [&](std::span<const Colour> row) { png.write(row); });
+  png.finish();
+  set.commit();
+  std::cout << "written: " << visible(arguments.out.string()) << "\n";
+  if (scene.strays > 0)
+    std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")
+              << " far from all others\n";
+}
+
+}  // namespace
+
+void add_render_command(const Command& program) {
+  const Command command =
+      program.add_command("render", "Draw the scan and its holes as a PNG, without a browser");
+  const auto arguments = std::make_shared<RenderArguments>();
+  command.add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
+      .type("DIR")
+      .required();
+  command.add_option("--out", arguments->out, "Picture to write, in PNG; its name ends in .png")
+      .type("FILE")
+      .name_ending_in(".png")
+      .required();
+  command
+      .add_option("--view", arguments->view,
+                  "oblique, top (from above), front (along y), side (along -x), or the id of a loop")
+      .type("VIEW")
+      .show_default();
+  command.add_option("--size", arguments->size, "Width and height in pixels").type("WxH").show_default();
+  command
+      .add_option("--hide-above", arguments->most_height,
+                  "Draw nothing above this height, such as a ceiling; in units of the scan")
+      .real_number()
+      .type("Z");
+  command.add_flag("--as-it-came", arguments->as_it_came,
+                   "Colours or intensities of the scan, where it has them, not probabilities");
+  command.add_flag("--overwrite", arguments->overwrite,
+                   "Replace a file that lacuna render did not write, too");
+  command.runs([arguments] { run_render(*arguments); });
+}
+
+}  // namespace lacuna::tools

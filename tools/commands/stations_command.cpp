@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
+#include "io/crs/degrees.hpp"
+#include "io/crs/length_unit.hpp"
+#include "io/files/output_set.hpp"
+#include "io/report/scene.hpp"
+#include "io/rows/vectors.hpp"
+#include "io/stations/next_stations.hpp"
+#include "io/stations/place_list.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StationsArguments {
+  fs::path folder;
+  std::optional<fs::path> places;  // a file with places of the scanner; none: over the floor
+  std::size_t count = 5;
+  double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0: chosen
+  bool overwrite = false;
+};
+
+// Positions of the sample and of hidden places, in the coordinates of the scan.
+struct HiddenScan {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<InsidePlace> hidden;
+  double area = 0;
+};
+
+// What another station can see counts: shares that are hidden or out of view. Without causes, all of it.
+double share_to_see(const LoopCause& cause) {
+  return cause.main() ? cause.share(Cause::kHidden) + cause.share(Cause::kOutOfView) : 1;
+}
+
+HiddenScan hidden_in(const Scene& scene) {
+  HiddenScan found;
+  const auto place = [&](const Eigen::Vector3f& position) {
+    return Eigen::Vector3d(scene.origin + position.cast<double>());
+  };
+  for (const Eigen::Vector3f& position : scene.points.positions) found.points.push_back(place(position));
+  found.normals = scene.points.normals;
+  std::vector<Eigen::Vector3d> loop;
+  for (std::size_t i = 0; i < scene.loops.ids.size(); ++i) {
+    const ExplainedLoop& measures = scene.loops.measures[i];
+    const double share = share_to_see(measures.cause);
+    if (measures.kind != LoopKind::kHole || !(share > 0)) continue;
+    loop.clear();
+    for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
+      loop.push_back(place(scene.loops.vertices[v]));
+    for (InsidePlace& inside : inside_places(loop)) {
+      inside.area *= share;
+      found.area += inside.area;
+      found.hidden.push_back(inside);
+    }
+  }
+  return found;
+}
+
+// Every so many places stand for the others, so that rays take seconds.
+void thin(std::vector<InsidePlace>& places) {
+  constexpr std::size_t kMost = 6000;
+  const std::size_t step = (places.size() + kMost - 1) / kMost;
+  if (step < 2) return;
+  std::vector<InsidePlace> kept;
+  for (std::size_t i = 0; i < places.size(); i += step) {
+    kept.push_back(places[i]);
+    for (std::size_t j = i + 1; j < std::min(i + step, places.size()); ++j)
+      kept.back().area += places[j].area;
+  }
+  places.swap(kept);
+}
+
+double farthest_of(const Json& stations) {
+  double farthest = 0;
+  for (const Json& station : stations) farthest = std::max(farthest, station.at("farthest").get<double>());
+  return farthest;
+}
+
+std::vector<Eigen::Vector3d> eyes_of(std::span<const NextStation> chosen) {
+  std::vector<Eigen::Vector3d> eyes;
+  for (const NextStation& station : chosen) eyes.push_back(station.eye);
+  return eyes;
+}
+
+// `tried`: the places that `chosen` is from.
+void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
+                  std::span<const NextStation> chosen, std::span<const NamedPlace> tried, double hidden) {
+  const Json& crs = scene.holes.at("crs");
+  const std::vector<Eigen::Vector3d> eyes = eyes_of(chosen);
+  const auto degrees = to_degrees(crs.is_string() ? crs.get<std::string>() : "", eyes, file);
+  Json json = {{"type", "FeatureCollection"}, {"name", "lacuna_next_stations"}};
+  json["crs_of_coordinates"] = degrees ? Json(kDegreesCrs) : crs;
+  json["crs_of_x_y_z"] = crs;
+  json["hidden_area"] = hidden;
+  json["features"] = Json::array();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Json properties = {{"rank", i + 1}};
+    if (const std::string& name = tried[chosen[i].index].name; !name.empty()) properties["name"] = name;
+    properties["area"] = chosen[i].area;
+    properties["share"] = chosen[i].area / hidden;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      properties[kPositionNames[static_cast<std::size_t>(axis)]] = eyes[i][axis];
+    json["features"].push_back(
+        {{"type", "Feature"},
+         {"geometry", {{"type", "Point"}, {"coordinates", list(degrees ? (*degrees)[i] : eyes[i])}}},
+         {"properties", properties}});
+  }
+  OutputSet set(overwrite);
+  set.add(file, kNextStationsMark).write(print(json, 2) + "\n");
+  set.commit();
+}
+
+void print_places(const Scene& scene, std::span<const NextStation> chosen, std::span<const NamedPlace> tried,
+                  double hidden, const std::string& unit) {
+  const bool has_names =
+      std::any_of(tried.begin(), tried.end(), [](const NamedPlace& place) { return !place.name.empty(); });
+  std::vector<std::vector<std::string>> rows = {
+      {"next station", "place of the scanner", "sees", "of what is hidden", "with those before"}};
+  double sum = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    sum += chosen[i].area;
+    rows.push_back({std::to_string(i + 1), print_place(chosen[i].eye, scene.edge),
+                    print_area(chosen[i].area, unit), print_share(chosen[i].area / hidden),
+                    print_share(sum / hidden)});
+  }
+  if (has_names) {
+    rows[0].insert(rows[0].begin() + 1, "name");
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      rows[i + 1].insert(rows[i + 1].begin() + 1, visible(tried[chosen[i].index].name));
+  }
+  std::cout << "\n" << print_table(rows) << "\n";
+}
+
+void run_stations(const StationsArguments& arguments) {
+  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  const fs::path file = arguments.folder / kNextStationsFile;
+  check_output(file, kNextStationsMark, overwrite);
+  std::vector<NamedPlace> places;
+  if (arguments.places) places = read_places(*arguments.places);
+  const Scene scene = read_scene(arguments.folder);
+  if (scene.points.positions.empty())
+    throw Error(
+        arguments.folder.string() +
+        ": has no sample.ply, which rays are checked against; a run without --sample-points 0 writes it");
+  HiddenScan scan = hidden_in(scene);
+  thin(scan.hidden);
+  const std::string unit = scene.holes.at("unit").get<std::string>();
+  const double metre = 1 / metres_of_unit(unit).value_or(1);  // lengths without a unit count as metres
+  const double least_length = 1e-4 * scene.edge;              // of voxels and grids: finer ones take too long
+  if (arguments.grid != 0 && !(arguments.grid >= least_length))
+    throw UsageError("--grid: must be 0, or " + print_length(least_length, unit) + " or more");
+  const Obstacles obstacles(scan.points,
+                            std::max(3.0 * static_cast<double>(scene.points.spacing), least_length));
+  const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : 1.6 * metre,
+                          .grid = arguments.grid,
+                          .clearance = 0.3 * metre};
+  const double farthest = farthest_of(scene.holes.value("stations", Json::array()));
+  const SightLimits limits{.range = arguments.range > 0 ? arguments.range
+                                    : farthest > 0      ? farthest
+                                                        : 30 * metre,
+                           .least_cosine = std::sin(arguments.incidence * std::numbers::pi / 180)};
+  std::vector<Eigen::Vector3d> eyes;
+  if (!arguments.places) {
+    eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
+    for (const Eigen::Vector3d& eye : eyes) places.push_back({.name = "", .place = eye});
+  } else {
+    for (const NamedPlace& place : places) eyes.push_back(place.place);
+  }
+  const std::vector<NextStation> chosen =
+      choose_stations(scan.hidden, eyes, obstacles, limits, arguments.count);
+  write_places(file, overwrite, scene, chosen, places, scan.area);
+
+  std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size()) << " places "
+            << (arguments.places ? "of " + visible(arguments.places->string()) : "on the floor")
+            << " were tried\n";
+  if (!chosen.empty()) print_places(scene, chosen, places, scan.area, unit);
+  std::cout << "written: " << visible(file.string()) << "\n";
+}
+
+}  // namespace
+
+void add_stations_command(const Command& program) {
+  const Command command =
+      program.add_command("stations", "Say where a scanner should stand next, to see what is hidden");
+  const auto arguments = std::make_shared<StationsArguments>();
+  command.add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
+      .type("DIR")
+      .required();
+  command.add_option("--count", arguments->count, "How many places at most").whole_number().show_default();
+  const auto length = [&](const char* name, double& value, const char* help) {
+    return command.add_option(name, value, help).real_number().type("LENGTH").show_default();
+  };
+  const Option height = length("--height", arguments->height,
+                               "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
+  length("--range", arguments->range, "How far it measures; 0: as far as the scan's stations, else 30 m");
+  const Option grid =
+      length("--grid", arguments->grid, "Distance of the places that are tried; 0: as many as take seconds");
+  command
+      .add_option("--places", arguments->places,
+                  "File with the places of the scanner to try, instead of those over the floor: x y z or "
+                  "name x y z on each line")
+      .type("FILE")
+      .excludes(height)
+      .excludes(grid);
+  command.add_option("--incidence", arguments->incidence, "Degrees between a ray and a surface, at least")
+      .real_number()
+      .type("DEGREES")
+      .show_default();
+  command.add_flag("--overwrite", arguments->overwrite, "Replace a file that Lacuna did not write, too");
+  command.runs([arguments] { run_stations(*arguments); });
+}
+
+}  // namespace lacuna::tools

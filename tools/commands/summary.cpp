@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/commands/summary.hpp"
+
+#include "engine/run/disk_space.hpp"
+#include "engine/run/machine_memory.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/scan_warnings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+std::string print_number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
+
+std::string print_share(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3f", value);
+  return buffer;
+}
+
+constexpr std::size_t kMostRows = 10;
+
+std::string counted(std::size_t count, const char* one, const char* several) {
+  return print_count(count) + " " + (count == 1 ? one : several);
+}
+
+std::string print_input(const Counts& counts, const FileScan& scan) {
+  std::string text = print_count(counts.points) + " points";
+  text += scan.files().size() == 1 ? " in " + visible(scan.files().front().string())
+                                   : " in " + std::to_string(scan.files().size()) + " files, as one scan";
+  text += print_left_out(counts, scan.filtered_out());
+  if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " thinned out";
+  if (counts.duplicates > 0) text += "; " + counted(counts.duplicates, "duplicate", "duplicates");
+  return text;
+}
+
+double extent_of(const Summary& summary) {
+  const Eigen::AlignedBox3d& bounds = summary.strays.rest;
+  return bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
+}
+
+// The loops of one kind, as one sentence has them.
+struct Kind {
+  std::vector<std::size_t> loops;  // by area, the largest first
+  std::size_t long_ones = 0;       // with a larger perimeter than the bound
+  double perimeter = 0, area = 0;  // of all together
+};
+
+Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind, double bound) {
+  Kind all;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].kind != kind) continue;
+    all.loops.push_back(i);
+    all.long_ones += loops[i].perimeter > bound;
+    all.perimeter += loops[i].perimeter;
+    if (std::isfinite(loops[i].area)) all.area += loops[i].area;
+  }
+  std::stable_sort(all.loops.begin(), all.loops.end(),
+                   [&](std::size_t a, std::size_t b) { return loops[a].area > loops[b].area; });
+  return all;
+}
+
+std::string print_largest(const std::vector<LoopMeasures>& loops, const Kind& holes, double extent,
+                          std::string_view unit) {
+  if (holes.loops.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"largest holes", "area", "perimeter", "diameter", "centre", "points", "confidence"}};
+  for (std::size_t at = 0; at < std::min(holes.loops.size(), kMostRows); ++at) {
+    const LoopMeasures& loop = loops[holes.loops[at]];
+    rows.push_back({"loop " + std::to_string(holes.loops[at]), print_area(loop.area, unit),
+                    print_length(loop.perimeter, unit), print_length(loop.diameter, unit),
+                    print_place(loop.centroid, extent), print_count(loop.points),
+                    print_share(loop.track.confidence)});
+  }
+  std::string text = "\n" + print_table(rows);
+  if (holes.loops.size() > kMostRows) {
+    text += "  and " + counted(holes.loops.size() - kMostRows, "more hole", "more holes") +
+            ": holes.csv has them all\n";
+  }
+  return text;
+}
+
+// One line for each label, values below one another.
+std::string print_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
+  std::size_t width = 0;
+  for (const auto& [label, value] : facts) width = std::max(width, label.size());
+  std::string text;
+  for (const auto& [label, value] : facts) {
+    text += "  " + label + std::string(width - label.size() + 2, ' ') + value + "\n";
+  }
+  return text;
+}
+
+// Empty where no station is known.
+std::string print_causes(const std::vector<LoopCause>& causes) {
+  std::array<std::size_t, kCauses> counts{};
+  for (const LoopCause& each : causes)
+    if (const auto cause = each.main()) ++counts[static_cast<std::size_t>(*cause)];
+  std::string text;
+  for (std::size_t i = 0; i < kCauses; ++i) {
+    if (counts[i] == 0) continue;
+    if (!text.empty()) text += ", ";
+    std::string name(kCauseNames[i]);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += print_count(counts[i]) + " " + name;
+  }
+  return text;
+}
+
+std::string print_surface(double area, double missing, std::string_view unit) {
+  std::string text = "about " + print_area(area, unit) + " sampled";
+  if (missing > 0) {
+    text += ", " + print_area(missing, unit) +
+            " within holes: " + print_number(100 * missing / (area + missing)) + " % of both";
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> findings(const Summary& summary, const FileScan& scan,
+                                                          std::string_view unit) {
+  const Counts& counts = summary.counts;
+  std::vector<std::pair<std::string, std::string>> facts = {{"input", print_input(counts, scan)}};
+  if (!scan.common_crs().empty()) facts.emplace_back("crs", crs_name(scan.common_crs()));
+  if (summary.resolution > 0) {
+    const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
+    facts.emplace_back("first level", print_length(summary.resolution, unit) + ": " +
+                                          print_count(representatives) + " points are used, one per cell");
+  }
+  facts.emplace_back("neighbours", print_number(summary.mean_neighbours) + " of a point on average, " +
+                                       print_length(summary.median_distance, unit) + " away (median)");
+  if (counts.undefined_normals > 0)
+    facts.emplace_back("normals", "none at " + counted(counts.undefined_normals, "point", "points"));
+  facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points") + "; " +
+                                     counted(counts.candidates, "candidate", "candidates") + ", " +
+                                     print_count(counts.coherent) + " coherent");
+  if (summary.e > 0) {  // the method of the paper
+    facts.emplace_back("graph", counted(counts.boundary_edges, "eligible edge", "eligible edges") + ", " +
+                                    counted(counts.components, "component", "components") +
+                                    "; loops of more than " + std::to_string(summary.e) + " edges");
+  }
+  facts.emplace_back("loops", print_count(counts.raw_loops) + " before selection, at " +
+                                  counted(summary.levels.size(), "level", "levels"));
+  facts.emplace_back("tiles", print_count(summary.tiles) + ", of at most " +
+                                  counted(summary.tile_points, "point", "points"));
+  return facts;
+}
+
+// A row for each phase; where several have a name, their times together.
+std::string print_times(const Summary& summary, const RunTimes& times) {
+  std::vector<PhaseTime> phases;
+  const auto add = [&phases](const PhaseTime& phase) {
+    const auto same = std::ranges::find(phases, phase.name, &PhaseTime::name);
+    if (same == phases.end()) {
+      phases.push_back(phase);
+    } else {
+      same->seconds += phase.seconds;
+    }
+  };
+  for (const PhaseTime& phase : summary.phases) add(phase);
+  add({"write", times.write_seconds});
+  std::vector<std::vector<std::string>> rows;
+  for (const PhaseTime& phase : phases) {
+    rows.push_back(
+        {phase.name, print_duration(phase.seconds), print_rate(summary.counts.points, phase.seconds)});
+  }
+  return print_table(rows);
+}
+
+}  // namespace
+
+std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
+  std::string text;
+  const auto add = [&text](std::uint64_t points, const char* why) {
+    if (points > 0) text += "; " + print_count(points) + " " + why;
+  };
+  add(counts.dropped - filtered.total(), "not finite, dropped");
+  add(filtered.origin, "without return");
+  add(filtered.bounds, "outside of the bounds");
+  add(filtered.boxes, "in boxes that are left out");
+  add(filtered.classes, "of other classes");
+  add(filtered.returns, "of other returns");
+  return text;
+}
+
+double length_bound(double extent) {
+  return extent > 0 && std::isfinite(extent) ? std::pow(10, std::round(std::log10(extent / 20))) : 0;
+}
+
+std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, const RunTimes& times,
+                          std::string_view unit) {
+  const Summary& summary = detection.summary;
+  const std::vector<LoopMeasures>& loops = detection.loops;
+  const double extent = extent_of(summary);
+  const double bound = length_bound(extent);
+  const Kind holes = loops_of(loops, LoopKind::kHole, bound);
+  const Kind outer = loops_of(loops, LoopKind::kOuter, bound);
+  const std::string causes = print_causes(detection.causes);
+  const std::string longer = " longer than " + print_power(bound, unit);
+
+  std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
+                     counted(outer.loops.size(), "outer curve", "outer curves");
+  if (!loops.empty()) text += "; " + print_count(holes.long_ones + outer.long_ones) + longer;
+  text += "\n" + print_largest(loops, holes, extent, unit) + "\n";
+  if (!outer.loops.empty()) {
+    text += "  " + counted(outer.loops.size(), "outer curve", "outer curves") + ", " +
+            print_count(outer.long_ones) + longer + "; " + print_length(outer.perimeter, unit) +
+            " in all\n\n";
+  }
+  auto facts = findings(summary, scan, unit);
+  if (!causes.empty()) facts.emplace_back("causes", causes);
+  if (summary.surface_area > 0)
+    facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));
+  facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
+  facts.emplace_back("time", print_duration(times.total_seconds) + " with " +
+                                 counted(summary.threads, "thread", "threads") + ", " +
+                                 print_rate(summary.counts.points, times.total_seconds));
+  return text + print_facts(facts) + "\n" + print_times(summary, times) + "\n";
+}
+
+}  // namespace lacuna::tools

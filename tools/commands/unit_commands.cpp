@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/disk_space.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/temporary_folder.hpp"
+#include "engine/unit.hpp"
+#include "engine/workspace/workspace.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/commands/detect_command.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/run/folders.hpp"
+#include "tools/run/input_files.hpp"
+#include "tools/run/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rows as headers declare them; of text files, as many as their size allows for short lines.
+std::uint64_t about_points(const FileScan& scan) {
+  constexpr std::uint64_t kBytesOfLine = 24;
+  std::uint64_t points = 0;
+  for (std::size_t file = 0; file < scan.files().size(); ++file)
+    points += scan.expected_rows()[file].value_or(fs::file_size(scan.files()[file]) / kBytesOfLine);
+  return points;
+}
+
+// Whole minutes that a task takes at most, on a slow core.
+std::uint64_t minutes_of(const Step& step, std::int64_t threads) {
+  // Seconds of one thread. Measured on rough scans: 1.4e-6, and up to 0.7e-6 (bench/NOTES.md).
+  const double of_point = step.evaluates ? 3e-6 : 2e-6;
+  const double share = static_cast<double>(step.points) / static_cast<double>(step.tasks);
+  return static_cast<std::uint64_t>(
+      std::ceil(1 + share * of_point / static_cast<double>(std::max<std::int64_t>(threads, 1)) / 60));
+}
+
+struct PlanArguments {
+  explicit PlanArguments(const Command& command) : run(command) {}
+
+  std::vector<fs::path> scans;
+  std::size_t tasks = 0;
+  bool tsv = false;
+  RunArguments run;
+};
+
+void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, const Config& config) {
+  const std::uint64_t memory = config.run.memory_limit;
+  std::vector<std::vector<std::string>> rows = {{"step", "tasks", "points", "memory of a task", "minutes"}};
+  const auto add = [&](const std::string& name, std::size_t tasks, std::uint64_t points,
+                       std::uint64_t minutes) {
+    if (arguments.tsv) {
+      std::cout << name << "\t" << tasks << "\t" << (memory >> 20) << "\t" << minutes << "\n";
+    } else {
+      rows.push_back(
+          {name, std::to_string(tasks), print_count(points), print_size(memory), std::to_string(minutes)});
+    }
+  };
+  std::uint64_t all = 0;
+  for (const Step& step : steps) {
+    add(step.name(), step.tasks, step.points, minutes_of(step, config.run.threads));
+    all += step.evaluates ? step.points : 0;
+  }
+  // All tiles are read again, and their loops found; the levels that are no steps are made.
+  add("finish", 1, all, minutes_of({.points = all}, config.run.threads));
+  if (!arguments.tsv) std::cout << print_table(rows);
+}
+
+void run_plan(const PlanArguments& arguments) {
+  FilesConfig config = arguments.run.start();
+  const fs::path workspace = config.run.workspace;
+  if (workspace.empty()) throw WrongOption("--workspace is required");
+  constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
+  if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
+  const std::unique_ptr<FileScan> scan =
+      open_inputs(expand_inputs(arguments.scans, {.columns = config.input.columns}), config);
+  const MadeFolder folder(workspace);
+  const FolderLock alone(folder.path());
+  print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), config);
+}
+
+struct WorkArguments {
+  explicit WorkArguments(const Command& command) : run(command) {}
+
+  fs::path workspace;
+  std::string step;
+  std::size_t task = 0;
+  RunArguments run;
+};
+
+void run_work(const WorkArguments& arguments) {
+  const StoredRun stored = read_run(arguments.workspace);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
+  config.run.workspace = arguments.workspace.string();
+  const std::optional<Step> step = step_of_name(arguments.step, arguments.workspace);
+  if (!step) throw WrongOption("--step", "allowed: a step of lacuna plan, such as evaluate-0");
+  if (arguments.task >= step->tasks)
+    throw WrongOption("--task", "allowed: 0 to " + std::to_string(step->tasks - 1));
+  FileScan scan(inputs_of(stored.names), config.input, Memory::share(config.run.memory_limit).reading);
+  watch_workspace(arguments.workspace);
+  const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
+  const TemporaryFolder scratch(parent, "lacuna-");
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress(config);
+  const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
+  if (!arguments.run.quiet)
+    std::cout << arguments.step << ", task " << arguments.task << (exists ? ": done\n" : ": nothing to do\n");
+}
+
+struct FinishArguments {
+  explicit FinishArguments(const Command& command) : run(command) {}
+
+  fs::path workspace;
+  ResultArguments run;
+};
+
+void run_finish(const FinishArguments& arguments) {
+  const StoredRun stored = read_run(arguments.workspace);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
+  config.run.workspace = arguments.workspace.string();
+  const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
+  if (!arguments.run.quiet) std::cout << summary;
+}
+
+void add_workspace(const Command& command, fs::path& workspace) {
+  command.add_option("WORKSPACE", workspace, "Folder of lacuna plan, or of lacuna detect --workspace")
+      .required()
+      .type("DIR");
+}
+
+}  // namespace
+
+void add_plan_command(const Command& program) {
+  const Command command = program.add_command("plan", "Prepare a run that several processes share");
+  const auto arguments = std::make_shared<PlanArguments>(command);
+  command
+      .add_option("SCAN", arguments->scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      .required()
+      .type("SCAN");
+  command.add_option("--tasks", arguments->tasks, "Tasks that evaluate the tiles of a level at the same time")
+      .required()
+      .whole_number(1, kMostTasks)
+      .type("N");
+  command.add_flag("--tsv", arguments->tsv,
+                   "For scripts, a line for each step: name, tasks, MiB and minutes of a task");
+  command.runs([arguments] { run_plan(*arguments); });
+}
+
+void add_work_command(const Command& program) {
+  const Command command = program.add_command("work", "Do one task of a step that lacuna plan names");
+  const auto arguments = std::make_shared<WorkArguments>(command);
+  add_workspace(command, arguments->workspace);
+  command.add_option("--step", arguments->step, "Name of the step, such as evaluate-0")
+      .required()
+      .type("STEP");
+  command.add_option("--task", arguments->task, "Number of the task, from 0 on").type("I");
+  command.runs([arguments] { run_work(*arguments); });
+}
+
+void add_finish_command(const Command& program) {
+  const Command command =
+      program.add_command("finish", "Do what a shared run still lacks, and write its results");
+  const auto arguments = std::make_shared<FinishArguments>(command);
+  add_workspace(command, arguments->workspace);
+  command.option("--out").required();
+  command.runs([arguments] { run_finish(*arguments); });
+}
+
+}  // namespace lacuna::tools

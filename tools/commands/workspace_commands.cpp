@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/commands/workspace_commands.hpp"
+
+#include "engine/run/disk_space.hpp"
+#include "engine/run/error.hpp"
+#include "engine/workspace/workspace.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <system_error>
+
+namespace lacuna::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+WorkspaceState state_of(const fs::path& folder) {
+  const auto state = state_of_workspace(folder);
+  if (!state)
+    throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
+  return *state;
+}
+
+void print_status(const fs::path& folder) {
+  const WorkspaceState state = state_of(folder);
+  std::cout << visible(folder.string()) << ": " << print_size(state.bytes) << "\n";
+  for (const std::string& line : state.made_from) {
+    if (line.starts_with("lacuna ") || line.starts_with("input: "))
+      std::cout << "  " << visible(line) << "\n";
+  }
+  for (const LevelState& level : state.levels) {
+    std::cout << "  level " << level.number << ": ";
+    if (level.tiles == 0) {
+      std::cout << "its points are not stored yet\n";
+    } else {
+      std::cout << print_count(level.points) << " points, " << level.evaluated << " of " << level.tiles
+                << " tiles evaluated, " << level.tiles - level.evaluated << " left\n";
+    }
+  }
+  if (state.is_update) std::cout << "  an update was stopped: parts of the run before are kept\n";
+  std::cout << "The same command goes on from here; lacuna finish does, too.\n";
+}
+
+void clean(const fs::path& folder) {
+  const WorkspaceState state = state_of(folder);
+  const FolderLock alone(folder);
+  end_update(folder);
+  for (const fs::path& file : workspace_files(folder)) remove_part(file);
+  std::error_code error;
+  const bool is_gone = fs::remove(folder, error);  // unless it has other files
+  std::cout << "removed: " << print_size(state.bytes) << " of " << visible(folder.string())
+            << (is_gone ? "" : ", where other files stay") << "\n";
+}
+
+template <class Run>
+void add_command(const Command& program, const std::string& name, const std::string& help, Run run) {
+  const Command command = program.add_command(name, help);
+  const auto folder = std::make_shared<fs::path>();
+  command.add_option("WORKSPACE", *folder, "Folder that lacuna detect --workspace has kept")
+      .required()
+      .type("DIR");
+  command.runs([folder, run] { run(*folder); });
+}
+
+}  // namespace
+
+std::string print_state(const WorkspaceState& state) {
+  std::string text;
+  for (const LevelState& level : state.levels) {
+    if (level.tiles == 0) continue;
+    text += (text.empty() ? "level " : "; level ") + std::to_string(level.number) + ": " +
+            std::to_string(level.evaluated) + " of " + std::to_string(level.tiles) + " tiles evaluated";
+  }
+  return text.empty() ? "no level is stored yet" : text;
+}
+
+void add_status_command(const Command& program) {
+  add_command(program, "status", "Say what a workspace has of a run", print_status);
+}
+
+void add_clean_command(const Command& program) {
+  add_command(program, "clean", "Remove the files of a workspace, and the folder if it is empty then", clean);
+}
+
+}  // namespace lacuna::tools

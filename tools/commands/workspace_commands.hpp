@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// lacuna status and lacuna clean: what a workspace has, and its end.
+#pragma once
+
+#include "engine/workspace/workspace_state.hpp"
+
+#include <string>
+
+namespace lacuna::tools {
+
+// "level 0: 12 of 20 tiles evaluated; level 1: ..."
+std::string print_state(const WorkspaceState& state);
+
+}  // namespace lacuna::tools

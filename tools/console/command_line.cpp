@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/console/command_line.hpp"
+
+#include "engine/run/words.hpp"
+#include "io/files/number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+namespace lacuna::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRare = "rare: ";  // before the section of an option that --help leaves out
+constexpr std::string_view kGeneral = "Options";
+
+std::string section_of(const CLI::Option& option) {
+  const std::string& group = option.get_group();
+  return group.starts_with(kRare) ? group.substr(std::string_view(kRare).size()) : group;
+}
+
+using Options = std::vector<const CLI::Option*>;
+
+template <class Condition>
+Options chosen(const Options& options, Condition is_chosen) {
+  Options chosen;
+  std::ranges::copy_if(options, std::back_inserter(chosen), is_chosen);
+  return chosen;
+}
+
+// --help has the options that people use, in one list; --help-all has every option, by section.
+class Help final : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    const Options all = options_of(*app);
+    return make_description(app) + make_usage(app, name) + make_positionals(app) +
+           (mode == CLI::AppFormatMode::All ? by_section(all) : common(all)) + make_subcommands(app, mode);
+  }
+
+  // A command within --help-all of the program.
+  std::string make_expanded(const CLI::App* app) const override {
+    const Options own = chosen(options_of(*app), [&](const CLI::Option* option) {
+      return option != app->get_help_ptr() && option != app->get_help_all_ptr();
+    });
+    return "\n" + app->get_parent()->get_name() + " " + app->get_name() + ":\n" + make_description(app) +
+           make_positionals(app) + by_section(own) + make_subcommands(app, CLI::AppFormatMode::Sub);
+  }
+
+  // The name of an argument says what it takes.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = Formatter::make_option_opts(option), type = " " + option->get_type_name();
+    return option->get_positional() && text.starts_with(type) ? text.substr(type.size()) : text;
+  }
+
+ private:
+  static Options options_of(const CLI::App& app) {
+    return app.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+  }
+
+  std::string common(const Options& all) const {
+    Options common =
+        chosen(all, [](const CLI::Option* option) { return !option->get_group().starts_with(kRare); });
+    std::ranges::stable_partition(common,
+                                  [](const CLI::Option* option) { return option->get_group() == kGeneral; });
+    std::string text = make_group(std::string(kGeneral), false, common);
+    if (common.size() < all.size())
+      text += "\n--help-all shows " + std::to_string(all.size() - common.size()) + " more options.\n";
+    return text;
+  }
+
+  std::string by_section(const Options& all) const {
+    std::vector<std::string> sections;
+    for (const CLI::Option* option : all) {
+      if (std::ranges::find(sections, section_of(*option)) == sections.end())
+        sections.push_back(section_of(*option));
+    }
+    std::string text;
+    for (const std::string& section : sections) {
+      text +=
+          make_group(section, false,
+                     chosen(all, [&](const CLI::Option* option) { return section_of(*option) == section; }));
+    }
+    return text;
+  }
+};
+
+const CLI::App* find_command(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->check_name(name)) return command;
+  }
+  return nullptr;
+}
+
+// "--k=3" is the option --k. Without it a misspelt option is an argument that was not expected.
+void check_option_names(const CLI::App& command, std::span<const std::string> arguments) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    const std::string name = argument.substr(0, argument.find('='));
+    if (!name.starts_with("--") || std::ranges::find(names, name) != names.end()) continue;
+    throw WrongOption("unknown option " + name + suggestion(name, {names.begin(), names.end()}));
+  }
+}
+
+// Without it, a misspelt command is reported as a missing one.
+void check_names(const CLI::App& app, std::span<const std::string> arguments) {
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  if (commands.empty()) return check_option_names(app, arguments);
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  const std::string& word = arguments.front();
+  if (const CLI::App* const command = find_command(app, word))
+    return check_names(*command, arguments.subspan(1));
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  throw WrongOption("unknown command \"" + word + "\"" + suggestion(word, names) +
+                    "; allowed: " + listed(names));
+}
+
+std::string usage_hint(const CLI::App& app, const std::vector<std::string>& arguments) {
+  std::string words = app.get_name();
+  const CLI::App* at = &app;
+  for (const std::string& argument : arguments) {
+    at = find_command(*at, argument);
+    if (at == nullptr) break;
+    words += " " + argument;
+  }
+  return " (see " + words + " --help)";
+}
+
+// A check of a value: what is allowed where `is_possible` says no.
+template <class IsPossible>
+CLI::Validator allowing(const std::string& allowed, IsPossible is_possible) {
+  const auto check = [allowed, is_possible](const std::string& text) {
+    return is_possible(text) ? std::string() : text + " is not possible; allowed: " + allowed;
+  };
+  return CLI::Validator(check, "");
+}
+
+}  // namespace
+
+const Option& Option::required() const {
+  option_->required();
+  return *this;
+}
+
+const Option& Option::type(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
+}
+
+const Option& Option::help(const std::string& text) const {
+  option_->description(text);
+  return *this;
+}
+
+const Option& Option::section(const std::string& name) const {
+  option_->group(name);
+  return *this;
+}
+
+const Option& Option::show_default() const {
+  option_->capture_default_str();
+  return *this;
+}
+
+const Option& Option::show_default(const std::string& text) const {
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  const std::string value = is_quoted ? text.substr(1, text.size() - 2) : text;
+  if (value != "[]") option_->default_str(value);
+  return *this;
+}
+
+const Option& Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+const Option& Option::once() const {
+  option_->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  return *this;
+}
+
+const Option& Option::joined_by_comma() const {
+  option_->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
+  return *this;
+}
+
+const Option& Option::in_groups_of(int count) const {
+  option_->type_size(count)->expected(-1);
+  return *this;
+}
+
+const Option& Option::rare() const {
+  option_->group(kRare + section_of(*option_));
+  return *this;
+}
+
+const Option& Option::whole_number() const {
+  option_->check(allowing("a whole number, 0 or more", [](const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  }));
+  return *this;
+}
+
+const Option& Option::whole_number(std::size_t least, std::size_t most) const {
+  const std::string range = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  option_->check(allowing(range, [least, most](const std::string& text) {
+    std::size_t value = 0;
+    return io::parse_number(text, value) && value >= least && value <= most;
+  }));
+  return *this;
+}
+
+const Option& Option::real_number() const {
+  option_->check(allowing("a number without a unit, with a decimal point", [](const std::string& text) {
+    double value = 0;
+    return io::parse_number(text, value);
+  }));
+  return *this;
+}
+
+const Option& Option::name_ending_in(const std::string& ending) const {
+  option_->check(allowing("a name that ends in " + ending, [ending](const std::string& text) {
+    return CLI::detail::to_lower(fs::path(text).extension().string()) == ending;
+  }));
+  return *this;
+}
+
+bool Option::is_given() const {
+  return option_->count() > 0;
+}
+
+Command Command::add_command(const std::string& name, const std::string& help) const {
+  return Command(*app_->add_subcommand(name, help));
+}
+
+template <class T>
+Option Command::add_option(const std::string& name, T& value, const std::string& help) const {
+  return Option(*app_->add_option(name, value, help));
+}
+template Option Command::add_option(const std::string&, std::string&, const std::string&) const;
+template Option Command::add_option(const std::string&, double&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::size_t&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::uint32_t&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::array<double, 2>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::array<double, 3>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&) const;
+template Option Command::add_option(const std::string&, fs::path&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::optional<fs::path>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Option Command::add_option(const std::string&, std::vector<fs::path>&, const std::string&) const;
+
+template <class T>
+Option Command::add_flag(const std::string& name, T& value, const std::string& help) const {
+  return Option(*app_->add_flag(name, value, help));
+}
+template Option Command::add_flag(const std::string&, bool&, const std::string&) const;
+template Option Command::add_flag(const std::string&, std::string&, const std::string&) const;
+
+Option Command::add_choice(const std::string& name, std::span<const std::string_view> names,
+                           const std::function<void(std::size_t)>& choose, const std::string& help) const {
+  const std::vector<std::string> all(names.begin(), names.end());
+  const auto choose_by_name = [all, choose, name](const std::string& text) {
+    const auto found = std::ranges::find(all, text);
+    if (found == all.end())
+      throw WrongOption(name + " = " + text, "is not possible; allowed: " + CLI::detail::join(all, ", "));
+    choose(static_cast<std::size_t>(found - all.begin()));
+  };
+  CLI::Option* const option = app_->add_option_function<std::string>(name, choose_by_name, help);
+  return Option(*option->type_name(CLI::detail::join(all, "|")));
+}
+
+Option Command::option(const std::string& name) const {
+  return Option(*app_->get_option(name));
+}
+
+void Command::needs_command() const {
+  app_->require_subcommand(1);
+}
+
+void Command::runs(const std::function<void()>& action) const {
+  app_->callback(action);
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& help, const std::string& version)
+    : app_(std::make_unique<CLI::App>(help, name)) {
+  app_->formatter(std::make_shared<Help>());
+  app_->set_help_flag("-h,--help", "Show the options that are used most, and end");
+  app_->set_help_all_flag("--help-all", "Show every option, and end");
+  app_->set_version_flag("-V,--version", version, "Show the version, and end");
+  app_->require_subcommand(1);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::program() const {
+  return Command(*app_);
+}
+
+void CommandLine::run(std::vector<std::string> arguments) {
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.push_back("--help");
+  }
+  try {
+    check_names(*app_, arguments);
+    app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::Success& shown) {  // --help, --version
+    app_->exit(shown, std::cout, std::cerr);
+  } catch (const CLI::Error& error) {
+    throw UsageError(error.what() + usage_hint(*app_, arguments));
+  } catch (const WrongOption& error) {
+    throw UsageError(error.what() + usage_hint(*app_, arguments));
+  }
+}
+
+bool CommandLine::has_option(const std::string& name) const {
+  return std::ranges::any_of(app_->get_subcommands(), [&](const CLI::App* command) {
+    return command->get_option_no_throw(name) != nullptr;
+  });
+}
+
+}  // namespace lacuna::tools

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which true loops were found, and which loops are false.
+#pragma once
+
+#include "tools/matching/true_loops.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::matching {
+
+// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of that. It covers
+// it if `share` of its vertices are within the tolerance of an edge of the loop. It matches if both hold.
+//
+// A loop that matches none may lie on all true loops that count together. Then `share` of its points are
+// within the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no
+// single one; then it runs along several. Else it is `parted`: it lies on one, and covers too little of it.
+struct MatchRule {
+  double tolerance = 0;  // a length
+  double share = 0.7;
+  std::size_t min_vertices = 8;  // true loops with fewer do not count
+};
+
+enum class EdgeDecision {
+  kFound,      // the first loop that matches its true loop
+  kRepeated,   // a later one
+  kShort,      // matches only a true loop that does not count: neither right nor wrong
+  kJoined,     // matches none, but runs along several that count
+  kParted,     // matches none, but is a part of one that counts
+  kStep,       // along a step of density; match_loops does not know it
+  kUnsampled,  // around a place of the surface without points; match_loops does not know it
+  kFalse,      // none of these
+};
+
+struct LoopMatch {
+  EdgeDecision verdict = EdgeDecision::kFalse;
+  // The best of the true loops that it matches: counting before short, then by the smaller share, then by
+  // both, then the first. For a joined loop it is the one of which it covers most, for a parted one the one
+  // on which most of it lies. For a false loop it is the best of all that are near. None: it is near none.
+  std::optional<std::size_t> true_loop;
+  double on_any = 0;                   // share of its points on the true loops that count
+  double on = 0;                       // share of its points on that true loop
+  double covered = 0;                  // share of that true loop's vertices on it
+  std::optional<double> on_step;       // share of its points on steps of density
+  std::optional<double> at_unsampled;  // share of its points at an unsampled place inside it
+};
+
+struct TrueMatch {
+  bool counts = true;
+  std::optional<std::size_t> found_by;  // the first loop that matches; none: missed
+};
+
+struct LoopScores {
+  std::size_t true_loops = 0, found = 0, missed = 0;  // of those that count
+  std::size_t short_loops = 0;                        // true ones that do not
+  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0, unsampled = 0;
+  std::optional<double> recall;  // found of the true ones; none: there are none
+  std::optional<double>
+      precision;  // neither false, joined nor parted of the loops but steps; none: there are none
+};
+
+struct LoopAccuracy {
+  std::vector<LoopMatch> loops;       // in the order given
+  std::vector<TrueMatch> true_loops;  // in the order given
+  LoopScores scores;
+};
+
+// Ids are places in `positions`. Loops that are all near one another cost the product of their numbers; else
+// n log n.
+LoopAccuracy match_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
+                         std::span<const Eigen::Vector3d> positions, const MatchRule& rule);
+
+LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
+
+// Decides on false loops once more. One becomes `verdict` if `share` of its points are `at(loop, point)`,
+// both counted from 0. It becomes joined if `share` of them are there or near a true loop that counts. `at`
+// is called for false loops alone. The share of the former goes into that member of its match. Cost: n log n,
+// and that of `at`.
+void decide_false_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
+                        std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
+                        EdgeDecision verdict, std::optional<double> LoopMatch::*share,
+                        const std::function<bool(std::size_t loop, std::size_t point)>& at,
+                        LoopAccuracy& accuracy);
+
+// The probability that a loop that matches a true one has a higher confidence than a false one, ties being
+// half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do
+// those that are neither right nor wrong (short, joined, parted, step, unsampled). There is no value where
+// either kind is missing.
+std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
+
+}  // namespace lacuna::matching

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the disks hold what a run writes, before it runs.
+#pragma once
+
+#include "io/options/options.hpp"
+#include "engine/run/disk_space.hpp"
+#include "io/scan/file_scan.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::tools {
+
+using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
+
+// Knows the headers of the scan and the options. Returns one line for each disk that is probably too small
+// for the workspace, the results, or both. Throws `Error` for one that clearly is: it has less than half of
+// what the table names, or less than an annotated scan of known size. Where points may be left out by a
+// filter or a resolution, only the annotated scan is certain. Throws `Error`, too, where memory can never
+// suffice. Both folders exist.
+std::vector<std::string> check_disks(const io::FileScan& scan, const io::FilesConfig& config,
+                                     const std::filesystem::path& workspace, const std::filesystem::path& out,
+                                     const FindDisk& find_disk = disk_of);
+
+}  // namespace lacuna::tools

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run/folders.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace lacuna::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Where `a` is missing, a/../b is b.
+fs::path without_detours(const fs::path& folder) {
+  fs::path begin;
+  for (const fs::path& part : folder) {
+    std::error_code error;
+    if (part == ".." && !begin.empty() && !fs::exists(begin, error)) return fs::weakly_canonical(folder);
+    begin /= part;
+  }
+  return folder;
+}
+
+std::mutex mutex;                       // of the list, and while folders are made
+std::vector<const MadeFolder*> living;  // in the order made
+
+}  // namespace
+
+MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)) {
+  const std::lock_guard lock(mutex);
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error(folder_.string() + ": not a folder");
+  }
+  for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
+       missing = missing.parent_path()) {
+    if (missing.has_filename()) made_.push_back(missing);
+    if (missing == missing.parent_path()) break;
+  }
+  fs::create_directories(folder_, error);
+  if (error && !fs::is_directory(folder_)) {
+    throw Error(folder_.string() + ": cannot create the folder: " + error.message());
+  }
+  if (access(folder_.c_str(), W_OK | X_OK) != 0) {
+    throw Error(folder_.string() + ": cannot write to the folder: " + std::strerror(errno));
+  }
+  living.push_back(this);
+}
+
+MadeFolder::~MadeFolder() {
+  const std::lock_guard lock(mutex);
+  std::erase(living, this);
+  remove_empty();
+}
+
+void MadeFolder::remove_empty() const {
+  for (const fs::path& folder : made_) {
+    if (rmdir(folder.c_str()) != 0) return;  // it holds something: that is what it was made for
+  }
+}
+
+fs::path scratch_folder(const RunConfig& run) {
+  return run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch);
+}
+
+void remove_made_folders() {
+  mutex.lock();  // and never unlocked
+  for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();
+}
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0) throw Error(folder.string() + ": cannot be opened: " + std::strerror(errno));
+  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
+    if (reason == EINTR) continue;
+    if (reason == EOPNOTSUPP || reason == ENOLCK || reason == ENOSYS) {
+      spdlog::warn("{}: its file system knows no locks; no other run may write its results there meanwhile",
+                   folder.string());
+      return;
+    }
+    ::close(descriptor_);
+    if (reason == EWOULDBLOCK) throw Error(folder.string() + ": another run writes its results there");
+    throw Error(folder.string() + ": cannot be locked: " + std::strerror(reason));
+  }
+}
+
+FolderLock::~FolderLock() {
+  ::close(descriptor_);
+}
+
+}  // namespace lacuna::tools

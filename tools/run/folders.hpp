@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folders that the user names: made if missing, and locked.
+#pragma once
+
+#include "engine/config/config.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace lacuna::tools {
+
+// A folder that exists afterwards, with its parents. Those that it made and that are still empty at the end
+// are removed, so that a failed run leaves nothing behind.
+class MadeFolder {
+ public:
+  // Throws `Error` if the path is no folder, cannot be made or cannot be written to.
+  explicit MadeFolder(const std::filesystem::path& folder);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+
+  // As named, but of a/../b only b: no `a` is made on the way.
+  const std::filesystem::path& path() const { return folder_; }
+
+  void remove_empty() const;  // the folders that it made, innermost first, up to one that holds something
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
+
+// For temporary files of commands without a folder of results: as the config says, else the system's.
+std::filesystem::path scratch_folder(const RunConfig& run);
+
+// For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
+// folder can be made afterwards: a thread that tries stops there, as the process is about to end.
+void remove_made_folders();
+
+// Keeps other runs from writing to an existing folder, as long as it lives. The lock goes with the process,
+// however that ends. Throws `Error` if another run has it, or if it cannot be had. A file system that knows
+// no locks is a warning.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace lacuna::tools

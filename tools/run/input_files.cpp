@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run/input_files.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/number.hpp"
+#include "io/formats.hpp"
+#include "io/rows/pose.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPoseBlanks = " \t,";
+
+// Why a file of a folder is passed over; empty: it is a scan. Text may be anything, so it must also be
+// readable. A file of another format that is broken is an error, later.
+std::string reason_against(const fs::path& file, const ReadOptions& options) {
+  const Recognised recognised = recognise(file);
+  if (recognised == Recognised::kNo) return visible(file.string()) + ": it is not a scan";
+  if (recognised == Recognised::kYes) return {};
+  try {
+    open_scan(file, options);
+    return {};
+  } catch (const Error& error) {
+    return visible(error.what());
+  }
+}
+
+void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<ScanInput>& files) {
+  std::vector<fs::path> inside;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->is_regular_file(error) && !entry->path().filename().string().starts_with('.'))
+      inside.push_back(entry->path());
+  }
+  if (error) throw Error(folder.string() + ": the folder cannot be read: " + error.message());
+  std::sort(inside.begin(), inside.end());
+  const std::size_t before = files.size();
+  for (const fs::path& file : inside) {
+    if (const std::string reason = reason_against(file, options); reason.empty()) {
+      files.emplace_back(file);
+    } else {
+      spdlog::warn("skipped: {}", reason);
+    }
+  }
+  if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
+}
+
+// The ept.json that a name stands for: itself, or the one in a folder. Empty: none.
+fs::path find_ept(const fs::path& input) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(input, error) ? input / "ept.json" : input;
+  return file.filename() == "ept.json" && fs::is_regular_file(file, error) ? file : fs::path();
+}
+
+// Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): each point is in one of the
+// files of ept-data.
+void add_ept(const fs::path& ept, const ReadOptions& options, std::vector<ScanInput>& files) {
+  std::ifstream in(ept);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto type = json.is_object() ? json.find("dataType") : json.end();
+  if (type == json.end() || !type->is_string())
+    throw Error(ept.string() + ": has no \"dataType\", which each ept.json has");
+  if (*type != "laszip")
+    throw Error(ept.string() + ": its points are of the type \"" + visible(type->get<std::string>()) +
+                "\"; allowed: laszip");
+  add_folder(ept.parent_path() / "ept-data", options, files);
+}
+
+Pose find_pose(const fs::path& folder, std::string_view text) {
+  double number = 0;
+  const bool is_numbers = parse_number(text.substr(0, text.find_first_of(kPoseBlanks)), number);
+  return is_numbers ? parse_pose(text) : read_pose(folder / text);
+}
+
+// A line of a list: a file name, and what may follow it.
+ScanInput parse_entry(const fs::path& folder, std::string_view line) {
+  constexpr std::string_view kPose = "pose=";
+  const std::size_t at = line.rfind(kPose);
+  const bool has_pose = at != line.npos && at > 0 && kPoseBlanks.find(line[at - 1]) != kPoseBlanks.npos;
+  if (!has_pose) return folder / line;
+  const std::string_view name = line.substr(0, line.find_last_not_of(kPoseBlanks, at - 1) + 1);
+  return {folder / name, find_pose(folder, line.substr(at + kPose.size()))};
+}
+
+void add_list(const fs::path& list, std::vector<ScanInput>& files) {
+  InputFile in(list);
+  const std::size_t before = files.size();
+  while (const auto line = in.next_line()) {
+    std::string name(*line);
+    if (name.ends_with('\r')) name.pop_back();
+    if (name.empty() || name.starts_with('#')) continue;
+    try {
+      files.push_back(parse_entry(list.parent_path(), name));
+    } catch (const Error& error) {
+      in.fail_at_line(in.line(), error.what());
+    }
+  }
+  if (files.size() == before) in.fail("the list names no file");
+}
+
+}  // namespace
+
+std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options) {
+  std::vector<ScanInput> files;
+  for (const fs::path& input : given) {
+    std::error_code error;  // what is missing is an error later, when it is opened
+    if (input == "-") {
+      throw Error(
+          "-: standard input is not read, because a scan is read more than once; save it in a file first, "
+          "and name "
+          "that (./- for a file of this name)");
+    }
+    if (input.string().starts_with('@') && !fs::exists(input, error)) {
+      add_list(input.string().substr(1), files);
+    } else if (const fs::path ept = find_ept(input); !ept.empty()) {
+      add_ept(ept, options, files);
+    } else if (fs::is_directory(input, error)) {
+      add_folder(input, options, files);
+    } else {
+      files.emplace_back(input);
+    }
+  }
+  return files;
+}
+
+}  // namespace lacuna::tools

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run/run_program.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/store/temporary_folder.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/signals.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+namespace lacuna::tools {
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
+
+int fail(const std::string& reason, ExitCode code) {
+  wait_if_interrupted();  // the signal says how the program ends
+  print_error(reason + complete_results());
+  return code;
+}
+
+// A full disk behind stdout is a failure like any other. Where a reader has closed the pipe, as `head` does,
+// it has all that it wants.
+int flush_output() {
+  std::cout.flush();
+  if (std::cout || output_failure() == EPIPE) return kDone;
+  return fail("cannot write to standard output: " + std::string(std::strerror(output_failure())), kFailed);
+}
+
+void warn_of_remaining_folders() {
+  for (const auto& [folder, reason] : remaining_folders())
+    spdlog::warn("{}: is not needed any more, but cannot be removed: {}", folder.string(), reason);
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
+// Where one is closed, the next file to be opened would take its number, and messages would go into that
+// file. Writing to them fails, as it does to a closed one.
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) >= 0) continue;
+    if (open("/dev/null", O_RDONLY) != descriptor) {
+      throw Error("/dev/null: cannot be opened: " + std::string(std::strerror(errno)));
+    }
+  }
+}
+
+void prepare_process(const std::string& name) {
+  open_standard_descriptors();
+  // A closed pipe and a file over the size limit are errors to report, after the workspace is removed.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  start_log(name);
+  show_output_visibly(stdout);
+  // A library may throw where nothing can catch it, such as for a thread that cannot be started.
+  std::set_terminate([] {
+    print_error("the system has no more memory or threads for this process");
+    std::_Exit(kFailed);
+  });
+  handle_signals();
+}
+
+}  // namespace
+
+int run_program(const std::string& name, CommandLine& line, int argc, char** argv) {
+  try {
+    prepare_process(name);
+    line.run({argv + 1, argv + argc});
+    warn_of_remaining_folders();
+    return flush_output();
+  } catch (const UsageError& error) {
+    return fail(one_line(error.what()), kWrongUsage);
+  } catch (const Error& error) {
+    return fail(one_line(error.what()), kFailed);
+  } catch (const std::bad_alloc&) {
+    const bool can_take_less = line.has_option("--memory-limit");
+    return fail(std::string("out of memory") +
+                    (can_take_less ? "; a lower --memory-limit or smaller --tile-points may help" : ""),
+                kFailed);
+  } catch (const std::exception& error) {  // of the file system, mostly
+    return fail(one_line(error.what()), kFailed);
+  }
+}
+
+}  // namespace lacuna::tools

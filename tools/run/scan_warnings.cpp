@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run/scan_warnings.hpp"
+
+#include "engine/run/disk_space.hpp"
+#include "engine/run/error.hpp"
+#include "engine/run/machine_memory.hpp"
+#include "io/crs/crs_text.hpp"
+#include "io/crs/stated_crs.hpp"
+#include "io/results/points.hpp"
+#include "io/stations/station_views.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+// The distance from the farthest coordinate of single precision to the next one.
+double coarsest_step(const Eigen::AlignedBox3d& bounds) {
+  const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
+  const auto single = static_cast<float>(farthest);
+  return static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity()) - single);
+}
+
+// A coordinate in whole steps, a power of ten.
+std::string print_in_steps(double value, double step) {
+  const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(step))));
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value * step + 0.0);
+  return text.data();
+}
+
+bool is_repeated(const std::vector<std::filesystem::path>& files, std::size_t i) {
+  return std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& before) {
+    std::error_code error;
+    return std::filesystem::equivalent(files[i], before, error);
+  });
+}
+
+std::string file_name(const FileScan& scan, std::size_t i) {
+  return visible(scan.files()[i].string());
+}
+
+// The first of the files for which it holds.
+template <class IsIt>
+std::optional<std::size_t> find_file(const FileScan& scan, const IsIt& is_it) {
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    if (is_it(i)) return i;
+  }
+  return std::nullopt;
+}
+
+// How many files after the first one it holds for, as ", and 3 more files" has it.
+template <class IsIt>
+std::string and_more(const FileScan& scan, std::size_t first, const IsIt& is_it) {
+  std::size_t count = 0;
+  for (std::size_t i = first + 1; i < scan.files().size(); ++i) count += is_it(i) ? 1 : 0;
+  if (count == 0) return "";
+  return ", and " + print_count(count) + (count == 1 ? " more file" : " more files");
+}
+
+void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto first = find_file(scan, [&](std::size_t i) { return !scan.crs()[i].empty(); });
+  if (!first) return;
+  for (std::size_t i = *first; i < scan.files().size(); ++i) {
+    if (scan.crs()[i].empty() || is_same_crs(scan.crs()[i], scan.crs()[*first])) continue;
+    warnings.push_back(
+        file_name(scan, i) +
+        ": its coordinate reference system differs from the first file: " + crs_name(scan.crs()[i]) +
+        ", not " + crs_name(scan.crs()[*first]) + "; results name none, unless --crs states it");
+  }
+}
+
+// A file with a pose is in the system of the others, not in its own.
+void warn_of_missing_systems(const FileScan& scan, std::vector<std::string>& warnings) {
+  if (scan.common_crs().empty()) return;
+  const auto is_without = [&](std::size_t i) { return scan.crs()[i].empty() && !scan.poses()[i]; };
+  const auto first = find_file(scan, is_without);
+  if (!first) return;
+  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_without) +
+                     ": without a coordinate reference system; the system of the other files holds, " +
+                     crs_name(scan.common_crs()));
+}
+
+void warn_of_other_units(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto first = find_file(scan, [&](std::size_t i) { return !scan.units()[i].empty(); });
+  if (!first || !scan.length_unit().empty()) return;
+  const auto is_other = [&](std::size_t i) {
+    return !scan.units()[i].empty() && scan.units()[i] != scan.units()[*first];
+  };
+  if (const auto other = find_file(scan, is_other))
+    warnings.push_back(file_name(scan, *other) + and_more(scan, *other, is_other) + ": its unit is " +
+                       scan.units()[*other] + ", not " + scan.units()[*first] + " as in " +
+                       file_name(scan, *first) + "; results name none, unless --unit states it");
+}
+
+// Where files contradict what the user states of all: `is_other` of a file.
+template <class IsOther>
+void warn_of_overridden(const FileScan& scan, const std::vector<std::string>& of_files,
+                        const IsOther& is_other, const std::string& what, const std::string& stated,
+                        std::vector<std::string>& warnings) {
+  const auto contradicts = [&](std::size_t i) {
+    return !of_files[i].empty() && is_other(of_files[i], stated);
+  };
+  if (const auto first = find_file(scan, contradicts))
+    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": its " + what +
+                       " is " + crs_name(of_files[*first]) + "; the stated one holds, " + crs_name(stated));
+}
+
+}  // namespace
+
+std::string crs_name(const std::string& crs) {
+  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
+  return visible(end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1));
+}
+
+void refuse_degrees(const FileScan& scan) {
+  constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
+  const StatedCrs& stated = scan.stated_crs();
+  if (is_geographic(stated.crs))
+    throw Error("--crs: " + crs_name(stated.crs) + kDegrees + "; allowed: a projected or geocentric system");
+  if (!stated.crs.empty()) return;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    if (!scan.is_geographic(i)) continue;
+    const std::string name = scan.crs()[i].empty() ? "its system" : crs_name(scan.crs()[i]);
+    throw Error(
+        visible(scan.files()[i].string()) + ": " + name + kDegrees +
+        "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects it; if "
+        "its coordinates are lengths, --crs can state their system");
+  }
+}
+
+std::vector<std::string> input_warnings(const FileScan& scan) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    if (is_repeated(scan.files(), i))
+      warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
+  }
+  if (scan.stated_crs().crs.empty()) {
+    warn_of_other_systems(scan, warnings);
+    warn_of_missing_systems(scan, warnings);
+  } else {
+    warn_of_overridden(scan, scan.crs(), std::not_fn(is_same_crs), "coordinate reference system",
+                       scan.stated_crs().crs, warnings);
+  }
+  if (scan.stated_crs().unit.empty()) {
+    warn_of_other_units(scan, warnings);
+  } else {
+    warn_of_overridden(scan, scan.units(), std::not_equal_to<>(), "unit", scan.stated_crs().unit, warnings);
+  }
+  return warnings;
+}
+
+std::vector<std::string> memory_warnings(const Config& config) {
+  const std::uint64_t memory = machine_memory();
+  if (config.run.memory_limit <= memory) return {};
+  return {"the memory limit of " + print_size(config.run.memory_limit) + " is above the " +
+          print_size(memory) + " of this machine"};
+}
+
+std::string print_bounds(const Eigen::AlignedBox3d& box, double margin) {
+  constexpr int kDigits = 3;
+  const double extent = box.sizes().maxCoeff() + 2 * margin;
+  const double step = extent > 0 ? std::pow(10, std::floor(std::log10(extent)) + 1 - kDigits) : 1;
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += print_in_steps(std::floor((box.min()[axis] - margin) / step), step) + ",";
+  for (int axis = 0; axis < 3; ++axis)
+    text += print_in_steps(std::ceil((box.max()[axis] + margin) / step), step) + (axis < 2 ? "," : "");
+  return text;
+}
+
+std::string stray_warning(const Strays& strays, double resolution) {
+  if (strays.points == 0) return "";
+  const bool is_one = strays.points == 1;
+  std::ostringstream text;
+  text.precision(10);
+  text << print_count(strays.points) << (is_one ? " point lies" : " points lie") << " far from all others, "
+       << (is_one ? "at " : "such as at ") << strays.example.x() << " " << strays.example.y() << " "
+       << strays.example.z() << "; reports and pictures leave " << (is_one ? "it" : "them") << " out. ";
+  if (strays.has_origin) text << "--drop-origin drops points at 0 0 0";
+  if (strays.has_origin && !is_one) text << "; ";
+  if (!strays.has_origin || !is_one)
+    text << "--bounds=" << print_bounds(strays.rest, resolution) << " keeps the others alone";
+  return text.str();
+}
+
+std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
+                                       const FilesConfig& config) {
+  std::vector<std::string> warnings;
+  if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+    warnings.push_back(std::move(strays));
+  const Counts& counts = summary.counts;
+  const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
+  if (points <= static_cast<std::uint64_t>(config.neighbourhood.k)) {
+    warnings.push_back(print_count(points) + " distinct " + (points == 1 ? "point" : "points") +
+                       "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
+  }
+  const Eigen::AlignedBox3d& bounds = summary.strays.rest;
+  if (scan.single_precision() && !bounds.isEmpty()) {
+    const double step = coarsest_step(bounds);
+    if (step > summary.median_distance / 4) {
+      std::ostringstream warning;
+      warning << "coordinates of single precision are steps of up to " << step << " here, and neighbours are "
+              << summary.median_distance << " apart; the scan needs double precision, or smaller coordinates";
+      warnings.push_back(warning.str());
+    }
+  }
+  return warnings;
+}
+
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
+  std::vector<std::string> warnings;
+  for (const StationSummary& station : stations) {
+    if (station.certainty >= StationView::kLeastCertain) continue;
+    std::ostringstream message;
+    message.precision(3);
+    message << "station " << visible(station.name) << " does not count: at most " << 100 * station.certainty
+            << " % of its points can have been seen from there, as rays end at the first surface";
+    warnings.push_back(message.str());
+  }
+  return warnings;
+}
+
+}  // namespace lacuna::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and kill: the program ends at once, but not before what it keeps on disk meanwhile is gone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lacuna::tools {
+
+// From now on SIGINT, SIGTERM and SIGHUP remove the temporary folders (engine/store/temporary_folder.hpp) and
+// empty folders that were made for the run (tools/run/folders.hpp). They print one line, if stderr takes it
+// at once, and end the program with exit code 128 + signal. Call before any other thread starts. The signals
+// are blocked in all threads and awaited in one of its own, where, unlike in a signal handler, removing files
+// is safe. Throws `Error` if that thread cannot be started.
+void handle_signals();
+
+// The run replaces results in `folder`, all or none; `report` is one of them, and shows by its identity
+// whether that has happened. From now on the line about a signal says so: "lacuna: interrupted; DIR is as it
+// was".
+void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report);
+
+// What is done is kept in this folder, and the line about a signal says so.
+void watch_workspace(const std::filesystem::path& folder);
+
+// The results have replaced what was in the folder of watch_results.
+void note_complete_results();
+// For the line of an error that comes later: "; the results in DIR are complete"; empty before.
+std::string complete_results();
+
+// Does not return if a signal is ending the program: what fails meanwhile fails because of it.
+void wait_if_interrupted();
+
+}  // namespace lacuna::tools
