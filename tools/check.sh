@@ -3,24 +3,54 @@
 # Installs, builds and runs the tests. The last line counts them. Fails if a test fails, or if none ran.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source tools/packages.sh
 
 usage() {
   cat <<'TEXT'
-usage: tools/check.sh [--all | --sanitize | --threads | --odr]
-  --all        the slow tests too, and the check of --odr: more than an hour
-  --sanitize   the fast tests but those that measure, built in build-sanitize to check memory accesses and undefined
-               behaviour
-  --threads    the fast tests but a few, built in build-threads to find data races, with oneTBB from Debian's source
-               built in the same way: about an hour
-  --odr        no test: builds the program without precompiled headers, which hide what is not included. Links it
-               with link time optimisation, in build-odr, and fails where a name is defined twice in different ways
+usage: tools/check.sh [--all]
+  without      the fast tests; then those of files and disk again, built to find memory errors and undefined
+               behaviour: half an hour on two cores
+  --all        before a release, and at the end of a large change: the slow tests, too; all tests of the libraries
+               built to find memory errors, and built to find data races; instructions of a run; the program
+               without headers that hide what is not included, linked to find classes defined twice: hours
 TEXT
+}
+
+case "$*" in
+  "") all=0 ;;
+  --all) all=1 ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+passed=0 failed=0 skipped=0
+
+build() {  # FOLDER TARGET OPTION...
+  local folder=$1 target=$2
+  cmake -G Ninja -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=ON "${@:3}"
+  cmake --build "$folder" --parallel "$(nproc)" --target "$target"
+}
+
+# Runs tests of a folder, with further options for ctest, and counts them.
+run_tests() {  # FOLDER OPTION...
+  local folder=$1 report=$PWD/$1/tests.xml status=0 failures
+  rm -f "$report"
+  ctest --test-dir "$@" --parallel "$(nproc)" --no-tests=error --output-on-failure --output-junit "$report" || status=$?
+  count() { grep --max-count=1 --only-matching --perl-regexp "^\s*$1=\"\K[0-9]+" "$report"; }
+  failures=$(count failures)
+  if ((status != 0 && failures == 0)); then
+    failures=1  # a test that could not even start
+  fi
+  failed=$((failed + failures))
+  skipped=$((skipped + $(count skipped)))
+  passed=$((passed + $(count tests) - failures - $(count skipped) - $(count disabled)))
+  [[ ! -s $folder/Testing/Temporary/LastTestsFailed.log ]] ||
+    sed "s|^|failed in $folder: |" "$folder/Testing/Temporary/LastTestsFailed.log"
 }
 
 # The compiler sees one source at a time. Only the linker sees two classes of one name.
 check_odr() {
-  cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_PRECOMPILE=OFF -DLACUNA_SHARED=OFF \
+  cmake -G Ninja -S . -B build-odr -DCMAKE_BUILD_TYPE=Release -DLACUNA_TESTS=OFF -DLACUNA_UNITY=OFF -DLACUNA_SHARED=OFF \
     -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON "-DCMAKE_CXX_FLAGS=-Werror=odr -Werror=lto-type-mismatch"
   cmake --build build-odr --parallel "$(nproc)" --target lacuna lacuna-bench
 }
@@ -41,60 +71,32 @@ build_tbb() {
   cmake --install "$folder/build"
 }
 
-build=build
-options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_WERROR=ON)
-labels='^fast$'
-excluded='^$'
-case "$*" in
-  "") ;;
-  --odr) ;;
-  --all) labels='^(fast|slow)$' ;;
-  --sanitize)
-    build=build-sanitize
-    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF)  # warnings are no errors: GCC's can be wrong here
-    # These measure memory and threads, of which the sanitizers take their own, disk, or what is found.
-    excluded='within the memory limit|stay within|threads that cannot be started|the disk that info names|accuracy'
-    excluded+='|are those of its scene|what was promised|taken for those of one'
-    export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
-    export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
-    export LACUNA_DRAWN_SHARE=${LACUNA_DRAWN_SHARE:-0.1}       # of the cases that the longest tests draw
-    ;;
-  --threads)
-    build=build-threads
-    options=(-DCMAKE_BUILD_TYPE=Release -DLACUNA_SANITIZE=thread -DLACUNA_PYTHON=OFF)
-    # What starts scripts or browsers takes too long, and tests no more threads.
-    excluded='within the memory limit|stay within|threads that cannot be started|accuracy|schema|GDAL|browser'
-    excluded+='|documentation|installed library'
-    export LD_LIBRARY_PATH=$PWD/build-threads/tbb/lib
-    export TSAN_OPTIONS=suppressions=$PWD/tests/support/races_of_others.txt:exitcode=66
-    export LACUNA_DRAWN_SHARE=${LACUNA_DRAWN_SHARE:-0.05}
-    ;;
-  *)
-    usage >&2
-    exit 2
-    ;;
-esac
+# ---- as released
 
-tools/install.sh
-install_packages python3-pandas python3-matplotlib  # whose tests would be skipped
-[[ $* != --odr && $* != --all ]] || check_odr
-[[ $* != --odr ]] || exit 0
-[[ $* != --threads ]] || build_tbb
-cmake -G Ninja -S . -B "$build" -DLACUNA_TESTS=ON "${options[@]}"
-cmake --build "$build" --parallel "$(nproc)"
+tools/install.sh --tests
+build build all -DLACUNA_WERROR=ON
+run_tests build --label-regex "$( ((all)) && echo '^(fast|slow)$' || echo '^fast$')"
 
-report=$PWD/$build/tests.xml
-rm -f "$report"
-status=0
-ctest --test-dir "$build" --label-regex "$labels" --exclude-regex "$excluded" --parallel "$(nproc)" --no-tests=error --output-on-failure \
-  --output-junit "$report" || status=$?
+# ---- memory errors and undefined behaviour: readers, writers and what is on disk; with --all the whole libraries
 
-count() { grep --max-count=1 --only-matching --perl-regexp "^\s*$1=\"\K[0-9]+" "$report"; }
-failed=$(count failures)
-skipped=$(count skipped)
-passed=$(($(count tests) - failed - skipped - $(count disabled)))
-if ((status != 0 && failed == 0)); then
-  failed=1  # a test that could not even start
+# These measure memory and threads, of which the sanitizers take their own, or disk.
+measures='memory_test|disk_check_test'
+export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
+export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
+build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=$( ((all)) && echo 'engine|io' || echo 'engine/(store|bucket|workspace|run)|io')"
+LACUNA_DRAWN_SHARE=0.1 run_tests build-sanitize --exclude-regex "$measures"
+
+# ---- all else
+
+if ((all)); then
+  tools/instructions.sh || failed=$((failed + 1))
+  check_odr
+  build_tbb
+  export LD_LIBRARY_PATH=$PWD/build-threads/tbb/lib
+  export TSAN_OPTIONS=suppressions=$PWD/tests/support/races_of_others.txt:exitcode=66
+  build build-threads lacuna_tests -DLACUNA_SANITIZE=thread -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=engine|io"
+  LACUNA_DRAWN_SHARE=0.05 run_tests build-threads --exclude-regex "$measures"
 fi
+
 echo "$passed passed, $failed failed, $skipped skipped"
-((status == 0 && passed > 0))
+((failed == 0 && passed > 0))

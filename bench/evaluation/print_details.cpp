@@ -17,7 +17,7 @@ using namespace tools;
 
 namespace {
 
-constexpr std::size_t kMostRows = 20;
+constexpr std::size_t kMostDetails = 20;
 
 std::string print_number(double value, const char* format = "%.3f") {
   char buffer[32];
@@ -34,7 +34,7 @@ std::string print_index(const std::optional<std::size_t>& index) {
 }
 
 std::string print_rows(std::vector<std::vector<std::string>> rows) {
-  const std::size_t beyond = rows.size() > kMostRows + 1 ? rows.size() - kMostRows - 1 : 0;
+  const std::size_t beyond = rows.size() > kMostDetails + 1 ? rows.size() - kMostDetails - 1 : 0;
   rows.resize(rows.size() - beyond);
   std::string text = "\n" + print_table(rows);
   if (beyond > 0) text += "  and " + print_count(beyond) + " more: --json has them all\n";

@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
+constexpr std::size_t kDecodedBytes = std::size_t{8} << 20;
 constexpr std::size_t kMostRows = std::size_t{1} << 16;
 constexpr std::size_t kTogether = 512;  // rows that stay in the cache while field after field is filled
 
@@ -55,7 +55,8 @@ class E57Reader final : public ScanReader {
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
     const std::size_t stride = columns_.layout.stride;
-    const std::size_t rows = std::min({max_rows, kMostRows, std::max<std::size_t>(1, kBatchBytes / stride)});
+    const std::size_t rows =
+        std::min({max_rows, kMostRows, std::max<std::size_t>(1, kDecodedBytes / stride)});
     batch.bytes.resize(rows * stride);
     batch.count = 0;
     while (batch.count < rows && begin_scan()) {

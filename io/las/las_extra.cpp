@@ -23,7 +23,7 @@ constexpr std::array<LasExtraType, 11> kTypes = {{{0, Scalar::kUint8},
                                                   {8, Scalar::kFloat64},
                                                   {4, Scalar::kFloat32},
                                                   {8, Scalar::kFloat64}}};
-constexpr std::uint8_t kUint64 = 7, kInt64 = 8, kFloat = 9, kDouble = 10, kLastType = 30;
+constexpr std::uint8_t kUint64Type = 7, kInt64Type = 8, kFloatType = 9, kDoubleType = 10, kLastType = 30;
 constexpr std::size_t kText = 32, kTypeAt = 2, kOptionsAt = 3, kNameAt = 4, kDescriptionAt = 160;
 
 std::uint8_t type_of(Scalar type) {
@@ -41,11 +41,11 @@ std::uint8_t type_of(Scalar type) {
     case Scalar::kInt32:
       return 6;
     case Scalar::kFloat32:
-      return kFloat;
+      return kFloatType;
     case Scalar::kFloat64:
       break;
   }
-  return kDouble;
+  return kDoubleType;
 }
 
 void put_text(LasExtraBytes& extra, std::size_t at, std::string_view text) {
@@ -70,8 +70,8 @@ const LasExtraType& las_extra_type(std::uint8_t type) {
 }
 
 double load_las_value(std::uint8_t type, const std::byte* from) {
-  if (type == kUint64) return static_cast<double>(load<std::uint64_t>(from));
-  if (type == kInt64) return static_cast<double>(load<std::int64_t>(from));
+  if (type == kUint64Type) return static_cast<double>(load<std::uint64_t>(from));
+  if (type == kInt64Type) return static_cast<double>(load<std::int64_t>(from));
   return with_type(kTypes[type].kept,
                    [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
 }

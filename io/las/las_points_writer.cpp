@@ -13,9 +13,9 @@
 namespace lacuna::io {
 namespace {
 
-class PlainPoints final : public LasPointsWriter {
+class PlainPointsWriter final : public LasPointsWriter {
  public:
-  explicit PlainPoints(OutputFile& out) : out_(out) {}
+  explicit PlainPointsWriter(OutputFile& out) : out_(out) {}
 
   void put(std::span<const std::byte> records) override {
     out_.write(records);
@@ -29,9 +29,9 @@ class PlainPoints final : public LasPointsWriter {
 };
 
 // Collects a chunk for each thread, and encodes these together.
-class CompressedPoints final : public LasPointsWriter {
+class CompressedPointsWriter final : public LasPointsWriter {
  public:
-  CompressedPoints(OutputFile& out, std::uint64_t points_at, LasCompression compression)
+  CompressedPointsWriter(OutputFile& out, std::uint64_t points_at, LasCompression compression)
       : out_(out),
         points_at_(points_at),
         layout_(std::move(compression.layout)),
@@ -106,8 +106,8 @@ std::uint64_t compression_bytes(const laz::Layout& layout) {
 
 std::unique_ptr<LasPointsWriter> las_points_writer(OutputFile& out, std::uint64_t points_at,
                                                    std::optional<LasCompression> compression) {
-  if (!compression) return std::make_unique<PlainPoints>(out);
-  return std::make_unique<CompressedPoints>(out, points_at, std::move(*compression));
+  if (!compression) return std::make_unique<PlainPointsWriter>(out);
+  return std::make_unique<CompressedPointsWriter>(out, points_at, std::move(*compression));
 }
 
 }  // namespace lacuna::io

@@ -60,7 +60,6 @@ class LasReader final : public ScanReader {
   }
 
   // A batch is no larger than this, nor its records; one row is below 1 MiB.
-  static constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
   InputFile in_;
   LasHeader header_;

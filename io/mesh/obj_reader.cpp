@@ -14,7 +14,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 constexpr const char* kVertex = "'v x y z', with one weight or three colours behind, is allowed";
 constexpr const char* kNormal = "'vn x y z' is allowed";

@@ -11,7 +11,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr const char* kCounts = "the numbers of vertices, of faces and of edges are needed";
 constexpr const char* kFace = "a face is the number of its vertices, then their indices";
 
@@ -37,7 +36,7 @@ std::optional<Keyword> find_keyword(std::string_view line) {
   return std::nullopt;
 }
 
-std::string_view without_comment(std::string_view line) {
+std::string_view before_comment(std::string_view line) {
   return line.substr(0, line.find('#'));
 }
 
@@ -81,7 +80,7 @@ class OffReader final : public ScanReader {
       const auto next = in_.next_line();
       if (!next) in_.fail_at_line(in_.line(), "the file ends here without 'OFF'");
       line = *next;
-    } while (is_blank(without_comment(line)));
+    } while (is_blank(before_comment(line)));
     const auto keyword = find_keyword(line);
     if (!keyword) in_.fail_at_line(in_.line(), "'OFF', 'COFF', 'NOFF' or 'CNOFF' expected");
     kind_ = keyword->kind;
@@ -93,11 +92,11 @@ class OffReader final : public ScanReader {
       in_.fail_at_line(in_.line(), "vertices of kind " + in_quotes(kind_ + "OFF") +
                                        " cannot be read; allowed are OFF, COFF, NOFF and CNOFF");
     }
-    std::string_view counts = without_comment(keyword->rest);
+    std::string_view counts = before_comment(keyword->rest);
     while (is_blank(counts)) {
       const auto next = in_.next_line();
       if (!next) in_.fail_at_line(in_.line(), std::string("the file ends here; ") + kCounts);
-      counts = without_comment(*next);
+      counts = before_comment(*next);
     }
     LineWords numbers(in_, counts);
     vertices_ = numbers.number<std::uint64_t>(kCounts);
@@ -149,7 +148,7 @@ class OffReader final : public ScanReader {
       return row_;
     }
     while (const auto line = in_.next_line()) {
-      const std::string_view data = without_comment(*line);
+      const std::string_view data = before_comment(*line);
       if (!is_blank(data)) return data;
     }
     in_.fail_at_line(in_.line(), "the file ends here with fewer than the " + std::to_string(count) + " " +
@@ -177,7 +176,7 @@ class OffReader final : public ScanReader {
       if (words.count_left() < corners) words.fail(std::string("fewer values than needed; ") + kFace);
     }
     while (const auto line = in_.next_line()) {
-      if (!is_blank(without_comment(*line))) {
+      if (!is_blank(before_comment(*line))) {
         in_.fail_at_line(in_.line(),
                          "more data after the last face that the header counts; its counts must hold");
       }
@@ -201,7 +200,7 @@ bool looks_like_off(const FileStart& start) {
   while (!rest.empty()) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (!is_blank(without_comment(line))) return find_keyword(line).has_value();
+    if (!is_blank(before_comment(line))) return find_keyword(line).has_value();
   }
   return false;
 }

@@ -13,7 +13,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kTriangleBytes = 50;  // a normal, three vertices, two bytes for any use
 constexpr std::size_t kNormalBytes = 12;

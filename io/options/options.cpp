@@ -12,7 +12,7 @@ namespace {
 
 // In the order of their enumerations.
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
-constexpr std::string_view kUnits[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
+constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
 bool is_gis(const OutputConfig& output) {
@@ -60,7 +60,7 @@ void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_li
 }  // namespace
 
 std::string_view name_of(LengthUnit unit) {
-  return kUnits[static_cast<std::size_t>(unit)];
+  return kUnitNames[static_cast<std::size_t>(unit)];
 }
 
 std::vector<Parameter> file_parameters(FilesConfig& config) {
@@ -88,10 +88,9 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"input", "crs", &input.crs, 0, 0,
        "a code such as EPSG:25832, well-known text, or a file that has one of them",
        "Coordinate reference system of the scan, over what its files state; empty: as they state it."},
-      {"input", "unit", named(input.unit, kUnits), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
+      {"input", "unit", named(input.unit, kUnitNames), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
        "Unit of the coordinates, over what the files state; input: as they, or --crs, state it."},
-      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2,
-       "input, ply or csv",
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2, "input, ply or csv",
        "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        no_points_files},
       {"output", "normals", &output.normals, 0, 1, "true or false",

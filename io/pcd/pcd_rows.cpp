@@ -3,6 +3,7 @@
 
 #include "io/files/line_words.hpp"
 #include "io/pcd/pcd_fields.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr std::size_t kMostHeldColumns = 256;  // of a compressed file: each takes a stream
 
 std::uint32_t read_size(InputFile& in) {

@@ -16,7 +16,6 @@ namespace lacuna::io {
 namespace {
 
 // A batch is no larger than this, however many properties a row has.
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
 std::size_t find_vertex(const InputFile& in, const PlyHeader& header) {
   for (std::size_t i = 0; i < header.elements.size(); ++i) {

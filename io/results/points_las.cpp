@@ -5,6 +5,7 @@
 #include "io/las/las_writer.hpp"
 #include "io/laz/laz_encoder.hpp"
 #include "io/results/points_form.hpp"
+#include "io/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -60,7 +61,6 @@ class LasRows final : public InputRows {
         left_(header_.points) {}
 
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override {
-    constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
     const std::uint64_t most = std::min(
         {max_rows, most_rows_,
          std::max<std::size_t>(1, kBatchBytes / std::max<std::size_t>(stride, header_.record_bytes))});

@@ -53,6 +53,9 @@ struct ScannerPose {
   std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; none: all rows
 };
 
+// What readers and writers of files hold of their rows at a time.
+inline constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
+
 // Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
 // (line or byte) and the reason.
 class LACUNA_API ScanReader {

@@ -13,7 +13,7 @@ namespace lacuna::io {
 namespace {
 
 constexpr double kLeastShare = 0.01;  // of the hidden area, for one more station
-constexpr double kLevel = 0.95;       // cosine between the normal of a floor and the vertical
+constexpr double kLevelFloor = 0.95;  // cosine between the normal of a floor and the vertical
 constexpr std::size_t kMostEyes = 500;
 
 bool sees(const Eigen::Vector3d& eye, const InsidePlace& place, const Obstacles& obstacles,
@@ -32,7 +32,7 @@ std::map<Cell, Eigen::Vector3d> lowest_points(std::span<const Eigen::Vector3d> p
                                               std::span<const Eigen::Vector3f> normals, double grid) {
   std::map<Cell, Eigen::Vector3d> lowest;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (std::fabs(normals[i].z()) < kLevel) continue;
+    if (std::fabs(normals[i].z()) < kLevelFloor) continue;
     const Cell cell{static_cast<std::int64_t>(std::floor(points[i].y() / grid)),
                     static_cast<std::int64_t>(std::floor(points[i].x() / grid))};
     const auto [at, is_new] = lowest.emplace(cell, points[i]);

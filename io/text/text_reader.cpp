@@ -16,7 +16,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 constexpr const char* kAllowed = "rows of numbers divided by blanks, commas or semicolons are allowed";
 
 using Fields = std::vector<std::string_view>;

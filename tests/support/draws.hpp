@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slow tests that draw many cases draw fewer where LACUNA_DRAWN_SHARE is set. `tools/check.sh --sanitize`
-// sets it.
+// Slow tests that draw many cases draw fewer where LACUNA_DRAWN_SHARE is set, by `tools/check.sh`.
 #pragma once
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::evaluation {
+using namespace matching;
 using namespace io;
 
 namespace {
