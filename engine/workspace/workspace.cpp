@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/workspace/workspace.hpp"
 
-#include "engine/config/config_file.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/sealed_part.hpp"
@@ -179,14 +178,8 @@ StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}, .note = {}};
-  const auto text = [&](std::string_view stream) {
-    const std::vector<char> characters = part->records<char>(stream, 0);
-    return std::string(characters.begin(), characters.end());
-  };
-  read_parameters(text("config"), folder / kRun, parameters(run.config));
-  run.note = text("note");
-  return run;
+  const std::vector<char> note = part->records<char>("note", 0);
+  return {.names = split(part->records<char>("inputs", 0), '\0'), .note = {note.begin(), note.end()}};
 }
 
 fs::path level_path(const fs::path& folder, std::size_t level) {
@@ -251,13 +244,10 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
   if (!before) {
     std::string inputs;
     for (const std::string& name : scan.names()) inputs += name + '\0';
-    Config config = given;
-    config.run.workspace.clear();  // which may be another path for another machine
     PartWriter part(folder / kRun);
     for (const auto& [stream, text] : {std::pair<std::string_view, std::string>{"made from", joined(now)},
                                        {"inputs", inputs},
-                                       {"config", print_config(config)},
-                                       {"note", config.run.note}})
+                                       {"note", given.run.note}})
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }

@@ -177,12 +177,10 @@ std::vector<std::string> FileScan::identity() const {
     if (poses_[i]) line << ", pose " << names[3 * i + 2];
     lines.push_back(line.str());
   }
-  FilesConfig config, defaults;
+  FilesConfig config;
   config.input = config_;
-  const std::vector<Parameter> all = file_parameters(config), unchanged = file_parameters(defaults);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].print() != unchanged[i].print())
-      lines.push_back(std::string(all[i].key) + " = " + all[i].print());
+  for (const Parameter& p : file_parameters(config)) {
+    if (p.section == "input") lines.push_back(std::string(p.key) + " = " + p.print());
   }
   return lines;
 }

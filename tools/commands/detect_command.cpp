@@ -108,7 +108,6 @@ FilesConfig RunArguments::start(FilesConfig base) const {
   if (quiet) quiet_log();
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   prepare_process(config.run);
-  config.run.note = print_parameters(file_parameters(config));
   return config;
 }
 
@@ -117,8 +116,8 @@ std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) cons
 }
 
 FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
-  FilesConfig config{run.config, {}, {}};
-  read_parameters(run.note, workspace, file_parameters(config));
+  FilesConfig config;
+  read_parameters(run.note, workspace, parameters(config));
   return config;
 }
 
@@ -138,8 +137,9 @@ ResultArguments::ResultArguments(const Command& command) : RunArguments(command)
       .rare();
 }
 
-std::string detect_to(const std::vector<ScanInput>& inputs, const FilesConfig& config,
+std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps) {
+  config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);

@@ -20,8 +20,7 @@ namespace lacuna::tools {
 struct RunArguments {
   explicit RunArguments(const Command& command);
 
-  // The parameters over those in `base`, with a note of those of files for a workspace. Sets up the log, and
-  // warns of what has no effect.
+  // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
   io::FilesConfig start(io::FilesConfig base = {}) const;
 
   std::unique_ptr<Progress> show_progress(const Config& config) const;
@@ -53,7 +52,7 @@ struct WorkspaceSteps {
 };
 
 // Finds the holes and writes the results; returns their summary.
-std::string detect_to(const std::vector<io::ScanInput>& inputs, const io::FilesConfig& config,
+std::string detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps = {});
 
 }  // namespace lacuna::tools

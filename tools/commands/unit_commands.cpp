@@ -85,6 +85,7 @@ void run_plan(const PlanArguments& arguments) {
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const std::unique_ptr<FileScan> scan =
       open_inputs(expand_inputs(arguments.scans, {.columns = config.input.columns}), config);
+  config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());
   print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), config);

@@ -87,7 +87,6 @@ FilesConfig changed_config(const RunArguments& arguments, const StoredRun& run, 
     config.input.leave_out.insert(config.input.leave_out.end(), box.begin(), box.end());
   }
   config.run.workspace = workspace.string();
-  config.run.note = print_parameters(file_parameters(config));
   return config;
 }
 
