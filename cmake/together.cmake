@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles the sources of a folder together, eight at a time: headers are read once for all of them, so that a build
-# takes less than half of the time. Names in unnamed namespaces must differ within a folder.
+# Compiles the sources of a folder together, eight at a time. The compiler reads headers once for all of them, so a
+# build takes less than half of the time. Names in unnamed namespaces must differ within a folder.
 option(LACUNA_UNITY "Compile the sources of a folder together: whole builds are faster, small changes slower" ON)
 
 function(compile_together target)
@@ -9,8 +9,8 @@ function(compile_together target)
   endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
-    # Some stay apart: sources that are compiled once for each instruction set, a table that the compiler computes, and
-    # scenes, which have the same names for their parts.
+    # Some sources stay apart: those that are compiled once for each instruction set, and a table that the compiler
+    # computes. Scenes have the same names for their parts.
     file(STRINGS ${source} apart REGEX "simd/targets.hpp" LIMIT_COUNT 1)
     if(apart OR source MATCHES "page_checksum|_scene.cpp")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

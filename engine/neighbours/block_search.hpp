@@ -4,7 +4,7 @@
 
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/neighbours/block_tree.hpp"
-#include "engine/neighbours/candidates.hpp"
+#include "engine/neighbours/candidate_list.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 // near in the order are near in space, so the tree needs no building beyond its boxes.
 #pragma once
 
-#include "engine/neighbours/candidates.hpp"
+#include "engine/neighbours/candidate_list.hpp"
 
 #include <algorithm>
 #include <array>

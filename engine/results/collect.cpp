@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
 
 // A point of one tile that is coherent or belongs to the boundary.
-struct Mark {
+struct MarkedPoint {
   LocalIndex owned;
   std::int32_t loop;  // the first reported loop through it; kNotReported: none
   float probability;
@@ -132,9 +132,9 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBounda
 }
 
 // A tile's points that are coherent or belong to the boundary, each once.
-std::vector<Mark> marks_of_tile(std::span<const StoredCandidate> candidates, const Findings& findings,
-                                const Tile& tile, TileIndex t) {
-  std::vector<Mark> marks;
+std::vector<MarkedPoint> marks_of_tile(std::span<const StoredCandidate> candidates, const Findings& findings,
+                                       const Tile& tile, TileIndex t) {
+  std::vector<MarkedPoint> marks;
   for (const PointOnLoop& p : findings.on_loops.points.read(t))
     marks.push_back({p.owned, p.loop, p.probability, kBoundary, p.point});
   for (const StoredCandidate& c : candidates) {
@@ -143,11 +143,11 @@ std::vector<Mark> marks_of_tile(std::span<const StoredCandidate> candidates, con
                                 (findings.boundary_candidates.contains(row) ? kBoundary : 0);
     if (flags != 0) marks.push_back({tile.local(row), kNotReported, c.probability, flags, c.point});
   }
-  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
+  std::sort(marks.begin(), marks.end(), [](const MarkedPoint& a, const MarkedPoint& b) {
     return std::tie(a.owned, a.loop, a.probability) < std::tie(b.owned, b.loop, b.probability);
   });
   std::size_t kept = 0;
-  for (const Mark& mark : marks) {
+  for (const MarkedPoint& mark : marks) {
     if (kept > 0 && marks[kept - 1].owned == mark.owned) {
       marks[kept - 1].flags |= mark.flags;
     } else {
@@ -158,7 +158,7 @@ std::vector<Mark> marks_of_tile(std::span<const StoredCandidate> candidates, con
   return marks;
 }
 
-StoredBoundary stored(const Mark& mark) {
+StoredBoundary stored(const MarkedPoint& mark) {
   return {mark.point, mark.probability, mark.loop == kNotReported ? -1 : mark.loop, mark.flags};
 }
 
@@ -176,16 +176,17 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);
       const Tile& tile = tiling.tiles[t];
-      const std::vector<Mark> tile_marks = marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
+      const std::vector<MarkedPoint> tile_marks =
+          marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
       const std::lock_guard lock(mutex);
-      for (const Mark& mark : tile_marks) {
+      for (const MarkedPoint& mark : tile_marks) {
         summary.counts.coherent += (mark.flags & kCoherent) != 0;
         summary.counts.boundary_points += (mark.flags & kBoundary) != 0;
         sorted.add(stored(mark));
       }
       store.for_each_duplicate(t, [&](const Duplicate& d) {
         const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
-                                         [](const Mark& m, LocalIndex p) { return m.owned < p; });
+                                         [](const MarkedPoint& m, LocalIndex p) { return m.owned < p; });
         if (of == tile_marks.end() || of->owned != d.of) return;
         StoredBoundary duplicate = stored(*of);
         duplicate.point.id = d.id;

@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// What a new level takes from the workspace: empty files for its store and, in an update, how the run before
-// has put its tiles together.
+// What a new level takes from the workspace: empty files for its store, and how its tiles were put together
+// before an update.
 struct LevelPlace {
   StoreFiles files;
   std::optional<TileJoin> join;

@@ -171,7 +171,7 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
   const auto [warning, crs] = detect({none, text});
   CHECK_THAT(crs, StartsWith("PROJCS[\"" + std::string(kUtm)));
   CHECK_THAT(warning,
-             Contains("none/points.las: without a coordinate reference system; the system of the other "
+             Contains("none.las: without a coordinate reference system; the system of the other "
                       "files holds, " +
                       std::string(kUtm)));
   CHECK(test::count_lines(warning) == 1);

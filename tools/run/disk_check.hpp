@@ -17,7 +17,7 @@ namespace lacuna::tools {
 using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
 
 // Knows the headers of the scan and the options. Returns one line for each disk that is probably too small
-// for the workspace, the results, or both. Throws `Error` for one that clearly is: it has less than half of
+// for the workspace, the results, or both. Throws `Error` for one that clearly is. It has less than half of
 // what the table names, or less than an annotated scan of known size. Where points may be left out by a
 // filter or a resolution, only the annotated scan is certain. Throws `Error`, too, where memory can never
 // suffice. Both folders exist.

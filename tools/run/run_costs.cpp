@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/run_costs.hpp"
 
-#include "engine/thin/thin.hpp"
 #include "engine/run/job.hpp"
 #include "engine/run/parallel.hpp"
+#include "engine/thin/thin.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,13 +18,17 @@ struct Rate {
   double microseconds = 0;
 };
 
-// Measured on 2026-11-26 with two threads on a two-core machine with other programs at work: files of the
-// process under /proc every 30 ms, and its processor time. Default runs with a limit of 12 GiB took so many
-// bytes and microseconds a point:
-//   bun_zipper 36,000 points: 122, 3.3; autzen 0.4 M: 68, 3.5; vol_total 0.5 M: 72, 2.3; dragon 0.8 M:
-//   76, 3.1; balm 1.7 M, which is rough all over: 148, 5.8.
-// With a limit of 256 MiB: vol_total 157, dragon 239, balm 414 bytes. The sums of the next two rates are in
-// the middle of these; --method paper on vol_total, 57 and 0.9, parts them.
+// Measured on 2026-11-26: two threads, a two-core machine with other programs at work. Bytes are the largest
+// sum of the files of the process, every 30 ms; microseconds are processor time. The rates are fitted to
+// these scans, which differ by 2.5:
+//   scan         M points  bytes a point, limit 12 GiB   256 MiB   microseconds
+//   bun_zipper   0.04      122                           -         3.3
+//   autzen       0.4       68                            -         3.5
+//   vol_total    0.5       72                            157       2.3
+//   dragon       0.8       76                            239       3.1
+//   balm         1.7       148                           414       5.8
+// The sums of the next two rates are in the middle of these. --method paper on vol_total, 57 and 0.9, parts
+// them.
 constexpr Rate kEachPoint = {.bytes = 60, .spilled = 100, .microseconds = 1.2};
 constexpr Rate kLevelsAbove = {.bytes = 40, .spilled = 100, .microseconds = 2.4};
 // Measured on the same day, as the difference to a default run of vol_total.

@@ -179,7 +179,7 @@ class TileStarFinder {
       measurable.push_back(p);
     }
     const auto surroundings = [&](std::size_t i) {
-      return Surroundings{measurable[i], neighbourhoods_[measurable[i]]};
+      return PointAndNeighbours{measurable[i], neighbourhoods_[measurable[i]]};
     };
     RadiusBounder(found_.samplings, config_)
         .for_each(measurable.size(), surroundings, [&](std::size_t i, const RadiusBound& bound) {

@@ -107,7 +107,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t first, std::span<const FoundStar> stars) {
         const auto surroundings = [&](std::size_t i) {
-          return Surroundings{queries[first + i].point, queries[first + i].neighbours};
+          return PointAndNeighbours{queries[first + i].point, queries[first + i].neighbours};
         };
         bounder.for_each(stars.size(), surroundings, [&](std::size_t i, const RadiusBound& bound) {
           const StarQuery& query = queries[first + i];

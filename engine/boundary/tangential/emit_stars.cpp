@@ -104,8 +104,8 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
         open.add_vertex({.end = end(i), .radius = star.link[i].radius, .consistency = consistencies[i]});
     } else if (is_any_inconsistent(consistencies)) {
       const auto around = [&](Scale scale) {
-        return StarSurroundings{radii.around(p).within(star.bound.at(scale) * distance),
-                                radii.surface_around(p)};
+        return WedgeSurroundings{radii.around(p).within(star.bound.at(scale) * distance),
+                                 radii.surface_around(p)};
       };
       add_wedges({loop_point_of(tile, p), rows[p], distance}, star, consistencies, around, end, config,
                  wedges);

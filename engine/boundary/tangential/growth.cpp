@@ -74,7 +74,7 @@ std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
     const OpenStar& open = points_[s];
     const auto link = vertices_.subspan(open.place.begin, star.size());
     const auto around = [&](Scale scale) {
-      return StarSurroundings{open.sampling_radius[static_cast<std::size_t>(scale)], open.surface};
+      return WedgeSurroundings{open.sampling_radius[static_cast<std::size_t>(scale)], open.surface};
     };
     add_wedges(
         {open.point, row(s), open.distance}, star, std::span<const Consistency>(stars_.consistencies_of(s)),

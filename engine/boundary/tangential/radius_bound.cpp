@@ -52,7 +52,7 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
 
 void RadiusBounder::find() {
   std::size_t most = 0;
-  for (const Surroundings& p : points_) most = std::max(most, p.neighbours.size() + 1);
+  for (const PointAndNeighbours& p : points_) most = std::max(most, p.neighbours.size() + 1);
   if (medians_.size() < most) {
     medians_.resize(most);
     spreads_.resize(most);

@@ -23,7 +23,7 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
                                               const TangentialConfig& config);
 
 // A point and its neighbours, by their places among the samplings.
-struct Surroundings {
+struct PointAndNeighbours {
   LocalIndex point;
   std::span<const LocalIndex> neighbours;
 };
@@ -53,7 +53,7 @@ class RadiusBounder {
 
   std::span<const Sampling> samplings_;
   TangentialConfig config_;
-  std::vector<Surroundings> points_;
+  std::vector<PointAndNeighbours> points_;
   std::vector<Batch<double>> medians_, spreads_;
   std::array<RadiusBound, kBatchSize> bounds_;
 };

@@ -51,7 +51,7 @@ struct StarPoint {
 };
 
 // What lies around the point of a star.
-struct StarSurroundings {
+struct WedgeSurroundings {
   double sampling_radius;  // at the scale of a wedge
   float surface;           // mean surface share of the point's neighbours, [0, 1]
 };
@@ -62,13 +62,13 @@ struct LinkEnd {
   double length;  // from the star's point
 };
 
-// Adds the wedges of a star at both scales. around(scale): its `StarSurroundings`, looked up at most once for
-// each scale; end(i): link vertex i.
+// Adds the wedges of a star at both scales. around(scale): its `WedgeSurroundings`, looked up at most once
+// for each scale; end(i): link vertex i.
 template <class Name, class Around, class End>
 void add_wedges(const StarPoint& point, const Star<Name>& star, std::span<const Consistency> consistencies,
                 Around&& around, End&& end, const TangentialConfig& config, std::vector<Wedge>& wedges) {
   for (const Scale scale : kScales) {
-    std::optional<StarSurroundings> here;
+    std::optional<WedgeSurroundings> here;
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
       if (!here) here = around(scale);
       const LinkEnd from = end(first), to = end(last);

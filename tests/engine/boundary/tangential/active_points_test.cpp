@@ -60,7 +60,7 @@ std::vector<PlainStar> measured_stars(const EvaluatedCloud& evaluated) {
       .for_each(
           stars.size(),
           [&](std::size_t p) {
-            return Surroundings{static_cast<LocalIndex>(p), evaluated.rows[p]};
+            return PointAndNeighbours{static_cast<LocalIndex>(p), evaluated.rows[p]};
           },
           [&](std::size_t p, const RadiusBound& bound) { stars[p].bound = bound; });
   return stars;

@@ -27,7 +27,7 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const Surroundings& around) {
+RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const PointAndNeighbours& around) {
   std::vector<double> medians, spreads;
   const auto add = [&](LocalIndex q) {
     if (samplings[q].median_radius == 0) return;
@@ -103,7 +103,7 @@ TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batc
       if (random.chance(0.2)) s.median_radius = s.spread = 0;  // large triangles only
     }
     std::vector<std::vector<LocalIndex>> neighbours;
-    std::vector<Surroundings> all;
+    std::vector<PointAndNeighbours> all;
     const auto points = static_cast<std::size_t>(random.whole(1, 20));
     for (std::size_t i = 0; i < points; ++i) {
       auto p = static_cast<LocalIndex>(random.whole(0, 199));

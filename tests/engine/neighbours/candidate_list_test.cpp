@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The candidates of a query in single precision: none is missed, and an order that rounding may decide is
 // marked as ambiguous.
-#include "engine/neighbours/candidates.hpp"
+#include "engine/neighbours/candidate_list.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/neighbours/candidates.cpp"
+#define HWY_TARGET_INCLUDE "engine/neighbours/candidate_list.cpp"
 // Each target includes what follows foreach_target.h.
 // clang-format off
-#include "engine/neighbours/candidates.hpp"
+#include "engine/neighbours/candidate_list.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
 #include "engine/simd/compress-inl.hpp"
