@@ -14,7 +14,7 @@
 #include "engine/bucket/cell_index.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/split.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/loops/measure_loop.hpp"
 #include "engine/neighbours/block_search.hpp"

@@ -3,7 +3,7 @@
 // two files for bench/accuracy/calibrate.py, one has the loops as `lacuna-bench evaluate` reads them. The
 // other has their numbers, in the same order.
 #include "engine/boundary/tangential/tangential_boundary.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/pipeline_steps.hpp"
 #include "engine/run/job.hpp"
 #include "engine/run/progress.hpp"

@@ -12,10 +12,10 @@ Consumers::Consumers(const Level& level, bool keeps_outputs, Job& job)
     : method(boundary_method(level.store.tiling(), job)) {
   all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });
   if (level.number > 0) return;
-  const OutputConfig& wanted = job.config.output;
+  const ResultsConfig& wanted = job.config.results;
   all.push_back(emit_candidates);
   if (wanted.points) all.push_back(emit_point_results);
-  if (wanted.vdb) all.push_back(emit_probabilities);
+  if (wanted.voxels) all.push_back(emit_probabilities);
   if (wanted.sample_points > 0) {
     sample.emplace(static_cast<std::uint64_t>(wanted.sample_points), keeps_outputs);
     all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { sample->emit(tile, output); });

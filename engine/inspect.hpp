@@ -2,7 +2,7 @@
 // The first steps of a run alone: what is known of a scan once its points are counted.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/progress.hpp"

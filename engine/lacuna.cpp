@@ -11,8 +11,8 @@ namespace lacuna {
 
 Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
   Config config = given;
-  config.output.sample_points = 0;
-  config.output.vdb = false;
+  config.results.sample_points = 0;
+  config.results.voxels = false;
   const ScratchPlace scratch(scan, config.run);
   NoProgress silence;
   const std::unique_ptr<Detection> detection =
@@ -22,7 +22,7 @@ Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
   holes.summary = detection->summary;
   holes.loops.reserve(detection->loops.size());
   for (std::size_t i = 0; i < detection->loops.size(); ++i) holes.loops.push_back(detection->read_loop(i));
-  if (config.output.points) {
+  if (config.results.points) {
     holes.points.reserve(holes.summary.counts.points);
     detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {
       holes.points.insert(holes.points.end(), block.begin(), block.end());

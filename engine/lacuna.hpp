@@ -5,16 +5,16 @@
 // - Points in memory: `find_holes`, below.
 // - A scan larger than memory: derive from `PointSource` (engine/model/points.hpp), and call `detect`
 //   (engine/pipeline.hpp). It returns the same results as streams (engine/model/detection.hpp).
-// - Parameters: `Config` (engine/config.hpp), one struct per stage with its defaults. `read_config` reads
-// them
-//   from a file, `parameters` lists them by name.
+// - Parameters: `Config` (engine/config/config.hpp), one struct per stage with its defaults. `parameters` lists
+//   them by name, `read_config` (engine/config/config_file.hpp) reads them from a file.
 // - Errors: `Error` (engine/run/error.hpp), one line of text for the user.
 //
 // Results are the same bytes for every number of threads and every memory limit. They are those of the
 // program, which calls the same functions. Source of the method: docs/method.md.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
+#include "engine/config/config_file.hpp"
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
@@ -30,7 +30,7 @@ namespace lacuna {
 // All that a run has found, in memory. A point's id is its index in the input.
 struct Holes {
   std::vector<ReportedLoop> loops;  // in order of (first id, length, ids): holes and outer boundaries
-  std::vector<PointResult> points;  // one per point of the input, in its order; only with `output.points`
+  std::vector<PointResult> points;  // one per point of the input, in its order; only with `results.points`
   Summary summary;                  // counts, bounds, and the parameters in effect
 };
 
@@ -59,7 +59,7 @@ LACUNA_API Holes find_holes(const PointArray& points, const PointArray& normals,
                             Progress* progress = nullptr);
 
 // Finds the loops of any source. It may be larger than memory where its loops are not, and where
-// `output.points` is off.
+// `results.points` is off.
 LACUNA_API Holes find_holes(PointSource& scan, const Config& config = {}, Progress* progress = nullptr);
 
 }  // namespace lacuna

@@ -189,8 +189,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
                     .on_loops = std::move(on_loops),
                     .coherent = std::move(coherent),
                     .boundary_candidates = std::move(boundary_candidates)};
-  if (config.output.points) findings.points.emplace(outputs, first.survey.points, store, job);
-  if (config.output.vdb)
+  if (config.results.points) findings.points.emplace(outputs, first.survey.points, store, job);
+  if (config.results.voxels)
     findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
                                                       findings.summary.strays.rest, store, job));
   if (consumers.sample)

@@ -2,7 +2,7 @@
 // The whole method, from a scan to its holes, in bounded memory.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"

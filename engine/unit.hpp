@@ -7,7 +7,7 @@
 // missing.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/progress.hpp"
 

@@ -103,14 +103,14 @@ class PointArrays {
 
 // One value of each loop's measures.
 template <class Value, class Of>
-py::array_t<Value> measures(const std::vector<LoopMeasures>& loops, Of&& of) {
+py::array_t<Value> measures(const std::vector<io::ExplainedLoop>& loops, Of&& of) {
   py::array_t<Value> values = column<Value>(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i)
     values.mutable_at(static_cast<py::ssize_t>(i)) = of(loops[i]);
   return values;
 }
 template <class Of>
-py::array_t<double> vectors(const std::vector<LoopMeasures>& loops, Of&& of) {
+py::array_t<double> vectors(const std::vector<io::ExplainedLoop>& loops, Of&& of) {
   py::array_t<double> values = table<double>(loops.size(), 3);
   for (std::size_t i = 0; i < loops.size(); ++i) store(of(loops[i]), values.mutable_data() + 3 * i);
   return values;
@@ -137,8 +137,9 @@ io::ScanArrays scan_of(const py::dict& columns) {
   return scan;
 }
 
-py::dict loops_of(const Detection& detection) {
-  const std::vector<LoopMeasures>& loops = detection.loops;
+py::dict loops_of(const io::ExplainedDetection& detection) {
+  std::vector<io::ExplainedLoop> loops;
+  for (std::size_t i = 0; i < detection.loops.size(); ++i) loops.push_back(detection.loop(i));
   py::array_t<std::int64_t> offsets = column<std::int64_t>(loops.size() + 1);
   offsets.mutable_at(0) = 0;
   std::size_t points = 0;
@@ -162,7 +163,7 @@ py::dict loops_of(const Detection& detection) {
       });
     }
   }
-  using M = LoopMeasures;
+  using M = io::ExplainedLoop;
   py::dict all;
   all["is_outer"] = measures<bool>(loops, [](const M& m) { return m.kind == LoopKind::kOuter; });
   all["confidence"] = measures<double>(loops, [](const M& m) { return m.track.confidence; });
@@ -177,9 +178,9 @@ py::dict loops_of(const Detection& detection) {
   all["mean_probability"] = measures<double>(loops, [](const M& m) { return m.mean_probability; });
   all["persistence"] = measures<double>(loops, [](const M& m) { return m.track.persistence; });
   all["first_scale"] = measures<double>(loops, [](const M& m) { return m.track.first_scale; });
-  py::array_t<double> shares = table<double>(loops.size(), kCauses);
+  py::array_t<double> shares = table<double>(loops.size(), io::kCauses);
   for (std::size_t i = 0; i < loops.size(); ++i)
-    std::ranges::copy(loops[i].cause.shares, shares.mutable_data() + kCauses * i);
+    std::ranges::copy(loops[i].cause.shares, shares.mutable_data() + io::kCauses * i);
   all["cause_shares"] = shares;
   all["hidden_by"] = vectors(loops, [](const M& m) { return m.cause.hidden_by; });
   all["last_scale"] = measures<double>(loops, [](const M& m) { return m.track.last_scale; });

@@ -4,6 +4,7 @@
 
 #include "engine/model/detection.hpp"
 #include "io/scan/scan_arrays.hpp"
+#include "io/stations/cause.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -16,7 +17,7 @@ io::ScanArrays scan_of(const pybind11::dict& columns);
 
 // The reported loops: one array for each measure; `offsets`, `ids` and `xyz` of their points, one loop after
 // the other.
-pybind11::dict loops_of(const Detection& detection);
+pybind11::dict loops_of(const io::ExplainedDetection& detection);
 
 // One row for each point of the input: probability, criteria, boundary, coherent, loop, normal.
 pybind11::dict points_of(const Detection& detection);

@@ -30,7 +30,7 @@ namespace {
 
 std::unique_ptr<Found> find_in_arrays(const py::dict& columns, const py::dict& parameters,
                                       const py::object& progress) {
-  Config config;
+  io::FilesConfig config;
   set_parameters(parameters, config);
   std::vector<io::ScanInput> inputs;
   inputs.emplace_back("arrays", scan_of(columns));
@@ -39,7 +39,7 @@ std::unique_ptr<Found> find_in_arrays(const py::dict& columns, const py::dict& p
 
 std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const py::dict& parameters,
                                      const py::object& progress) {
-  Config config;
+  io::FilesConfig config;
   set_parameters(parameters, config);
   const io::ReadOptions options{.columns = config.input.columns,
                                 .memory = Memory::share(config.run.memory_limit).reading};
@@ -48,7 +48,7 @@ std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const p
 
 // Names, defaults and what is allowed, of all parameters.
 py::list list_parameters() {
-  Config config;
+  io::FilesConfig config;
   py::list all;
   for (const Parameter& parameter : parameters(config)) {
     py::dict one;
@@ -63,7 +63,7 @@ py::list list_parameters() {
 }
 
 std::vector<fs::path> save(Found& found, const fs::path& folder, const py::dict& parameters, bool overwrite) {
-  Config config = found.config;
+  io::FilesConfig config = found.config;
   set_parameters(parameters, config);
   const py::gil_scoped_release unlocked;
   return io::write_results(*found.detection, *found.scan, config, folder,

@@ -150,7 +150,7 @@ void run_watched(Work work, WatchedProgress& progress, const py::object& callbac
 
 }  // namespace
 
-void set_parameters(const py::dict& values, Config& config) {
+void set_parameters(const py::dict& values, io::FilesConfig& config) {
   const std::vector<Parameter> all = parameters(config);
   for (const auto& [key, value] : values) {
     const auto name = key.cast<std::string>();
@@ -160,7 +160,7 @@ void set_parameters(const py::dict& values, Config& config) {
   }
 }
 
-std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, py::object arrays,
+std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig config, py::object arrays,
                             const py::object& progress) {
   auto found = std::make_unique<Found>();
   found->config = with_min_hole(config);
@@ -175,7 +175,8 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, py
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
-        found->detection = detect(*found->scan, config, found->scratch->path(), watched);
+        found->detection.emplace(
+            io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));

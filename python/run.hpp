@@ -2,12 +2,13 @@
 // A run of the engine for Python: its scan, its parameters, and what it has found.
 #pragma once
 
-#include "engine/config.hpp"
-#include "engine/model/detection.hpp"
 #include "engine/store/scratch_place.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,21 +17,21 @@
 namespace lacuna::python {
 
 // Sets parameters from a dict of their keys and values, both texts as on the command line. Throws `Error`.
-void set_parameters(const pybind11::dict& values, Config& config);
+void set_parameters(const pybind11::dict& values, io::FilesConfig& config);
 
 struct Found {
-  Config config;
+  io::FilesConfig config;
   pybind11::object arrays;  // that the scan reads
   std::unique_ptr<io::FileScan> scan;
   std::unique_ptr<ScratchPlace> scratch;
-  std::unique_ptr<Detection> detection;  // reads the scratch
+  std::optional<io::ExplainedDetection> detection;  // reads the scratch
   std::vector<std::string> warnings;
 };
 
 // Runs the engine on a thread of its own, without Python's lock. Meanwhile this thread calls progress(stage,
 // share, seconds left) ten times a second, unless it is None, and Python's handlers of signals. A callback
 // that returns False, or an exception of either, ends the run. Throws `Error`, or that exception.
-std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, Config config, pybind11::object arrays,
-                            const pybind11::object& progress);
+std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig config,
+                            pybind11::object arrays, const pybind11::object& progress);
 
 }  // namespace lacuna::python

@@ -2,7 +2,7 @@
 // evaluate: normals and criteria of a tile's points (paper, 4.2 to 4.6).
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 

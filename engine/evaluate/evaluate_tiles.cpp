@@ -180,7 +180,7 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     }
     const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
-    std::vector<double> values(job.config.output.points ? points.owned * criteria().size() : 0);
+    std::vector<double> values(job.config.results.points ? points.owned * criteria().size() : 0);
     const std::vector<Evaluation> evaluations =
         evaluate(points, neighbourhoods, normals, job.config.normals, job.config.criteria, values);
 

@@ -2,7 +2,7 @@
 // Neighbourhoods of a given radius: its length, how many points they hold, and whether these fit in memory.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
 

@@ -2,7 +2,7 @@
 // measure_loops: what a user sorts and filters the found loops by.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/loops/loops.hpp"
 #include "engine/model/loop.hpp"
 #include "engine/run/job.hpp"

@@ -132,18 +132,17 @@ using Stream = std::function<void(const std::function<void(Element...)>& visit)>
 // Streams are read from disk: they throw `Error`. Visits come from the calling thread.
 struct Detection {
   Summary summary;
-  std::vector<LoopMeasures> loops;       // reported ones, in order
-  std::vector<StationSummary> stations;  // that are known; the engine knows none
+  std::vector<LoopMeasures> loops;  // reported ones, in order
   // The points of one of these loops, in its order. It may be larger than memory.
   std::function<void(std::size_t loop, const std::function<void(const LoopPoint&)>& visit)>
       for_each_loop_point;
   Stream<const BoundaryPoint&> for_each_boundary_point;  // in ascending id
-  // Blocks of consecutive points of the input, in ascending id, bounded in size; only with output.points.
+  // Blocks of consecutive points of the input, in ascending id, bounded in size; only with results.points.
   Stream<PointId, std::span<const PointResult>> for_each_result_block;
-  // In ascending id, spread evenly over the surface: at most output.sample_points, none without it.
+  // In ascending id, spread evenly over the surface: at most results.sample_points, none without it.
   std::uint64_t sampled_points = 0;
   Stream<const SampledPoint&> for_each_sampled_point = [](const auto&) {};
-  // Only with output.vdb. Each voxel with points once, in an order that depends on the scan alone.
+  // Only with results.voxels. Each voxel with points once, in an order that depends on the scan alone.
   ProbabilityLattice probability_lattice;
   Stream<const ProbabilityVoxel&> for_each_probability_voxel;
 

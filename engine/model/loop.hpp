@@ -2,7 +2,6 @@
 // Loops: what the method returns for each hole.
 #pragma once
 
-#include "engine/model/cause.hpp"
 #include "engine/model/ids.hpp"
 
 #include <cstdint>
@@ -52,7 +51,6 @@ struct LoopMeasures {
   double planarity = 0;  // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;
   LoopTrack track;
-  LoopCause cause;
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
 };
 

@@ -27,9 +27,9 @@ struct Findings {
   LoopRows on_loops;
   RowSet coherent;                               // candidates that are (paper, 5.1)
   RowSet boundary_candidates;                    // candidates that belong to the boundary
-  std::optional<PointResults> points;            // only with output.points
-  std::optional<ProbabilityGrid> probabilities;  // only with output.vdb
-  std::optional<Column<StoredSample>> sample;    // only with output.sample_points
+  std::optional<PointResults> points;            // only with results.points
+  std::optional<ProbabilityGrid> probabilities;  // only with results.voxels
+  std::optional<Column<StoredSample>> sample;    // only with results.sample_points
   std::optional<RowSet> opposed_normals;         // rows whose normal is to be turned round
 };
 

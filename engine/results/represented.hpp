@@ -11,7 +11,7 @@
 namespace lacuna {
 
 // The detection on the representatives, with result blocks of all points of the input. Everything else is of
-// representatives alone. Cost: one sort of all points on disk when the blocks are read. With output.points
+// representatives alone. Cost: one sort of all points on disk when the blocks are read. With results.points
 // only.
 std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
                                           AppendLists<Represented> represented, const Job& job);

@@ -2,7 +2,7 @@
 // What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/progress.hpp"

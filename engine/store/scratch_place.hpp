@@ -2,7 +2,7 @@
 // Where a run in another's process puts aside what does not fit in its memory.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
 #include "engine/store/temporary_folder.hpp"
 

@@ -30,7 +30,7 @@ struct Level {
   TileStore store;                   // distinct points
   std::string evaluation;            // what its tiles are evaluated from; empty: no workspace is kept
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
-  // Which point represents which. Only for a first level on a lattice, with output.points.
+  // Which point represents which. Only for a first level on a lattice, with results.points.
   std::optional<AppendLists<Represented>> represented;
 
   std::uint64_t tile_points() const { return edge > 0 ? join.tile_points : guide.tile_points; }

@@ -88,7 +88,7 @@ double edge_above(const LengthBins& distances, double length) {
 Level thin_to_first(const Level& all, LevelPlace place, Job& job) {
   Phase phase(job, "thin", all.store.tiling().points());
   const double edge = first_edge(job.config.scale);
-  ChosenPoints chosen = choose_points(all.store, edge, job.config.output.points ? all.survey.ids : 0, job);
+  ChosenPoints chosen = choose_points(all.store, edge, job.config.results.points ? all.survey.ids : 0, job);
   refuse_too_coarse(chosen.count, all.survey, job.config);
   return level_of(std::move(chosen), all, 0, edge, std::move(place), job);
 }

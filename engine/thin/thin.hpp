@@ -2,7 +2,7 @@
 // thin: a level on a lattice, made from the points of the level below, without the input.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/length_bins.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"

@@ -44,7 +44,7 @@ std::string joined(const Lines& lines) {
 }
 
 bool is_of_input(const Parameter& p) {
-  const std::set<std::string_view> sections = {"input", "scale", "neighbourhood", "criteria"};
+  const std::set<std::string_view> sections = {"scale", "neighbourhood", "criteria"};
   return sections.contains(p.section) || p.key == "crease_threshold";
 }
 
@@ -179,10 +179,8 @@ StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   if (!part)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  StoredRun run{.names = split(part->records<char>("inputs", 0), '\0'), .config = {}};
-  const std::vector<char> text = part->records<char>("config", 0);
-  read_config_text({text.data(), text.size()}, folder / kRun, run.config);
-  return run;
+  const std::vector<char> note = part->records<char>("note", 0);
+  return {.names = split(part->records<char>("inputs", 0), '\0'), .note = {note.begin(), note.end()}};
 }
 
 fs::path level_path(const fs::path& folder, std::size_t level) {
@@ -247,12 +245,10 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
   if (!before) {
     std::string inputs;
     for (const std::string& name : scan.names()) inputs += name + '\0';
-    Config config = given;
-    config.run.workspace.clear();  // which may be another path for another machine
     PartWriter part(folder / kRun);
     for (const auto& [stream, text] : {std::pair<std::string_view, std::string>{"made from", joined(now)},
                                        {"inputs", inputs},
-                                       {"config", print_config(config)}})
+                                       {"note", given.run.note}})
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }

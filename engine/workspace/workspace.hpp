@@ -5,7 +5,7 @@
 // so the names of the parts are all that several processes share.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
 
 #include <cstddef>
@@ -45,7 +45,7 @@ enum class WorkspaceNote {
 // What a workspace knows of its run, so that another process can do a part of it.
 struct StoredRun {
   std::vector<std::string> names;  // `PointSource::names`
-  Config config;
+  std::string note;                // as `RunConfig::note` was
 };
 // Throws `Error` where the folder is no workspace.
 StoredRun read_run(const std::filesystem::path& folder);

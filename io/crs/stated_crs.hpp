@@ -2,7 +2,7 @@
 // The coordinate reference system and the unit that the user states, `--crs` and `--unit`.
 #pragma once
 
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 
 #include <string>
 

@@ -96,7 +96,7 @@ void put_crs(const FileScan& scan, Json& json) {
   json["unit"] = scan.length_unit();
 }
 
-Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted) {
+Json parameter_values(FilesConfig config, const std::function<bool(std::string_view section)>& is_wanted) {
   Json sections = Json::object();
   for (const Parameter& parameter : parameters(config)) {
     if (!is_wanted(parameter.section)) continue;

@@ -2,10 +2,11 @@
 // What the results in JSON share.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/row_filter.hpp"
+#include "io/stations/cause.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -44,6 +45,6 @@ Json counts_of(const FilteredOut& filtered);  // by filter
 // The keys `crs`, null where there is none, and `unit`, empty where it is not known.
 void put_crs(const FileScan& scan, Json& json);
 // The values of the sections that `is_wanted` names, by section and key.
-Json parameter_values(Config config, const std::function<bool(std::string_view section)>& is_wanted);
+Json parameter_values(FilesConfig config, const std::function<bool(std::string_view section)>& is_wanted);
 
 }  // namespace lacuna::io

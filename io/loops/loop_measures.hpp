@@ -3,7 +3,7 @@
 // own list, which its schema describes.
 #pragma once
 
-#include "engine/model/loop.hpp"
+#include "io/stations/cause.hpp"
 
 #include <array>
 #include <string_view>
@@ -13,26 +13,26 @@ namespace lacuna::io {
 struct LoopMeasure {
   std::string_view name;
   std::string_view short_name;  // at most 10 characters: a column of a Shapefile
-  double (*of)(const LoopMeasures& loop);
+  double (*of)(const ExplainedLoop& loop);
   bool is_count = false;  // a whole number
 };
 
 template <Cause cause>
-double share_of(const LoopMeasures& loop) {
+double share_of(const ExplainedLoop& loop) {
   return loop.cause.share(cause);
 }
 
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
-    {"points", "points", [](const LoopMeasures& loop) { return static_cast<double>(loop.points); }, true},
-    {"confidence", "confidence", [](const LoopMeasures& loop) { return loop.track.confidence; }},
-    {"persistence", "persist", [](const LoopMeasures& loop) { return loop.track.persistence; }},
-    {"first_scale", "first_scal", [](const LoopMeasures& loop) { return loop.track.first_scale; }},
-    {"last_scale", "last_scale", [](const LoopMeasures& loop) { return loop.track.last_scale; }},
-    {"perimeter", "perimeter", [](const LoopMeasures& loop) { return loop.perimeter; }},
-    {"area", "area", [](const LoopMeasures& loop) { return loop.area; }},
-    {"diameter", "diameter", [](const LoopMeasures& loop) { return loop.diameter; }},
-    {"planarity", "planarity", [](const LoopMeasures& loop) { return loop.planarity; }},
-    {"mean_probability", "mean_prob", [](const LoopMeasures& loop) { return loop.mean_probability; }},
+    {"points", "points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
+    {"confidence", "confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
+    {"persistence", "persist", [](const ExplainedLoop& loop) { return loop.track.persistence; }},
+    {"first_scale", "first_scal", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
+    {"last_scale", "last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
+    {"perimeter", "perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
+    {"area", "area", [](const ExplainedLoop& loop) { return loop.area; }},
+    {"diameter", "diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
+    {"planarity", "planarity", [](const ExplainedLoop& loop) { return loop.planarity; }},
+    {"mean_probability", "mean_prob", [](const ExplainedLoop& loop) { return loop.mean_probability; }},
     {"hidden", "hidden", share_of<Cause::kHidden>},
     {"opening", "opening", share_of<Cause::kOpening>},
     {"out_of_view", "out_view", share_of<Cause::kOutOfView>},

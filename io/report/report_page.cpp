@@ -62,7 +62,7 @@ void write_bytes(std::string_view id, const Items& items, Encode&& encode, Outpu
 
 // Keys of the run that the user has changed.
 Json changed_parameters(const Json& parameters) {
-  const Json defaults = parameter_values({}, [](std::string_view) { return true; });
+  const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
   Json changed = Json::array();
   for (const auto& [section, values] : parameters.items()) {
     for (const auto& [key, value] : values.items()) {
@@ -121,28 +121,28 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
   const auto add = [&](std::string_view name, auto&& value_of) {
     Json& column = json[std::string(name)] = Json::array();
-    for (const LoopMeasures& loop : loops.measures) column.push_back(value_of(loop));
+    for (const ExplainedLoop& loop : loops.measures) column.push_back(value_of(loop));
   };
-  add("kind", [](const LoopMeasures& loop) { return Json(name_of(loop.kind)); });
+  add("kind", [](const ExplainedLoop& loop) { return Json(name_of(loop.kind)); });
   for (const LoopMeasure& measure : kLoopMeasures)
-    add(measure.name, [&](const LoopMeasures& loop) {
+    add(measure.name, [&](const ExplainedLoop& loop) {
       return measure.is_count ? Json(loop.points) : Json(rounded(measure.of(loop)));
     });
-  add("centroid", [decimals](const LoopMeasures& loop) {
+  add("centroid", [decimals](const ExplainedLoop& loop) {
     return list(loop.centroid.unaryExpr([decimals](double value) {
       return std::isfinite(value) ? reread(value, std::chars_format::fixed, decimals) : value;
     }));
   });
-  add("normal", [](const LoopMeasures& loop) { return list(loop.normal.unaryExpr(&rounded)); });
+  add("normal", [](const ExplainedLoop& loop) { return list(loop.normal.unaryExpr(&rounded)); });
   add("cause",
-      [](const LoopMeasures& loop) { return loop.cause.name().empty() ? Json() : Json(loop.cause.name()); });
-  add("hidden_by", [](const LoopMeasures& loop) {
+      [](const ExplainedLoop& loop) { return loop.cause.name().empty() ? Json() : Json(loop.cause.name()); });
+  add("hidden_by", [](const ExplainedLoop& loop) {
     return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_by);
   });
-  add("hidden_from_place", [](const LoopMeasures& loop) {
+  add("hidden_from_place", [](const ExplainedLoop& loop) {
     return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_from_place);
   });
-  add("hidden_from", [](const LoopMeasures& loop) { return Json(loop.cause.hidden_from); });
+  add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
   json["first"] = loops.first;
   return json;
 }

@@ -46,22 +46,22 @@ LoopCause cause_of(const Json& record) {
   return cause;
 }
 
-LoopMeasures measures_of(const Json& record) {
-  return {.kind = record.at("kind") == name_of(LoopKind::kHole) ? LoopKind::kHole : LoopKind::kOuter,
-          .points = record.at("points").get<std::uint64_t>(),
-          .perimeter = number(record.at("perimeter")),
-          .area = number(record.at("area")),
-          .diameter = number(record.at("diameter")),
-          .centroid = vector(record.at("centroid")),
-          .normal = vector(record.at("normal")),
-          .planarity = number(record.at("planarity")),
-          .mean_probability = number(record.at("mean_probability")),
-          .track = {.confidence = number(record.at("confidence")),
-                    .persistence = number(record.at("persistence")),
-                    .first_scale = number(record.at("first_scale")),
-                    .last_scale = number(record.at("last_scale"))},
-          .cause = cause_of(record.value("cause", Json())),
-          .tiles = record.at("tiles").get<std::uint64_t>()};
+ExplainedLoop measures_of(const Json& record) {
+  return {{.kind = record.at("kind") == name_of(LoopKind::kHole) ? LoopKind::kHole : LoopKind::kOuter,
+           .points = record.at("points").get<std::uint64_t>(),
+           .perimeter = number(record.at("perimeter")),
+           .area = number(record.at("area")),
+           .diameter = number(record.at("diameter")),
+           .centroid = vector(record.at("centroid")),
+           .normal = vector(record.at("normal")),
+           .planarity = number(record.at("planarity")),
+           .mean_probability = number(record.at("mean_probability")),
+           .track = {.confidence = number(record.at("confidence")),
+                     .persistence = number(record.at("persistence")),
+                     .first_scale = number(record.at("first_scale")),
+                     .last_scale = number(record.at("last_scale"))},
+           .tiles = record.at("tiles").get<std::uint64_t>()},
+          cause_of(record.value("cause", Json()))};
 }
 
 // The head of holes.json and the measures of all loops; one loop is in memory at a time, without its points.
@@ -152,7 +152,7 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
 }
 
 // Whether each loop is shown: those with the largest perimeters, until a limit.
-std::vector<bool> choose_loops(const std::vector<LoopMeasures>& loops, const SceneLimits& limits) {
+std::vector<bool> choose_loops(const std::vector<ExplainedLoop>& loops, const SceneLimits& limits) {
   std::vector<std::size_t> order(loops.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -4,6 +4,7 @@
 
 #include "engine/model/loop.hpp"
 #include "io/loops/json.hpp"
+#include "io/stations/cause.hpp"
 
 #include <array>
 #include <cstddef>
@@ -38,9 +39,9 @@ struct Scene {
   } points;
 
   struct Loops {
-    std::vector<std::uint64_t> ids;      // as in holes.json
-    std::vector<LoopMeasures> measures;  // of each
-    std::vector<std::size_t> first;      // of its vertices; one more at the end
+    std::vector<std::uint64_t> ids;       // as in holes.json
+    std::vector<ExplainedLoop> measures;  // of each
+    std::vector<std::size_t> first;       // of its vertices; one more at the end
     std::vector<Eigen::Vector3f> vertices;
     std::uint64_t all = 0;  // reported by the run
   } loops;

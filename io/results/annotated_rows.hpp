@@ -2,8 +2,8 @@
 // The annotated scan as rows of bytes: what the input has of each point, then its results.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
+#include "io/options/options.hpp"
 #include "io/rows/local_offset.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "io/scan/file_scan.hpp"

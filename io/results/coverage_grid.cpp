@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kBytesPerCell = 8;
 
-CoverageGrid empty_grid(const Detection& detection, const Config& config) {
+CoverageGrid empty_grid(const Detection& detection, const FilesConfig& config) {
   CoverageGrid grid{.edge = config.output.coverage};
   const Eigen::AlignedBox3d& box = detection.summary.strays.rest;
   if (box.isEmpty()) return grid;
@@ -107,7 +107,7 @@ void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid
   }
 }
 
-CoverageGrid cover(const Detection& detection, const FileScan& scan, const Config& config) {
+CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config) {
   CoverageGrid grid = empty_grid(detection, config);
   if (grid.size() == 0) return grid;
   count_points(scan, config.input, grid);

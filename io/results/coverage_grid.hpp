@@ -2,8 +2,8 @@
 // How much of a scan is covered, in square cells seen from above.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct CoverageGrid {
 // Reads every file once more. Holes on walls cover nothing from above. Where holes overlap, their sum counts,
 // up to 1. Throws `Error` where there would be more cells than the memory limit has space for. Memory: 8
 // bytes a cell. Cost: linear in points, and in the cells that holes cross.
-CoverageGrid cover(const Detection& detection, const FileScan& scan, const Config& config);
+CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config);
 
 // Adds the share of each cell within a closed polygon. Rows are cut into eight strips, and each strip's share
 // is exact along its middle.

@@ -128,7 +128,8 @@ void write_rows(const RowLists& lists, std::size_t list, std::size_t row_bytes, 
 
 }  // namespace
 
-void check_cut_outs(const FileScan& scan, const Config& config, const fs::path& folder, Overwrite overwrite) {
+void check_cut_outs(const FileScan& scan, const FilesConfig& config, const fs::path& folder,
+                    Overwrite overwrite) {
   const bool is_wanted = config.output.cut_outs > 0;
   const FileFormat format = joined_format(scan, config.output);
   if (is_wanted) check_subfolder(folder / kCutOutsFolder);
@@ -140,7 +141,7 @@ void check_cut_outs(const FileScan& scan, const Config& config, const fs::path& 
   });
 }
 
-void write_cut_outs(const Detection& detection, const FileScan& scan, const Config& config,
+void write_cut_outs(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                     const fs::path& folder, OutputSet& set, std::size_t most_holes) {
   const bool is_wanted = config.output.cut_outs > 0;
   const FileFormat format = joined_format(scan, config.output);

@@ -2,9 +2,9 @@
 // The cut-outs of a run: for each hole, the points of the scan around it as a file of their own.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/files/output_set.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstddef>
@@ -18,7 +18,7 @@ inline constexpr const char* kCutOutColumn = "lacuna_hole";
 
 // Throws `Error` where the cut-outs of the config cannot be written to `folder`, as far as headers and names
 // show it. Cheap: for before the work.
-void check_cut_outs(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
+void check_cut_outs(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                     Overwrite overwrite);
 
 // Adds `cut-outs/hole-12.ply` and so on to the set, one for each hole, by its index among the loops. Drops
@@ -33,7 +33,7 @@ void check_cut_outs(const FileScan& scan, const Config& config, const std::files
 // besides the scan. Memory: 400 bytes a hole, and an eighth of the memory limit in each pass. Cost: linear
 // in the points of the scan and in those that are written. The bytes do not depend on the passes. Throws
 // `Error`.
-void write_cut_outs(const Detection& detection, const FileScan& scan, const Config& config,
+void write_cut_outs(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                     const std::filesystem::path& folder, OutputSet& set,
                     std::size_t most_holes = std::size_t{1} << 14);
 

@@ -37,7 +37,7 @@ void check_gis_library() {
   check_gis_module(kUser);
 }
 
-void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
   const bool is_geojson = format == GisFormat::kGeoJson;
@@ -70,7 +70,8 @@ void write_loops_gis(const Detection& detection, const FileScan& scan, const Out
   }
 }
 
-void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+                    OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
   const CoverageGrid grid = cover(detection, scan, config);
   if (grid.size() == 0) return;  // GDAL makes no raster without cells

@@ -2,9 +2,9 @@
 // The results that lacuna_gis.so writes.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/files/output_file.hpp"
+#include "io/options/options.hpp"
 #include "io/results/loops_gis.hpp"
 #include "io/scan/file_scan.hpp"
 
@@ -16,10 +16,11 @@ void check_gis_library();
 // Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate
 // reference system and the file has none. It has one, too, where GIS will read metres as degrees. Throws
 // `Error`.
-void write_loops_gis(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out);
 
 // Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.
-void write_coverage(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+                    OutputFile& out);
 
 }  // namespace lacuna::io

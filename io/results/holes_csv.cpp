@@ -26,10 +26,10 @@ std::string_view table_header() {
   return header;
 }
 
-void write_table(const Detection& detection, OutputFile& out) {
+void write_table(const ExplainedDetection& detection, OutputFile& out) {
   out.write(std::string(table_header()) + "\n");
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
-    const LoopMeasures& loop = detection.loops[id];
+    const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
     for (const LoopMeasure& measure : kLoopMeasures) {
       if (measure.is_count) {

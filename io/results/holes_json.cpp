@@ -82,7 +82,7 @@ Json cause_json(const LoopCause& cause) {
   return json;
 }
 
-Json head(const Detection& detection, const FileScan& scan, const Config& config) {
+Json head(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config) {
   const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
   put_crs(scan, json);
@@ -119,8 +119,8 @@ void write_list(std::string_view key, OutputFile& out,
 }
 
 // Point by point: a loop may be larger than memory.
-void write_loop(std::size_t id, const Detection& detection, bool with_coordinates, OutputFile& out) {
-  const LoopMeasures& measures = detection.loops[id];
+void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_coordinates, OutputFile& out) {
+  const ExplainedLoop measures = detection.loop(id);
   const Json head = {{"id", id},
                      {"kind", name_of(measures.kind)},
                      {"confidence", measures.track.confidence},
@@ -153,7 +153,8 @@ void write_loop(std::size_t id, const Detection& detection, bool with_coordinate
 
 }  // namespace
 
-void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out) {
+void write_holes(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config,
+                 OutputFile& out) {
   std::string text = print(head(detection, scan, config), 2);
   text.resize(text.size() - 2);  // without its "\n}": the loops follow
   out.write(text);

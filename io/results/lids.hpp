@@ -2,9 +2,9 @@
 // The lids of holes, as meshes and as a table. io/lids/make_lid.hpp says what they are.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/files/output_file.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <filesystem>

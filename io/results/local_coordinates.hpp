@@ -3,8 +3,8 @@
 // relative to an offset.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
+#include "io/options/options.hpp"
 #include "io/rows/local_offset.hpp"
 #include "io/scan/file_scan.hpp"
 

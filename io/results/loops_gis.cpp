@@ -169,17 +169,18 @@ class LoopsWriter {
   }
 
   void put(std::size_t id, const ReportedLoop& loop, const Layer& layer) {
+    const ExplainedLoop explained = task_.detection.loop(id);
     OGRFeature feature(layer.layer->GetLayerDefn());
     // A Shapefile's field of 24 characters would keep only the first ones of longer numbers.
     const double most = task_.format == GisFormat::kShapefile ? 1e20 : HUGE_VAL;
     int field = 0;
     feature.SetField(field++, static_cast<GIntBig>(id));
     feature.SetField(field++, lacuna::name_of(loop.measures.kind));
-    const std::string cause(loop.measures.cause.name());
+    const std::string cause(explained.cause.name());
     cause.empty() ? feature.SetFieldNull(field++) : feature.SetField(field++, cause.c_str());
     feature.SetField(field++, task_.unit.c_str());
     for (const LoopMeasure& measure : kLoopMeasures) {
-      const double value = measure.of(loop.measures);
+      const double value = measure.of(explained);
       if (!std::isfinite(value) || std::abs(value) >= most) {
         feature.SetFieldNull(field++);
       } else if (measure.is_count) {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "engine/model/detection.hpp"
+#include "io/stations/cause.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a
 inline constexpr const char* kGisDescription = "loops of lacuna detect";
 
 struct GisTask {
-  const Detection& detection;
+  const ExplainedDetection& detection;
   GisFormat format;
   bool with_polygons;
   std::string unit;                                 // as FileScan::length_unit

@@ -10,7 +10,7 @@
 namespace lacuna::io {
 namespace {
 
-std::string head_of(std::size_t id, const LoopMeasures& loop) {
+std::string head_of(std::size_t id, const ExplainedLoop& loop) {
   const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
   std::string text = "\n";
   if (!loop.cause.name().empty()) text.append("# cause ").append(loop.cause.name()).append("\n");
@@ -25,11 +25,11 @@ std::string head_of(std::size_t id, const LoopMeasures& loop) {
 
 }  // namespace
 
-void write_loops_obj(const Detection& detection, OutputFile& out) {
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
   out.write(kObjMark);
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
-    const LoopMeasures& loop = detection.loops[id];
+    const ExplainedLoop loop = detection.loop(id);
     out.write(head_of(id, loop));
     std::string line;
     detection.for_each_loop_point(id, [&](const LoopPoint& point) {

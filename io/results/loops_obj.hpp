@@ -4,6 +4,7 @@
 
 #include "engine/model/detection.hpp"
 #include "io/files/output_file.hpp"
+#include "io/stations/cause.hpp"
 
 #include <string_view>
 
@@ -14,6 +15,6 @@ inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
 
 // For each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), its points
 // with all digits, and one closed polyline. Holds one loop in memory. Throws `Error`.
-void write_loops_obj(const Detection& detection, OutputFile& out);
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -71,7 +71,6 @@ std::string subfolder_of(const OutputConfig& config) {
 
 // Throws `Error` where two would have the same name.
 std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
-  if (!config.points) return {};
   if (!is_in_folder(config))
     return {{points_name(config), joined_format(scan, config), {0, scan.files().size()}}};
   std::vector<PointsFile> files;
@@ -87,6 +86,10 @@ std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& c
     files.push_back({std::move(name), format, {i, i + 1}});
   }
   return files;
+}
+
+std::vector<PointsFile> wanted_files(const FileScan& scan, const FilesConfig& config) {
+  return config.results.points ? points_files(scan, config.output) : std::vector<PointsFile>();
 }
 
 bool has_own_quality(const RowLayout& layout) {
@@ -207,41 +210,43 @@ std::string points_name(const OutputConfig& config) {
   return config.points_format == PointsFormat::kCsv ? "points.csv" : "points.ply";
 }
 
-void check_points(const FileScan& scan, const OutputConfig& config, const fs::path& folder,
+void check_points(const FileScan& scan, const FilesConfig& config, const fs::path& folder,
                   Overwrite overwrite) {
-  const std::vector<PointsFile> files = points_files(scan, config);
-  if (!files.empty() && is_in_folder(config)) check_subfolder(folder / kPointsFolder);
+  const OutputConfig& output = config.output;
+  const std::vector<PointsFile> files = wanted_files(scan, config);
+  if (!files.empty() && is_in_folder(output)) check_subfolder(folder / kPointsFolder);
   for (const PointsFile& file : files) {
-    written(file.format).form(plan_of(scan, config, file, {}));
-    const fs::path place = folder / subfolder_of(config) / file.name;
+    written(file.format).form(plan_of(scan, output, file, {}));
+    const fs::path place = folder / subfolder_of(output) / file.name;
     check_not_input(place, scan);
     check_output(place, written(file.format).mark, overwrite);
   }
-  for_each_earlier(folder, config, files,
+  for_each_earlier(folder, output, files,
                    [&](const std::string& subfolder, const std::string& name, const FileMark&) {
                      check_not_input(folder / subfolder / name, scan);
                    });
 }
 
-void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                   const fs::path& folder, OutputSet& set) {
-  const std::vector<PointsFile> files = points_files(scan, config);
-  for_each_earlier(folder, config, files,
+  const OutputConfig& output = config.output;
+  const std::vector<PointsFile> files = wanted_files(scan, config);
+  for_each_earlier(folder, output, files,
                    [&](const std::string& subfolder, const std::string& name, const FileMark& mark) {
                      set.drop_in(folder, subfolder, name, mark);
                    });
   if (files.empty()) return;
-  const LocalOffset offset = local_offset(detection, config);
+  const LocalOffset offset = local_offset(detection, output);
   std::unique_ptr<AnnotatedFile> open;
   std::size_t next = 0;
   const auto open_next = [&] {
     if (open) open->finish();
-    if (next == files.size()) fail_changed((folder / points_name(config)).string());
+    if (next == files.size()) fail_changed((folder / points_name(output)).string());
     const PointsFile& file = files[next++];
-    auto out = set.open_in(folder, subfolder_of(config), file.name, written(file.format).mark);
+    auto out = set.open_in(folder, subfolder_of(output), file.name, written(file.format).mark);
     const std::uint64_t rows =
         files.size() == 1 ? detection.summary.counts.points : scan.rows(file.files.first);
-    open = std::make_unique<AnnotatedFile>(plan_of(scan, config, file, offset), file.format, std::move(out),
+    open = std::make_unique<AnnotatedFile>(plan_of(scan, output, file, offset), file.format, std::move(out),
                                            rows);
   };
   open_next();
@@ -257,16 +262,14 @@ void write_points(const Detection& detection, const FileScan& scan, const Output
 }
 
 PointsBytes points_bytes(const FileScan& scan, const OutputConfig& config, std::uint64_t rows) {
-  OutputConfig wanted = config;
-  wanted.points = true;
   PointsBytes bytes;
   std::uint64_t left = rows;
-  const std::vector<PointsFile> files = points_files(scan, wanted);
+  const std::vector<PointsFile> files = points_files(scan, config);
   for (const PointsFile& file : files) {
     const bool is_last = &file == &files.back();
     const std::uint64_t own = is_last ? left : std::min(left, scan.rows(file.files.first));
     left -= own;
-    const PointsPlan plan = plan_of(scan, wanted, file, {});
+    const PointsPlan plan = plan_of(scan, config, file, {});
     const auto form = written(file.format).form(plan);
     std::uint64_t row_bytes = form->row_bytes() + bytes_of(plan.results);
     const bool is_certain = file.format == FileFormat::kPly || file.format == FileFormat::kLas;

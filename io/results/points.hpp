@@ -13,9 +13,9 @@
 // probability for MeshLab, unless the input has a `quality`. Each file is read once more.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/files/output_set.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstdint>
@@ -38,12 +38,12 @@ std::string points_name(const OutputConfig& config);
 // Throws `Error` where the annotated scan of the config cannot be written to `folder`, as far as headers and
 // names show it. Two files of the scan may have the same name, or a format may not hold its results. Cheap:
 // for before the work.
-void check_points(const FileScan& scan, const OutputConfig& config, const std::filesystem::path& folder,
+void check_points(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                   Overwrite overwrite);
 
 // Adds the annotated scan to the set, if the config wants it. Drops those of earlier runs. Memory: a batch of
 // one file at a time. Throws `Error`.
-void write_points(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                   const std::filesystem::path& folder, OutputSet& set);
 
 // What the annotated scan takes of the disk, for so many rows. Text and LAZ are a guess, and not in

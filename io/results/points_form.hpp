@@ -2,8 +2,8 @@
 // The points of files of a scan as a format has them. All of them, or any selection, become a file.
 #pragma once
 
-#include "engine/config.hpp"
 #include "io/files/output_file.hpp"
+#include "io/options/options.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/rows/local_offset.hpp"
 #include "io/scan/file_scan.hpp"

@@ -2,7 +2,7 @@
 // What the results of a run take of the disk.
 #pragma once
 
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct ResultBytes {
 // The bytes for a scan with so many rows, of which so many points are evaluated. `bounds` are those of the
 // scan without its strays; where they are not known, the raster is left out. The files of loops and of
 // boundary points, lids and cut-outs are left out: they depend on the holes that are found.
-ResultBytes result_bytes(const FileScan& scan, const Config& config, std::uint64_t rows, std::uint64_t points,
-                         const Eigen::AlignedBox3d& bounds = {});
+ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::uint64_t rows,
+                         std::uint64_t points, const Eigen::AlignedBox3d& bounds = {});
 
 }  // namespace lacuna::io

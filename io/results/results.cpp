@@ -27,15 +27,15 @@ namespace {
 struct ResultFile {
   std::string_view name;
   FileMark mark;
-  void (*write)(const Detection&, const FileScan&, const Config&, OutputFile&);
-  bool (*is_wanted)(const Config&);
+  void (*write)(const ExplainedDetection&, const FileScan&, const FilesConfig&, OutputFile&);
+  bool (*is_wanted)(const FilesConfig&);
   Writer writer = Writer::kThis;
   bool is_of_others = false;  // made of the other results, once these are complete
 };
 
-using D = const Detection&;
+using D = const ExplainedDetection&;
 using S = const FileScan&;
-using C = const Config&;
+using C = const FilesConfig&;
 bool always(C) {
   return true;
 }
@@ -55,7 +55,7 @@ ResultFile shapefile_part(std::string_view name) {
           Writer::kLibrary};
 }
 
-bool needs_gis_library(const Config& config) {
+bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
 }
 
@@ -67,9 +67,9 @@ const std::vector<ResultFile>& all_results() {
       {"boundary.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); },
        always},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
-       [](C c) { return c.output.sample_points > 0; }},
+       [](C c) { return c.results.sample_points > 0; }},
       {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
-       [](C c) { return c.output.vdb; }},
+       [](C c) { return c.results.voxels; }},
       {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
       {"loops.gpkg", geopackage_mark(),
@@ -91,8 +91,8 @@ const std::vector<ResultFile>& all_results() {
        Writer::kThis, true},
       {"lids.csv", kLidsHeader, [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); },
        has_lids, Writer::kThis, true},
-      {"coverage.tif", coverage_mark(), write_coverage, [](C c) { return c.output.coverage > 0; },
-       Writer::kLibrary},
+      {"coverage.tif", coverage_mark(), [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
+       [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
@@ -106,7 +106,7 @@ const std::vector<ResultFile>& all_results() {
   return results;
 }
 
-std::vector<ResultFile> results_of(const Config& config) {
+std::vector<ResultFile> results_of(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
                [&](const ResultFile& result) { return result.is_wanted(config); });
@@ -114,7 +114,7 @@ std::vector<ResultFile> results_of(const Config& config) {
 }
 
 // Those that this run does not write. An earlier run may have.
-std::vector<ResultFile> unwanted_results(const Config& config) {
+std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
                [&](const ResultFile& result) { return !result.is_wanted(config); });
@@ -123,9 +123,9 @@ std::vector<ResultFile> unwanted_results(const Config& config) {
 
 }  // namespace
 
-void check_output_folder(const FileScan& scan, const Config& config, const std::filesystem::path& folder,
+void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
-  check_points(scan, config.output, folder, overwrite);
+  check_points(scan, config, folder, overwrite);
   check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
   for (const ResultFile& result : results_of(config)) {
@@ -137,9 +137,9 @@ void check_output_folder(const FileScan& scan, const Config& config, const std::
   }
 }
 
-std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
-                                                 const Config& config, const std::filesystem::path& folder,
-                                                 Overwrite overwrite) {
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
+                                                 const FilesConfig& config,
+                                                 const std::filesystem::path& folder, Overwrite overwrite) {
   check_output_folder(scan, config, folder, overwrite);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -149,7 +149,7 @@ std::vector<std::filesystem::path> write_results(const Detection& detection, con
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(1, [&](std::size_t) {
     write_cut_outs(detection, scan, config, folder, set);
-    write_points(detection, scan, config.output, folder, set);
+    write_points(detection, scan, config, folder, set);
   });
   const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;

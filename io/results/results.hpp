@@ -2,12 +2,13 @@
 // What a run leaves in its output folder. Ids are ranks of the input's rows, over the files in order.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "io/files/output_set.hpp"
+#include "io/options/options.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 
 #include <filesystem>
 #include <string_view>
@@ -18,15 +19,15 @@ namespace lacuna::io {
 // Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
 // `detect`, with Overwrite::kAny any regular file, but never an input. Throws also if the annotated scan
 // cannot be written in its format. write_results checks it, too; a program checks before the work.
-LACUNA_API void check_output_folder(const FileScan& scan, const Config& config,
+LACUNA_API void check_output_folder(const FileScan& scan, const FilesConfig& config,
                                     const std::filesystem::path& folder, Overwrite overwrite);
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
 // requests, as one set (io/files/output_set.hpp). The report is made of the others before any has its name.
 // A file of an earlier run that this one does not write, such as loops.obj, does not belong to the new
 // results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
-LACUNA_API std::vector<std::filesystem::path> write_results(const Detection& detection, const FileScan& scan,
-                                                            const Config& config,
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const FileScan& scan, const FilesConfig& config,
                                                             const std::filesystem::path& folder,
                                                             Overwrite overwrite = Overwrite::kOwn);
 
@@ -39,15 +40,16 @@ inline constexpr std::string_view kChangesFile = "changes.json";
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
 // kHolesSchema. What is not finite is null.
-void write_holes(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+void write_holes(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config,
+                 OutputFile& out);
 
 // run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
 // coordinate reference system and the unit, too.
-void write_run(const Detection& detection, const FileScan& scan, const Config& config, OutputFile& out);
+void write_run(const Detection& detection, const FileScan& scan, const FilesConfig& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
 std::string_view table_header();
-void write_table(const Detection& detection, OutputFile& out);
+void write_table(const ExplainedDetection& detection, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer

@@ -177,6 +177,11 @@ std::vector<std::string> FileScan::identity() const {
     if (poses_[i]) line << ", pose " << names[3 * i + 2];
     lines.push_back(line.str());
   }
+  FilesConfig config;
+  config.input = config_;
+  for (const Parameter& p : file_parameters(config)) {
+    if (p.section == "input") lines.push_back(std::string(p.key) + " = " + p.print());
+  }
   return lines;
 }
 

@@ -65,7 +65,8 @@ class LACUNA_API FileScan : public PointSource {
   std::optional<std::uint64_t> expected_points() const override;
   bool has_normals() const override;   // any file has nx ny nz
   bool reads_slowly() const override;  // any file does
-  // Name, size, time and a sample of each file, and its pose. None where there are arrays.
+  // Name, size, time and a sample of each file, its pose, and the parameters of input. None where there are
+  // arrays.
   std::vector<std::string> identity() const override;
   // Three of each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;

@@ -2,7 +2,7 @@
 // Which rows of a scan take part: the user's choice by place, class and return.
 #pragma once
 
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 #include "io/rows/scan_reader.hpp"
 
 #include <cstdint>

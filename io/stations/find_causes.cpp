@@ -206,19 +206,21 @@ double tolerance_of(const LoopMeasures& loop) {
   return 2 * loop.perimeter / static_cast<double>(loop.points);
 }
 
-void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, Detection& detection) {
+void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
+                 ExplainedDetection& detection) {
   const TaskArena arena(static_cast<std::size_t>(run.threads));
   const std::span<const StationView> views = stations.complete(scan, arena);
   const PathView* const path = stations.path();
   detection.stations = stations.summaries();
+  detection.causes.assign(detection.loops.size(), {});
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
-    LoopMeasures& loop = detection.loops[i];
+    const LoopMeasures& loop = detection.loops[i];
     if (loop.kind != LoopKind::kHole || detection.stations.empty()) return;
     const std::vector<InsidePlace> places = inside_places(detection, i);
-    loop.cause = cause_of(places, views, path, tolerance_of(loop));
+    LoopCause& cause = detection.causes[i];
+    cause = cause_of(places, views, path, tolerance_of(loop));
     stations.note_touched(2 * places.size() * detection.stations.size());
-    if (!loop.cause.main())
-      loop.cause = cause_of(places, views, path, 0);  // a coarse loop near all of the surface
+    if (!cause.main()) cause = cause_of(places, views, path, 0);  // a coarse loop near all of the surface
   });
 }
 

@@ -5,9 +5,10 @@
 // a hole, ranges are shorter where something hides it. Where rays pass, they are longer, or there are none.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"
 
@@ -43,6 +44,6 @@ double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 
 // Sets the cause of each hole, and the stations. Throws `Error` where the scan is read, as
 // `StationViews::complete` does.
-void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, Detection& detection);
+void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, ExplainedDetection& detection);
 
 }  // namespace lacuna::io

@@ -6,8 +6,8 @@
 // section to a place if the direction to the place is one of these.
 #pragma once
 
-#include "engine/model/cause.hpp"
 #include "engine/store/sorted_runs.hpp"
+#include "io/stations/cause.hpp"
 #include "io/stations/field_of_view.hpp"
 #include "io/stations/trajectory.hpp"
 

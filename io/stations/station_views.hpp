@@ -2,9 +2,9 @@
 // What each station measured in each direction, collected while the scan is read for the run.
 #pragma once
 
-#include "engine/model/cause.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 #include "io/stations/field_of_view.hpp"
 #include "io/stations/path_view.hpp"
 #include "io/stations/range_image.hpp"

@@ -27,7 +27,7 @@ Cloud punched_sheet() {
 
 Config with_points() {
   Config config;
-  config.output.points = true;
+  config.results.points = true;
   return config;
 }
 

@@ -34,7 +34,7 @@ struct SharedRun {
     config.run.threads = 2;
     config.run.workspace = (folder / "workspace").string();
     config.loops.method = method;
-    config.output.points = true;
+    config.results.points = true;
     fs::create_directory(folder / "workspace");
   }
 

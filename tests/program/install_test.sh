@@ -72,10 +72,10 @@ fi
 g++ -shared -Wl,--whole-archive "$prefix"/lib*/liblacuna.a -Wl,--no-whole-archive -o "$work/module.so" ||
   fail "the library cannot be linked into a shared one, such as a module of Python"
 
-# A user's own "engine/config.hpp" does not take the place of the library's.
+# A user's own "engine/config/config.hpp" does not take the place of the library's.
 cp -r docs/example "$work/example"
-mkdir "$work/example/engine"
-echo '#error "this is not the header of the library"' >"$work/example/engine/config.hpp"
+mkdir -p "$work/example/engine/config"
+echo '#error "this is not the header of the library"' >"$work/example/engine/config/config.hpp"
 cmake -S "$work/example" -B "$work/example/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS=-I"$work/example" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be configured"; }
 cmake --build "$work/example/build" --target find_holes detect_files >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be built"; }

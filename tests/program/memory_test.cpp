@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory is bounded by the setting, as the operating system measures it.
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "io/laz/laz_encoder.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/hostile.hpp"

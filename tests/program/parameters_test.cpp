@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every parameter changes the results of a small scan, or the list says what it needs for that.
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
@@ -90,7 +90,7 @@ class Runs {
 
   // All bytes of the results. Some files have parameters or times in them. Of these it takes the loops of
   // holes.json with their system and unit, and the names of the others.
-  std::string results(const Config& config) {
+  std::string results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
     const auto run = test::run_program({"detect", scan_, "--out", out.string(), "--quiet", "--config", file});
@@ -152,21 +152,23 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   // With points there are more results. So an effect without points is one with points, too, and no effect
   // with points is none without.
   const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
-    const bool needs_points = parameter.needs.options.starts_with("--points");
+    const bool needs_points = parameter.key == "points_format" || parameter.key == "normals" ||
+                              parameter.key == "orient_normals";
     return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
   };
   for (const auto& [method, with_points] : kSettings) {
-    Config config;
+    io::FilesConfig config;
     config.loops.method = method;
-    config.output.points = config.output.normals = with_points;
+    config.results.points = config.output.normals = with_points;
     const std::string before = runs.results(config);
     const std::size_t count = parameters(config).size();
     for (std::size_t i = 0; i < count; i += count / draws(count)) {
-      Config changed = config;
-      const Parameter parameter = parameters(changed)[i];
+      io::FilesConfig changed = config;
+      Parameter parameter = parameters(changed)[i];
       if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
       set_other(parameter, runs.workspace());
-      const bool has_effect = parameter.needs.is_given(changed) && parameter.section != "run";
+      parameter = parameters(changed)[i];
+      const bool has_effect = parameter.missing.empty() && parameter.section != "run";
       if (follows(parameter, method, with_points, has_effect)) continue;
       INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
       CHECK((runs.results(changed) != before) == has_effect);
@@ -176,7 +178,7 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
 
 TEST_CASE("the two methods do not give the same loops") {
   Runs runs;
-  Config paper;
+  io::FilesConfig paper;
   paper.loops.method = LoopMethod::kPaper;
   CHECK(runs.results({}) != runs.results(paper));
 }
@@ -184,13 +186,13 @@ TEST_CASE("the two methods do not give the same loops") {
 TEST_CASE("each option without effect has its warning, each other none") {
   Runs runs;
   for (const std::string_view method : {"tangential", "paper"}) {
-    Config config;
+    io::FilesConfig config;
     config.loops.method = method == "paper" ? LoopMethod::kPaper : LoopMethod::kTangential;
     std::vector<std::string> options{"--method", std::string(method)};
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out = parameter.section == "run" || parameter.key == "method" ||
+      const bool is_left_out = parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
                                parameter.key == "points" || parameter.key == "columns" ||
                                parameter.key == "eps" || parameter.key == "max_perimeter" ||
                                parameter.key == "polygons" ||
@@ -198,9 +200,9 @@ TEST_CASE("each option without effect has its warning, each other none") {
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
-      if (!parameter.needs.is_given(config)) {
+      if (!parameter.missing.empty()) {
         expected += "lacuna: warning: " + parameter.option() + " changes nothing without " +
-                    std::string(parameter.needs.options) + "\n";
+                    std::string(parameter.missing) + "\n";
       }
     }
     CHECK(runs.warnings(options) == expected);
@@ -221,7 +223,7 @@ TEST_CASE("a config file's value without effect has its warning, unless it is th
   CHECK(runs.warnings({"--config", file}) ==
         "lacuna: warning: " + file + ": e changes nothing without --method paper\n");
   CHECK(runs.warnings({"--config", file, "--method", "paper"}).empty());
-  CHECK(runs.warnings({"--config", runs.write(print_config({}))}).empty());
+  CHECK(runs.warnings({"--config", runs.write(print_config(io::FilesConfig{}))}).empty());
 }
 
 }  // namespace lacuna

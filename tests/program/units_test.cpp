@@ -39,7 +39,7 @@ struct Shared {
 
 TEST_CASE("plan, work and finish give the files of detect") {
   const Shared run;
-  const ProgramResult planned = run.plan({"--tsv", "--points", "--k", "14"});
+  const ProgramResult planned = run.plan({"--tsv", "--points", "--normals", "--k", "14"});
   REQUIRE(planned.exit_code == 0);
   std::istringstream lines(planned.out);
   std::vector<std::string> steps;
@@ -63,7 +63,8 @@ TEST_CASE("plan, work and finish give the files of detect") {
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
   const fs::path alone = run.folder / "alone";
-  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--k", "14", "--quiet"})
+  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--normals", "--k", "14",
+                       "--quiet"})
               .exit_code == 0);
   CHECK(fs::exists(alone / "points" / "a.csv"));
   test::check_same_results(run.folder / "out", alone);

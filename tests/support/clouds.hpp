@@ -3,7 +3,7 @@
 // have equal numbers on every machine: nothing of <random> is used.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -88,7 +88,7 @@ Detected run_engine(const Cloud& cloud, Config config) {
 }
 
 Detected run_engine(PointSource& scan, Config config) {
-  config.output.points = true;
+  config.results.points = true;
   const test::ScratchFolder workspace;
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);

@@ -22,7 +22,7 @@ struct Detected {
   std::string bytes() const;
 };
 
-// Runs the engine in a workspace of its own, with output.points.
+// Runs the engine in a workspace of its own, with results.points.
 Detected run_engine(const Cloud& cloud, Config config);
 Detected run_engine(PointSource& scan, Config config);
 

@@ -3,7 +3,7 @@
 // tests are skipped where that is absent. Those of synthetic clouds: made_golden.hpp.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/ids.hpp"
 #include "tests/support/clouds.hpp"
 

@@ -5,7 +5,7 @@
 // Each cloud is a text file "x y z", each result a text file that says its cloud in its name.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/ids.hpp"
 #include "tests/support/clouds.hpp"
 

@@ -5,7 +5,7 @@
 // in the input: `points[value(id)]`.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/model/ids.hpp"
 
 #include <array>

@@ -31,8 +31,8 @@ std::string ply() {
   return header_of(kPoints) + std::string(kPoints * 12, '\1');
 }
 
-Config with_limit() {
-  Config config;
+io::FilesConfig with_limit() {
+  io::FilesConfig config;
   config.run.memory_limit = 256 << 20;
   config.run.threads = 1;
   return config;
@@ -44,7 +44,7 @@ struct Disks {
   std::optional<Disk> operator()(const std::filesystem::path& folder) const { return of.at(folder.string()); }
 };
 
-std::uint64_t workspace_bytes(const FileScan& scan, const Config& config) {
+std::uint64_t workspace_bytes(const FileScan& scan, const io::FilesConfig& config) {
   return run_costs(scan, config, kPoints, kPoints).disk;
 }
 
@@ -53,7 +53,7 @@ std::uint64_t workspace_bytes(const FileScan& scan, const Config& config) {
 TEST_CASE("a disk that is too small for the workspace or for the results is a warning that names it") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  const Config config = with_limit();
+  const io::FilesConfig config = with_limit();
   const std::uint64_t workspace = workspace_bytes(scan, config);
   const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
   CHECK(workspace > kPoints * (16 + 48));
@@ -74,8 +74,8 @@ TEST_CASE("a disk that is too small for the workspace or for the results is a wa
 TEST_CASE("workspace and results on one disk need space for both") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  Config config = with_limit();
-  config.output.points = true;
+  io::FilesConfig config = with_limit();
+  config.results.points = true;
   config.output.normals = true;
   const std::uint64_t workspace = workspace_bytes(scan, config);
   const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
@@ -91,8 +91,8 @@ TEST_CASE("workspace and results on one disk need space for both") {
 TEST_CASE("a disk that cannot hold the annotated scan is an error before the run") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  Config config = with_limit();
-  config.output.points = true;
+  io::FilesConfig config = with_limit();
+  config.results.points = true;
   const std::uint64_t points = result_bytes(scan, config, kPoints, kPoints).points;
   const auto check = [&](std::uint64_t free) {
     return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, kPlenty}}, {"out", {2, free}}}});
@@ -105,7 +105,7 @@ TEST_CASE(
     "a disk with less than half of what the run needs is an error before it, unless points may be left out") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
-  Config config = with_limit();
+  io::FilesConfig config = with_limit();
   const std::uint64_t half = workspace_bytes(scan, config) / 2;
   const auto check = [&](std::uint64_t free) {
     return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, free}}, {"out", {2, kPlenty}}}});
@@ -123,7 +123,7 @@ TEST_CASE("more points than can ever fit in memory are an error before the run")
   const std::string header = header_of(kMany), file = folder.write("scan.ply", header);
   std::filesystem::resize_file(file, header.size() + kMany * 12);
   const FileScan scan({file}, {});
-  Config config = with_limit();
+  io::FilesConfig config = with_limit();
   config.run.memory_limit = 64 << 20;
   config.neighbourhood.k = 1000;
   const auto not_known = [](const auto&) { return std::nullopt; };

@@ -80,13 +80,13 @@ TEST_CASE("the expected stages are those of the config") {
                                                   "track", "measure", "coherence", "sample", "collect",
                                                   "write"});
   config.scale.every_point = true;
-  config.output.vdb = true;
+  config.results.voxels = true;
   CHECK(!has(config, "levels"));
   CHECK(has(config, "voxels"));
   config.scale = {.min_hole = 0.2};
   CHECK(names(config)[2] == "thin");
   const double without = expected_stages(config).back().weight;
-  config.output.points = true;
+  config.results.points = true;
   CHECK(expected_stages(config).back().weight > without);
 }
 

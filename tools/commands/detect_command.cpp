@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/detect_command.hpp"
 
-#include "engine/config.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
@@ -104,7 +103,7 @@ RunArguments::RunArguments(const Command& command) : parameters(command) {
   command.add_flag("--quiet", quiet, "Print no progress and no summary, only warnings and errors").rare();
 }
 
-Config RunArguments::start(Config base) const {
+FilesConfig RunArguments::start(FilesConfig base) const {
   auto [config, warnings] = parameters.read(std::move(base));
   if (quiet) quiet_log();
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
@@ -116,7 +115,13 @@ std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) cons
   return make_progress(quiet ? ProgressStyle::kNone : progress, expected_stages(config));
 }
 
-std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const Config& config) {
+FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
+  FilesConfig config;
+  read_parameters(run.note, workspace, parameters(config));
+  return config;
+}
+
+std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
   auto scan =
       std::make_unique<FileScan>(inputs, config.input, Memory::share(config.run.memory_limit).reading);
   refuse_degrees(*scan);
@@ -132,8 +137,9 @@ ResultArguments::ResultArguments(const Command& command) : RunArguments(command)
       .rare();
 }
 
-std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config,
+std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps) {
+  config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
@@ -162,12 +168,11 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
   const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
-  const std::unique_ptr<Detection> detection = detect(scan, config, scratch.path(), *progress);
-  if (stations) find_causes(*stations, scan, config.run, *detection);
+  ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
+  if (stations) find_causes(*stations, scan, config.run, detection);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  const std::vector<fs::path> written =
-      write_results(*detection, scan, with_min_hole(config), out, overwrite);
+  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
   const std::string more = steps.end ? steps.end() : "";
   if (workspace) {
@@ -175,12 +180,12 @@ std::string detect_to(const std::vector<ScanInput>& inputs, const Config& config
     end_update(workspace->folder.path());
   }
   progress->end();
-  for (const std::string& warning : station_warnings(detection->stations)) spdlog::warn("{}", warning);
-  for (const std::string& warning : scan_warnings(scan, detection->summary, config))
+  for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
+  for (const std::string& warning : scan_warnings(scan, detection.summary, config))
     spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
-  std::string summary = print_summary(*detection, scan,
+  std::string summary = print_summary(detection, scan,
                                       {.write_seconds = std::chrono::duration<double>(end - writing).count(),
                                        .total_seconds = std::chrono::duration<double>(end - start).count()},
                                       scan.length_unit());
@@ -199,7 +204,7 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
     std::cout << print_config(arguments.run.parameters.read().config);
     return;
   }
-  const Config config = arguments.run.start();
+  const FilesConfig config = arguments.run.start();
   require(command, "SCAN");
   require(command, "--out");
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");

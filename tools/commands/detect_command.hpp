@@ -2,6 +2,7 @@
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 
+#include "engine/workspace/workspace.hpp"
 #include "io/scan/file_scan.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/shown_progress.hpp"
@@ -20,7 +21,7 @@ struct RunArguments {
   explicit RunArguments(const Command& command);
 
   // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
-  Config start(Config base = {}) const;
+  io::FilesConfig start(io::FilesConfig base = {}) const;
 
   std::unique_ptr<Progress> show_progress(const Config& config) const;
 
@@ -37,8 +38,12 @@ struct ResultArguments : RunArguments {
   bool overwrite = false;
 };
 
+// The parameters of a run that a workspace keeps.
+io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& workspace);
+
 // The files of a run as one scan. Warns of what is odd, and refuses degrees. Throws `Error`.
-std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs, const Config& config);
+std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
+                                          const io::FilesConfig& config);
 
 // What a command does besides, with the workspace that this run alone uses.
 struct WorkspaceSteps {
@@ -47,7 +52,7 @@ struct WorkspaceSteps {
 };
 
 // Finds the holes and writes the results; returns their summary.
-std::string detect_to(const std::vector<io::ScanInput>& inputs, const Config& config,
+std::string detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps = {});
 
 }  // namespace lacuna::tools

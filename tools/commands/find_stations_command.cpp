@@ -103,7 +103,7 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
 }
 
 void run_find_stations(const FindArguments& arguments) {
-  const Config config = arguments.parameters.read().config;
+  const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
   FileScan scan(expand_inputs(arguments.scans, {.columns = config.input.columns, .memory = memory}),

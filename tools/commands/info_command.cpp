@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
@@ -90,17 +90,17 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 }
 
 // Some scans have more columns than a format holds with the results.
-std::optional<std::uint64_t> size_of_points(const FileScan& scan, const OutputConfig& config,
+std::optional<std::uint64_t> size_of_points(const FileScan& scan, const FilesConfig& config,
                                             std::uint64_t rows) {
   try {
-    return points_bytes(scan, config, rows).all;
+    return points_bytes(scan, config.output, rows).all;
   } catch (const Error&) {
-    if (config.points) throw;
+    if (config.results.points) throw;
     return std::nullopt;
   }
 }
 
-RunInfo inspect_run(FileScan& scan, const Config& config) {
+RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
   const MadeFolder parent(scratch_folder(config.run));
@@ -116,7 +116,7 @@ RunInfo inspect_run(FileScan& scan, const Config& config) {
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
   run.points_file = points_name(config.output);
-  run.points_bytes = size_of_points(scan, config.output, counts.points);
+  run.points_bytes = size_of_points(scan, config, counts.points);
   run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
   run.costs = run_costs(scan, config, counts.points, points);
   return run;
@@ -241,7 +241,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 }
 
 void run_info(const InfoArguments& arguments) {
-  const Config config = arguments.parameters.read().config;
+  const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
   const ReadOptions options{.columns = config.input.columns, .memory = memory};

@@ -61,7 +61,7 @@ HiddenScan hidden_in(const Scene& scene) {
   found.normals = scene.points.normals;
   std::vector<Eigen::Vector3d> loop;
   for (std::size_t i = 0; i < scene.loops.ids.size(); ++i) {
-    const LoopMeasures& measures = scene.loops.measures[i];
+    const ExplainedLoop& measures = scene.loops.measures[i];
     const double share = share_to_see(measures.cause);
     if (measures.kind != LoopKind::kHole || !(share > 0)) continue;
     loop.clear();

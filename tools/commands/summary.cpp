@@ -105,10 +105,10 @@ std::string print_facts(const std::vector<std::pair<std::string, std::string>>& 
 }
 
 // Empty where no station is known.
-std::string print_causes(const std::vector<LoopMeasures>& loops) {
+std::string print_causes(const std::vector<LoopCause>& causes) {
   std::array<std::size_t, kCauses> counts{};
-  for (const LoopMeasures& loop : loops)
-    if (const auto cause = loop.cause.main()) ++counts[static_cast<std::size_t>(*cause)];
+  for (const LoopCause& each : causes)
+    if (const auto cause = each.main()) ++counts[static_cast<std::size_t>(*cause)];
   std::string text;
   for (std::size_t i = 0; i < kCauses; ++i) {
     if (counts[i] == 0) continue;
@@ -199,7 +199,7 @@ double length_bound(double extent) {
   return extent > 0 && std::isfinite(extent) ? std::pow(10, std::round(std::log10(extent / 20))) : 0;
 }
 
-std::string print_summary(const Detection& detection, const FileScan& scan, const RunTimes& times,
+std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, const RunTimes& times,
                           std::string_view unit) {
   const Summary& summary = detection.summary;
   const std::vector<LoopMeasures>& loops = detection.loops;
@@ -207,7 +207,7 @@ std::string print_summary(const Detection& detection, const FileScan& scan, cons
   const double bound = length_bound(extent);
   const Kind holes = loops_of(loops, LoopKind::kHole, bound);
   const Kind outer = loops_of(loops, LoopKind::kOuter, bound);
-  const std::string causes = print_causes(loops);
+  const std::string causes = print_causes(detection.causes);
   const std::string longer = " longer than " + print_power(bound, unit);
 
   std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +

@@ -2,9 +2,9 @@
 // What a person reads after a run.
 #pragma once
 
-#include "engine/model/detection.hpp"
 #include "engine/run/disk_space.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 
 #include <string>
 #include <string_view>
@@ -18,7 +18,7 @@ struct RunTimes {
 
 // What was found, the largest holes by area, outer curves as sums; then counts, and time per phase. `unit` is
 // the unit of the scan's coordinates, such as "m"; empty: not known.
-std::string print_summary(const Detection& detection, const io::FileScan& scan, const RunTimes& times,
+std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan, const RunTimes& times,
                           std::string_view unit = "");
 
 // What "long" means in a scan of this extent: the power of ten nearest to a twentieth of it; 0 without an

@@ -78,13 +78,14 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
 }
 
 void run_plan(const PlanArguments& arguments) {
-  Config config = arguments.run.start();
+  FilesConfig config = arguments.run.start();
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw WrongOption("--workspace is required");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const std::unique_ptr<FileScan> scan =
       open_inputs(expand_inputs(arguments.scans, {.columns = config.input.columns}), config);
+  config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());
   print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), config);
@@ -101,7 +102,7 @@ struct WorkArguments {
 
 void run_work(const WorkArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
-  Config config = arguments.run.start(stored.config);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   const std::optional<Step> step = step_of_name(arguments.step, arguments.workspace);
   if (!step) throw WrongOption("--step", "allowed: a step of lacuna plan, such as evaluate-0");
@@ -126,7 +127,7 @@ struct FinishArguments {
 
 void run_finish(const FinishArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
-  Config config = arguments.run.start(stored.config);
+  FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;

@@ -54,7 +54,7 @@ void replace_input(const std::string& given, std::vector<ScanInput>& inputs) {
 }
 
 std::vector<ScanInput> changed_inputs(const UpdateArguments& arguments, const StoredRun& run,
-                                      const Config& config) {
+                                      const FilesConfig& config) {
   std::vector<ScanInput> inputs = inputs_of(run.names);
   for (const std::string& given : arguments.replaced) replace_input(given, inputs);
   for (ScanInput& input : expand_inputs(arguments.added, {.columns = config.input.columns})) {
@@ -75,14 +75,14 @@ bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
 }
 
 // The parameters of the run before, then the parameters of the command line. Boxes add up.
-Config changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
-  Config base = run.config;
-  base.input.leave_out.clear();
-  Config config = arguments.start(std::move(base));
-  const std::vector<double> boxes = std::exchange(config.input.leave_out, run.config.input.leave_out);
+FilesConfig changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
+  FilesConfig base = config_of(run, workspace);
+  const std::vector<double> before = std::exchange(base.input.leave_out, {});
+  FilesConfig config = arguments.start(std::move(base));
+  const std::vector<double> boxes = std::exchange(config.input.leave_out, before);
   for (std::size_t at = 0; at < boxes.size(); at += 6) {
     const auto box = std::span(boxes).subspan(at, 6);
-    if (is_left_out(box, run.config.input.leave_out))
+    if (is_left_out(box, before))
       throw Error(workspace.string() + ": a box of --leave-out is left out already");
     config.input.leave_out.insert(config.input.leave_out.end(), box.begin(), box.end());
   }
@@ -126,7 +126,7 @@ void run_update(const UpdateArguments& arguments) {
   const fs::path source = is_workspace(earlier_parts(folder)) ? earlier_parts(folder) : folder;
   const StoredRun run = read_run(source);
   const auto made_from = made_from_of(source);
-  const Config config = changed_config(arguments.run, run, folder);
+  const FilesConfig config = changed_config(arguments.run, run, folder);
   const std::vector<ScanInput> inputs = changed_inputs(arguments, run, config);
   ResultArguments to = arguments.run;
   if (to.out.empty()) to.out = results_of(folder);

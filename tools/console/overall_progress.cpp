@@ -56,11 +56,11 @@ std::vector<ExpectedStage> expected_stages(const Config& config) {
   if (has_levels(config)) add("levels");
   if (config.loops.method == LoopMethod::kTangential) add("track");
   for (const char* name : {"measure", "coherence"}) add(name);
-  if (config.output.vdb) add("voxels");
-  if (config.output.sample_points > 0) add("sample");
+  if (config.results.voxels) add("voxels");
+  if (config.results.sample_points > 0) add("sample");
   if (config.normals.orient) add("orient");
   add("collect");
-  add("write", config.output.points ? kWritePoints : 0);
+  add("write", config.results.points ? kWritePoints : 0);
   return stages;
 }
 

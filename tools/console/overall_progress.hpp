@@ -2,7 +2,7 @@
 // How far a run is, over all of its stages, and how long it still takes.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -37,7 +37,7 @@ bool takes_all_points(const InputConfig& input, const ScaleConfig& scale) {
 
 }  // namespace
 
-std::vector<std::string> check_disks(const FileScan& scan, const Config& config,
+std::vector<std::string> check_disks(const FileScan& scan, const FilesConfig& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk) {
   check_config(config);

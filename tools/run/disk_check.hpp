@@ -2,7 +2,7 @@
 // Whether the disks hold what a run writes, before it runs.
 #pragma once
 
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 #include "engine/run/disk_space.hpp"
 #include "io/scan/file_scan.hpp"
 
@@ -21,7 +21,7 @@ using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& 
 // what the table names, or less than an annotated scan of known size. Where points may be left out by a
 // filter or a resolution, only the annotated scan is certain. Throws `Error`, too, where memory can never
 // suffice. Both folders exist.
-std::vector<std::string> check_disks(const io::FileScan& scan, const Config& config,
+std::vector<std::string> check_disks(const io::FileScan& scan, const io::FilesConfig& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);
 

@@ -2,7 +2,7 @@
 // The folders that the user names: made if missing, and locked.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -3,7 +3,7 @@
 // as are wanted. The library does none of it, since it may run in the process of another program.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 namespace lacuna::tools {
 

@@ -9,6 +9,8 @@
 #include <variant>
 
 namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 // The parameters that people use, which --help shows. --help-all shows the others, too.
@@ -44,9 +46,10 @@ ParameterOptions::ParameterOptions(const Command& command) {
           "--config", config_file_,
           "Config file (TOML), or the name of one that is installed; options of the command line override it")
       .type("CONFIG");
-  Config defaults;
+  FilesConfig defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
+    if (parameter.is_constant) continue;
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
     const std::string help(parameter.help);
     const Option option =
@@ -65,7 +68,7 @@ ParameterOptions::ParameterOptions(const Command& command) {
   }
 }
 
-std::string ParameterOptions::read_file(Config& config, std::vector<std::string>& keys) const {
+std::string ParameterOptions::read_file(FilesConfig& config, std::vector<std::string>& keys) const {
   if (config_file_.empty()) return "";
   try {
     const std::string file = find_config(config_file_).string();
@@ -76,12 +79,12 @@ std::string ParameterOptions::read_file(Config& config, std::vector<std::string>
   }
 }
 
-EffectiveConfig ParameterOptions::read(Config config) const {
+EffectiveConfig ParameterOptions::read(FilesConfig config) const {
   std::vector<std::string> keys_in_file;
   const std::string file = read_file(config, keys_in_file);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!given_[i].option->is_given()) continue;
+    if (!given_[i].is_given()) continue;
     try {
       std::string text = given_[i].text;
       if (all[i].key == "columns") std::ranges::replace(text, ',', ' ');
@@ -99,17 +102,17 @@ EffectiveConfig ParameterOptions::read(Config config) const {
   return {config, idle_warnings(config, keys_in_file)};
 }
 
-std::vector<std::string> ParameterOptions::idle_warnings(Config config,
+std::vector<std::string> ParameterOptions::idle_warnings(FilesConfig config,
                                                          const std::vector<std::string>& keys_in_file) const {
-  Config defaults;
+  FilesConfig defaults;
   const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].needs.is_given(config)) continue;
+    if (all[i].missing.empty()) continue;
     const bool in_file =
         std::find(keys_in_file.begin(), keys_in_file.end(), all[i].key) != keys_in_file.end();
-    const std::string effect = " changes nothing without " + std::string(all[i].needs.options);
-    if (given_[i].option->is_given()) {
+    const std::string effect = " changes nothing without " + std::string(all[i].missing);
+    if (given_[i].is_given()) {
       warnings.push_back(all[i].option() + effect);
     } else if (in_file && all[i].print() != unchanged[i].print()) {
       warnings.push_back(config_file_ + ": " + std::string(all[i].key) + effect);

@@ -74,9 +74,9 @@ RunCosts run_costs(const io::FileScan& scan, const Config& config, std::uint64_t
   if (!scan.single_precision()) sum.add(of_points, kDoublePrecision);
   if (scan.has_normals()) sum.add(of_points, kGivenNormals);
   if (config.normals.orient) sum.add(of_points, kOrientedNormals);
-  if (config.output.vdb) sum.add(of_points, kVdb);
+  if (config.results.voxels) sum.add(of_points, kVdb);
   if (!config.run.workspace.empty()) sum.add(of_points, kKeptWorkspace);
-  if (config.output.points) sum.add(of_rows, kAnnotatedScan);
+  if (config.results.points) sum.add(of_rows, kAnnotatedScan);
   if (points < rows) sum.add(of_rows, kThinnedRow);
   if (scan.reads_slowly()) sum.add(of_rows, kDecodedOnce);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));

@@ -2,7 +2,7 @@
 // What a run takes of the disk and of time, from its points and its options alone.
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstdint>

@@ -197,7 +197,8 @@ std::string stray_warning(const Strays& strays, double resolution) {
   return text.str();
 }
 
-std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary, const Config& config) {
+std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
+                                       const FilesConfig& config) {
   std::vector<std::string> warnings;
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));

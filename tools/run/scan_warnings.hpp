@@ -2,9 +2,9 @@
 // What is odd about a scan: not wrong, but hardly meant.
 #pragma once
 
-#include "engine/config.hpp"
 #include "engine/model/detection.hpp"
 #include "io/scan/file_scan.hpp"
+#include "io/stations/cause.hpp"
 
 #include <string>
 #include <vector>
@@ -33,11 +33,11 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 std::string stray_warning(const Strays& strays, double resolution);
 
 // Stations that do not count, as their points cannot all have been seen from there.
-std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations);
+std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
 // After a run: strays, too few points for their neighbourhoods, coordinates too coarse for their spacing, and
 // rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
-                                       const Config& config);
+                                       const io::FilesConfig& config);
 
 }  // namespace lacuna::tools

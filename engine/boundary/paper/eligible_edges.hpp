@@ -2,7 +2,7 @@
 // eligible_edges: which edges of the proximity graph may enter the spanning graph (paper, 5.1).
 #pragma once
 
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/model/neighbourhoods.hpp"

@@ -2,15 +2,15 @@
 // active_points: which points of a tile are active, and their stars (method.md, C.4).
 //
 // A surface ends where triangles are missing. The search starts at the seeds, which are the surest of the
-// paper's candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. The vertices of
-// inconsistent triangles of an active point are active, too. A triangle is inconsistent if its circumradius
-// is too large, or if the star of another active vertex does not have it. That is a least fixed point:
-// neither the order of the search nor the tiles matter. Along a boundary wedge all points are active, which
-// closes the boundary curves.
+// paper's candidates (method.md, 4), and grows along inconsistent triangles. Seeds are active. The vertices
+// of inconsistent triangles of an active point are active, too. A triangle is inconsistent if its
+// circumradius is too large, or if the star of another active vertex does not have it. That is a least fixed
+// point: neither the order of the search nor the tiles matter. Along a boundary wedge all points are active,
+// which closes the boundary curves.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/criteria/evaluation.hpp"
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/model/points.hpp"

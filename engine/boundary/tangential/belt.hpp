@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star_exchange.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <cstdint>
 

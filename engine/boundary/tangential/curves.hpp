@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/wedge.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>

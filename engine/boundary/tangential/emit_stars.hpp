@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star_streams.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 
 namespace lacuna::tangential {

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/simd/batch.hpp"
 
 #include <array>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
-#include "engine/config.hpp"
+#include "engine/config/config.hpp"
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/loops/loops.hpp"
 

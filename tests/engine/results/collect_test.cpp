@@ -96,7 +96,7 @@ TEST_CASE("results come in blocks of consecutive points, each point once, the bo
   const Cloud cloud = half.joined(half.with_unusable(1000, 1));  // most have a duplicate in another block
   REQUIRE(cloud.size() > kResultBlock);
   Config config;
-  config.output.points = true;
+  config.results.points = true;
   MemoryScan scan(cloud, 5000);
   const test::ScratchFolder workspace;
   NoProgress quiet;

@@ -27,8 +27,8 @@ struct Voxels {
 
 Voxels voxels_of(const Cloud& cloud, Config config = {}) {
   const test::ScratchFolder folder;
-  config.output.vdb = true;
-  config.output.points = true;
+  config.results.voxels = true;
+  config.results.points = true;
   MemoryScan scan(cloud);
   NoProgress quiet;
   const auto detection = detect(scan, config, folder.path(), quiet);

@@ -81,7 +81,7 @@ TEST_CASE("an updated run gives the result of a run from nothing, again and agai
     Config config = small_tiles(folder.path());
     Cloud cloud = scan();
     if (variant == 1) config.loops.method = LoopMethod::kPaper;
-    if (variant == 2) config.normals.orient = config.output.vdb = true;
+    if (variant == 2) config.normals.orient = config.results.voxels = true;
     if (variant == 3) config.scale.min_hole = 8;
     if (variant == 4) cloud = cloud.with_random_normals(2);
     CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));

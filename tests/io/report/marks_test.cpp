@@ -28,7 +28,7 @@ Scene::Loops loops(const std::vector<std::pair<std::uint64_t, LoopMeasures>>& dr
   Scene::Loops made;
   for (const auto& [id, measures] : drawn) {
     made.ids.push_back(id);
-    made.measures.push_back(measures);
+    made.measures.push_back({measures, {}});
   }
   return made;
 }

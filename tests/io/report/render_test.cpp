@@ -28,7 +28,7 @@ Scene sheet() {
   scene.points.spacing = 1;
   scene.loops.ids = {7};
   scene.loops.all = 1;
-  scene.loops.measures = {{.kind = LoopKind::kHole, .points = 4, .diameter = 8.5, .normal = {0, 0, 1}}};
+  scene.loops.measures = {{{.kind = LoopKind::kHole, .points = 4, .diameter = 8.5, .normal = {0, 0, 1}}, {}}};
   scene.loops.vertices = {{12, 2, 0}, {18, 2, 0}, {18, 8, 0}, {12, 8, 0}};
   scene.loops.first = {0, 4};
   return scene;

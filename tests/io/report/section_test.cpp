@@ -23,7 +23,7 @@ Scene tower() {
     for (const int z : {a, b, c}) scene.loops.vertices.push_back({1, 1, float(z)});
     scene.loops.first.push_back(3 * scene.loops.ids.size());
     scene.loops.ids.push_back(10 + scene.loops.ids.size());
-    scene.loops.measures.push_back({.points = 3, .diameter = double(a)});
+    scene.loops.measures.push_back({{.points = 3, .diameter = double(a)}, {}});
   }
   scene.loops.first.push_back(9);
   return scene;

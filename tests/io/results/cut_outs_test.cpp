@@ -27,8 +27,8 @@ using Names = std::vector<std::string>;
 
 constexpr double kMargin = 0.75;
 
-Config with_cut_outs(PointsFormat format = PointsFormat::kInput) {
-  Config config;
+FilesConfig with_cut_outs(PointsFormat format = PointsFormat::kInput) {
+  FilesConfig config;
   config.output.cut_outs = kMargin;
   config.output.points_format = format;
   return config;
@@ -118,7 +118,7 @@ bool is_same(const std::vector<std::vector<double>>& a, const std::vector<std::v
 }
 
 // Writes only the cut-outs. Returns their folder.
-fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const Config& config,
+fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const FilesConfig& config,
                  const fs::path& out, std::size_t most_holes = 1000) {
   FileScan scan(inputs, {});
   check_cut_outs(scan, config, out, Overwrite::kOwn);
@@ -204,7 +204,7 @@ TEST_CASE("cut-outs of local coordinates are those of the scan", "[io][results]"
   detection.numbers.strays.rest = {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(10, 11, 1)};
   const std::string text = folder.write("scan.xyz", text_of(random_points(2000)));
   const std::vector<std::vector<double>> expected = expected_rows({text}, detection.found[0]).rows;
-  Config config = with_cut_outs(PointsFormat::kPly);
+  FilesConfig config = with_cut_outs(PointsFormat::kPly);
   config.output.local_coordinates = true;
   const std::string name = "hole-0.ply";
   const fs::path local = cut_out(detection, {text}, config, folder / "local") / name;
@@ -309,11 +309,11 @@ TEST_CASE("cut-outs are results like others: all appear, or none", "[io][results
   FileScan scan({scan_file}, {});
   const fs::path out = folder / "out";
   const FakeDetection detection = with_squares(2);
-  Config config = with_cut_outs();
+  FilesConfig config = with_cut_outs();
   write_results(detection, scan, config, out);
   const auto before = files_of(out / kCutOutsFolder);
   CHECK(before.size() == 2);
-  config.output.points = true;  // the results of points are missing
+  config.results.points = true;  // the results of points are missing
   config.output.cut_outs = 2;
   CHECK_FALSE(error_of([&] { write_results(detection, scan, config, out); }).empty());
   CHECK(files_of(out / kCutOutsFolder) == before);

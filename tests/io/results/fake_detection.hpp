@@ -2,7 +2,7 @@
 // A finished run without the engine, for tests of what is written.
 #pragma once
 
-#include "engine/model/detection.hpp"
+#include "io/stations/cause.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -48,29 +48,29 @@ struct FakeDetection {
   }
 
   // Its streams read this, which must outlive them.
-  operator Detection() const {
+  operator io::ExplainedDetection() const {
     const auto all_of = [](const auto& elements) {
       return [&elements](const auto& visit) {
         for (const auto& element : elements) visit(element);
       };
     };
-    return {.summary = numbers,
-            .loops = measures,
-            .for_each_loop_point =
-                [this](std::size_t loop, const auto& visit) {
-                  for (const LoopPoint& point : found.at(loop)) visit(point);
-                },
-            .for_each_boundary_point = all_of(boundary),
-            .for_each_result_block =
-                [this](const auto& visit) {
-                  for (std::size_t first = 0; first < results.size(); first += block)
-                    visit(PointId{first},
-                          std::span(results).subspan(first, std::min(block, results.size() - first)));
-                },
-            .sampled_points = sample.size(),
-            .for_each_sampled_point = all_of(sample),
-            .probability_lattice = lattice,
-            .for_each_probability_voxel = all_of(voxels)};
+    return {{.summary = numbers,
+             .loops = measures,
+             .for_each_loop_point =
+                 [this](std::size_t loop, const auto& visit) {
+                   for (const LoopPoint& point : found.at(loop)) visit(point);
+                 },
+             .for_each_boundary_point = all_of(boundary),
+             .for_each_result_block =
+                 [this](const auto& visit) {
+                   for (std::size_t first = 0; first < results.size(); first += block)
+                     visit(PointId{first},
+                           std::span(results).subspan(first, std::min(block, results.size() - first)));
+                 },
+             .sampled_points = sample.size(),
+             .for_each_sampled_point = all_of(sample),
+             .probability_lattice = lattice,
+             .for_each_probability_voxel = all_of(voxels)}};
   }
 
   std::vector<SampledPoint> sample;

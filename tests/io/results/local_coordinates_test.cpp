@@ -57,9 +57,9 @@ FakeDetection detection_of(const Points& points) {
   return detection;
 }
 
-Config local_config(PointsFormat format) {
-  Config config;
-  config.output.points = true;
+FilesConfig local_config(PointsFormat format) {
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = format;
   config.output.local_coordinates = true;
   return config;
@@ -137,7 +137,7 @@ TEST_CASE("without local coordinates nothing states an offset, and coordinates a
   const ScratchFolder folder;
   const Points points = utm_points();
   FileScan scan({folder.write("a.txt", text_of(points))}, {});
-  Config config = local_config(PointsFormat::kPly);
+  FilesConfig config = local_config(PointsFormat::kPly);
   config.output.local_coordinates = false;
   write_results(detection_of(points), scan, config, folder.path());
   for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "points.ply"}) {

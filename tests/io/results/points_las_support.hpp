@@ -30,9 +30,9 @@ T at(const std::string& bytes, std::size_t offset) {
 inline constexpr std::size_t kPointBytes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 inline constexpr std::size_t kResultBytes = 4 * 4 + 1 + 1 + 4;
 
-inline Config las_config() {
-  Config config;
-  config.output.points = true;
+inline io::FilesConfig las_config() {
+  io::FilesConfig config;
+  config.results.points = true;
   return config;
 }
 
@@ -67,7 +67,7 @@ inline LasFile file_of(int format, int minor, std::size_t extra_bytes = 0, unsig
 }
 
 inline std::string detect_to(const ScratchFolder& folder, io::FileScan& scan, std::size_t rows,
-                             const Config& config) {
+                             const io::FilesConfig& config) {
   io::write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / "points" / "a.las");
 }

@@ -20,15 +20,15 @@ namespace {
 using Catch::Matchers::Contains;
 using Names = std::vector<std::string>;
 
-Config with_points(PointsFormat format = PointsFormat::kInput) {
-  Config config;
-  config.output.points = true;
+FilesConfig with_points(PointsFormat format = PointsFormat::kInput) {
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = format;
   return config;
 }
 
 std::string written(const ScratchFolder& folder, const std::vector<ScanInput>& inputs, std::size_t rows,
-                    const std::string& name, const Config& config = with_points()) {
+                    const std::string& name, const FilesConfig& config = with_points()) {
   FileScan scan(inputs, {});
   write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / name);
@@ -97,7 +97,7 @@ TEST_CASE("files of one name from two folders are an error before the work, but 
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) std::filesystem::create_directory(folder / name);
   const FileScan scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
-  const auto check = [&](const Config& config) {
+  const auto check = [&](const FilesConfig& config) {
     return error_of([&] { check_output_folder(scan, config, folder / "out", Overwrite::kAny); });
   };
   CHECK_THAT(check(with_points()), Contains("b/x.txt: its results and those of ") &&
@@ -136,7 +136,7 @@ TEST_CASE("the annotated scan of an earlier run goes, whatever its files were", 
   }
   // Other files stay.
   folder.write("out/points/mine.ply", kPly);
-  write_results(of_one, one, Config{}, out);
+  write_results(of_one, one, FilesConfig{}, out);
   CHECK(names_of(points) == Names{"mine.ply"});
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("an annotated scan of another program is refused, and so is an input i
   const auto detection = FakeDetection().with_results(1);
   FileScan scan({folder.write("a.ply", kPly)}, {});
   const auto out = folder / "out";
-  const auto error = [&](FileScan& of, const Config& config) {
+  const auto error = [&](FileScan& of, const FilesConfig& config) {
     return error_of([&] { write_results(detection, of, config, out); });
   };
   std::filesystem::create_directories(out / "points");
@@ -165,7 +165,7 @@ TEST_CASE("an annotated scan of another program is refused, and so is an input i
   std::filesystem::remove(out / "points");
   CHECK(error(scan, with_points()).empty());
   FileScan again({out / "points" / "a.ply"}, {});
-  for (const Config& config : {with_points(), Config{}, with_points(PointsFormat::kPly)})
+  for (const FilesConfig& config : {with_points(), FilesConfig{}, with_points(PointsFormat::kPly)})
     CHECK_THAT(error(again, config), Contains("a.ply: is an input in the place of a result"));
 }
 
@@ -234,7 +234,7 @@ TEST_CASE("points.csv of text files has their columns, and a run on it replaces 
 TEST_CASE("points.ply has quality, the probability for MeshLab, unless the scan has a quality",
           "[io][results]") {
   const ScratchFolder folder;
-  const Config one = with_points(PointsFormat::kPly);
+  const FilesConfig one = with_points(PointsFormat::kPly);
   const auto column = [&](const std::string& name) {
     const Table table = read_table(folder / "out" / "points.ply");
     std::vector<double> values;
@@ -274,7 +274,7 @@ TEST_CASE("blocks of results do not change the bytes of any format", "[io][resul
       FakeDetection detection;
       detection.with_results(100).block = block;
       for (const int threads : {1, 4}) {
-        Config config = with_points(format);
+        FilesConfig config = with_points(format);
         config.run.threads = threads;
         write_results(detection, scan, config, folder / "out");
         std::string bytes;

@@ -43,7 +43,7 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   const auto out = folder / "new" / "out";
-  write_results(FakeDetection().with_results(1), scan, Config{}, out);
+  write_results(FakeDetection().with_results(1), scan, FilesConfig{}, out);
   CHECK(read_table(out / "loops.ply").rows.empty());
   CHECK(read_table(out / "boundary.ply").rows.empty());
   CHECK_FALSE(std::filesystem::exists(out / "points.ply"));
@@ -67,7 +67,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   detection.numbers.bounds = {Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(3, 4, 5)};
   detection.numbers.phases = {{"survey", 2}, {"evaluate", 3}};
   detection.measures[1].area = std::nan("");
-  Config config;
+  FilesConfig config;
   config.neighbourhood.k = 21;
   config.selection.holes_only = true;
   write_results(detection, scan, config, folder.path());
@@ -115,7 +115,7 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
-  write_results(detection, scan, Config{}, folder.path());
+  write_results(detection, scan, FilesConfig{}, folder.path());
   const Table table = read_table(folder / "loops.ply");
   CHECK(table.names ==
         Names{"x", "y", "z", "scalar_loop", "scalar_id", "scalar_outer", "quality", "red", "green", "blue"});
@@ -136,7 +136,7 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.numbers.counts.boundary_points = 1;
   detection.boundary = {
       {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
-  write_results(detection, scan, Config{}, folder.path());
+  write_results(detection, scan, FilesConfig{}, folder.path());
   CHECK(read_table(folder / "loops.ply").rows.at(2)[4] == 5'000'000'001.0);
   const Table boundary = read_table(folder / "boundary.ply");
   CHECK(boundary.names == Names{"x", "y", "z", "scalar_probability", "scalar_id", "scalar_loop", "quality"});
@@ -149,8 +149,9 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
       folder.write("a.ply", ply(std::string("property uchar red\n") + kXyz + "property int scalar_loop\n", 3,
                                 "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
   FileScan scan({file}, {});
-  Config config;
-  config.output = {.points = true, .points_format = PointsFormat::kPly, .normals = true};
+  FilesConfig config;
+  config.results.points = true;
+  config.output = {.points_format = PointsFormat::kPly, .normals = true};
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
@@ -178,8 +179,8 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
     FileScan scan({a, b, c}, {});
     FakeDetection detection;
     detection.with_results(5).block = block;
-    Config config;
-    config.output.points = true;
+    FilesConfig config;
+    config.results.points = true;
     config.output.points_format = PointsFormat::kPly;
     write_results(detection, scan, config, folder / "out");
     const Table table = read_table(folder / "out" / "points.ply");
@@ -201,8 +202,9 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   const auto file = folder.write(
       "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
   FileScan scan({file}, {});
-  Config config;
-  config.output = {.points = true, .points_format = PointsFormat::kPly, .normals = true};
+  FilesConfig config;
+  config.results.points = true;
+  config.output = {.points_format = PointsFormat::kPly, .normals = true};
   write_results(FakeDetection().with_results(1), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names.size() == 6 + 8);
@@ -213,22 +215,22 @@ TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   const auto detection = FakeDetection().with_results(1);
-  Config with_points;
-  with_points.output.points = true;
+  FilesConfig with_points;
+  with_points.results.points = true;
   with_points.output.points_format = PointsFormat::kPly;
   const Names all{"a.ply",     "boundary.ply", "holes.csv", "holes.json",
                   "loops.ply", "points.ply",   "run.json",  "sample.ply"};
-  for (const Config& config : {with_points, with_points, Config{}, Config{}, with_points}) {
+  for (const FilesConfig& config : {with_points, with_points, FilesConfig{}, FilesConfig{}, with_points}) {
     write_results(detection, scan, config, folder.path());
     Names expected = all;
-    if (!config.output.points) std::erase(expected, "points.ply");
+    if (!config.results.points) std::erase(expected, "points.ply");
     CHECK(folder.names() == expected);
   }
 }
 
 TEST_CASE("a file that detect did not write is refused, and replaced on request", "[io]") {
-  Config with_points;
-  with_points.output.points = true;
+  FilesConfig with_points;
+  with_points.results.points = true;
   with_points.output.points_format = PointsFormat::kPly;
   for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
     const ScratchFolder folder;
@@ -249,7 +251,7 @@ TEST_CASE("a file that detect did not write is refused, and replaced on request"
     }
     if (name == "points.ply") {
       for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
-        write_results(detection, scan, Config{}, folder.path(), overwrite);
+        write_results(detection, scan, FilesConfig{}, folder.path(), overwrite);
         CHECK(read_file(folder / name) == mine);  // no result has its name
       }
     }
@@ -260,8 +262,8 @@ TEST_CASE("a file that detect did not write is refused, and replaced on request"
 }
 
 TEST_CASE("an input in the place of a result is never replaced", "[io]") {
-  Config with_points;
-  with_points.output.points = true;
+  FilesConfig with_points;
+  with_points.results.points = true;
   with_points.output.points_format = PointsFormat::kPly;
   for (const bool is_result : {false, true}) {
     const ScratchFolder folder;
@@ -291,8 +293,8 @@ TEST_CASE("an input in the place of a result is never replaced", "[io]") {
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
-  Config config;
-  config.output.points = true;
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = PointsFormat::kPly;
   for (const std::size_t results : {1u, 3u}) {
     CHECK(error_of([&] {
@@ -306,7 +308,7 @@ TEST_CASE("an input that was replaced leaves the results of the earlier run as t
   const ScratchFolder folder;
   const auto file = folder.write("a.xyz", "1 2 3\n");
   FileScan scan({file}, {});
-  write_results(FakeDetection().with_results(1), scan, Config{}, folder / "out");
+  write_results(FakeDetection().with_results(1), scan, FilesConfig{}, folder / "out");
   const std::string earlier = read_file(folder / "out" / "holes.json");
   std::filesystem::rename(folder.write("b.xyz", "4 5 6\n"), file);
   const std::string error = error_of([&] {
@@ -320,7 +322,7 @@ TEST_CASE("a report that cannot be written leaves the earlier results and their 
   constexpr std::size_t kMoreThanOthers = 100'000;
   const ScratchFolder folder;
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  Config config;
+  FilesConfig config;
   config.output.report = true;
   const auto contents = [&] {
     std::map<std::string, std::string> files;
@@ -348,8 +350,8 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
                                              return rows;
                                            }()))},
                 {});
-  Config config;
-  config.output.points = true;
+  FilesConfig config;
+  config.results.points = true;
   config.output.points_format = PointsFormat::kPly;
   const auto few = FakeDetection().with_results(1000);
   FakeDetection long_loop = few, many_loops = few, much_boundary = few;

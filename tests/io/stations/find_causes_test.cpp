@@ -8,6 +8,7 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -25,13 +26,13 @@ struct Found {
     options.points = points;
     options.out = folder / "scan.ply";
     synth::write_scan(options);
-    Config config;
+    FilesConfig config;
     config.input = std::move(input);
     config.output.stations = (folder / (drives ? "scan.trajectory.txt" : "scan.stations.txt")).string();
     FileScan scan({options.out}, config.input);
     views = watch_stations(scan, config.output, folder.path());
     NoProgress silence;
-    detection = detect(scan, config, folder.path(), silence);
+    detection.emplace(ExplainedDetection{*detect(scan, config, folder.path(), silence)});
     find_causes(*views, scan, config.run, *detection);
   }
 
@@ -58,15 +59,15 @@ struct Found {
 
   double area_by(Cause cause) const {
     double area = 0;
-    for (const LoopMeasures& loop : detection->loops)
-      if (loop.cause.main() == cause) area += loop.area;
+    for (std::size_t i = 0; i < detection->loops.size(); ++i)
+      if (detection->causes[i].main() == cause) area += detection->loops[i].area;
     return area;
   }
 
   test::ScratchFolder folder;
   synth::ScanOptions options;
   std::unique_ptr<StationViews> views;
-  std::unique_ptr<Detection> detection;
+  std::optional<ExplainedDetection> detection;
 };
 
 }  // namespace
@@ -80,7 +81,8 @@ TEST_CASE("causes of the holes in a room are those of its scene") {
   CHECK(found.detection->stations[0].lowest == Approx(-std::sqrt(0.75)).margin(0.01));  // -60 degrees
   CHECK(found.area_by(Cause::kOpening) > 4);                                            // two windows, a door
   CHECK(found.area_by(Cause::kOutOfView) > 1);                                          // the tripod
-  for (const LoopMeasures& loop : found.detection->loops) {
+  for (std::size_t i = 0; i < found.detection->loops.size(); ++i) {
+    const ExplainedLoop loop = found.detection->loop(i);
     CHECK(loop.cause.main().has_value() <= (loop.kind == LoopKind::kHole));
     if (!loop.cause.main()) continue;
     CHECK(std::accumulate(loop.cause.shares.begin(), loop.cause.shares.end(), 0.0) == Approx(1));
@@ -101,12 +103,11 @@ TEST_CASE("the points of several stations taken for those of one have little cer
   const test::ScratchFolder folder;
   FileScan scan({found.options.out}, {});
   StationViews views(scan, folder.write("one.txt", "one 20 8 1.5\n"), folder.path());
-  Detection& detection = *found.detection;
-  for (LoopMeasures& loop : detection.loops) loop.cause = {};
+  ExplainedDetection detection = *found.detection;
   find_causes(views, scan, {}, detection);
   CHECK(detection.stations.back().certainty < StationView::kLeastCertain);
-  CHECK(std::none_of(detection.loops.begin(), detection.loops.end(),
-                     [](const LoopMeasures& loop) { return loop.cause.main().has_value(); }));
+  CHECK(std::none_of(detection.causes.begin(), detection.causes.end(),
+                     [](const LoopCause& cause) { return cause.main().has_value(); }));
 }
 
 TEST_CASE("causes of a scan from a moving scanner are those of its scene") {
@@ -132,7 +133,7 @@ double kept_promise(const Found& found) {
   const synth::Scanner scanner(found.options, synth::make_scene(found.options.scene, found.options.seed));
   std::vector<InsidePlace> hidden;
   for (std::size_t i = 0; i < found.detection->loops.size(); ++i) {
-    const LoopCause& cause = found.detection->loops[i].cause;
+    const LoopCause& cause = found.detection->causes[i];
     if (!cause.main()) continue;
     for (InsidePlace& place : inside_places(*found.detection, i)) {
       place.area *= cause.share(Cause::kHidden) + cause.share(Cause::kOutOfView);

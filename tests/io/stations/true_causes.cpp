@@ -37,27 +37,27 @@ std::optional<SurfacePlace> on_surface(const Scene& scene, const io::InsidePlace
 }
 
 // None: the station samples it.
-std::optional<lacuna::Cause> cause_of(const synth::Cause& cause, bool is_grazing) {
+std::optional<io::Cause> cause_of(const synth::Cause& cause, bool is_grazing) {
   switch (cause.kind) {
     case synth::Cause::kNone:
       return std::nullopt;
     case synth::Cause::kEdge:
-      return is_grazing ? lacuna::Cause::kOutOfView : lacuna::Cause::kHidden;
+      return is_grazing ? io::Cause::kOutOfView : io::Cause::kHidden;
     case synth::Cause::kShadow:
-      return lacuna::Cause::kHidden;
+      return io::Cause::kHidden;
     case synth::Cause::kWindow:
     case synth::Cause::kDoor:
-      return lacuna::Cause::kOpening;
+      return io::Cause::kOpening;
     case synth::Cause::kWater:
-      return lacuna::Cause::kNoReturn;
+      return io::Cause::kNoReturn;
     default:
-      return lacuna::Cause::kOutOfView;
+      return io::Cause::kOutOfView;
   }
 }
 
 // As find_causes combines stations.
-int rank_of(lacuna::Cause cause) {
-  return cause == lacuna::Cause::kOpening ? 0 : cause == lacuna::Cause::kNoReturn ? 1 : 2;
+int rank_of(io::Cause cause) {
+  return cause == io::Cause::kOpening ? 0 : cause == io::Cause::kNoReturn ? 1 : 2;
 }
 
 }  // namespace
@@ -76,13 +76,13 @@ double area_seen_by_last(std::span<const io::InsidePlace> places, const Scanner&
   return area;
 }
 
-std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places, const Scanner& scanner) {
-  std::array<double, kCauses> shares{};
+std::array<double, io::kCauses> true_shares(std::span<const io::InsidePlace> places, const Scanner& scanner) {
+  std::array<double, io::kCauses> shares{};
   double all = 0;
   const Visibility visibility(scanner);
   for (const io::InsidePlace& place : places) {
     const std::optional<SurfacePlace> surface = on_surface(scanner.scene(), place);
-    std::optional<lacuna::Cause> found;
+    std::optional<io::Cause> found;
     double nearest = 0;
     bool is_sampled = false;
     for (std::uint32_t number = 0; number < scanner.sweeps().size(); ++number) {
@@ -90,7 +90,7 @@ std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places,
       const double range = std::sqrt(dot(arm, arm));
       if (!surface) {  // a door, or bent away from all surfaces
         if (std::isinf(cast(scanner.scene(), {vec3(place.position) - arm, (1 / range) * arm}).range))
-          found = lacuna::Cause::kOpening;
+          found = io::Cause::kOpening;
         continue;
       }
       const bool is_grazing = std::fabs(dot(arm, surface->normal)) / range < io::kLeastIncidence;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/synth/scanner.hpp"
+#include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
 
 #include <array>
@@ -12,8 +13,8 @@ namespace lacuna::test {
 
 // Shares of the area, as in LoopCause; all 0 where a station samples all places. A place takes part where a
 // shape has a surface within 5 cm.
-std::array<double, kCauses> true_shares(std::span<const io::InsidePlace> places,
-                                        const synth::Scanner& scanner);
+std::array<double, io::kCauses> true_shares(std::span<const io::InsidePlace> places,
+                                            const synth::Scanner& scanner);
 
 // The area of places on surfaces that the last station of the scanner samples.
 double area_seen_by_last(std::span<const io::InsidePlace> places, const synth::Scanner& scanner);

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own struct
-// as const. `parameters()` lists them all once: the config file, the command line, the errors and the printed
-// config come from that list.
+// What the engine reads of a run's parameters: one struct per stage, defaults here and nowhere else. A stage
+// gets its own struct as const. `parameters` lists them all once: the config file, the command line, the
+// errors and the printed config come from that list (engine/config/parameter.hpp).
 #pragma once
 
+#include "engine/config/parameter.hpp"
 #include "engine/criteria/criteria.hpp"
 #include "engine/export.hpp"
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace lacuna {
@@ -99,54 +96,11 @@ struct SelectionConfig {
   bool holes_only = false;  // no outer boundaries
 };
 
-// Which returns of a pulse count.
-enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
-
-// The unit of the lengths of the scan.
-enum class LengthUnit : std::uint8_t {
-  kInput,  // what the files say
-  kM,
-  kKm,
-  kCm,
-  kMm,
-  kFt,
-  kUsFt,
-  kIn,
-  kYd
-};
-LACUNA_API std::string_view name_of(LengthUnit unit);  // as in the config file
-
-struct InputConfig {
-  std::string columns;         // names of a text file's columns, space separated; empty: from its header line
-  std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
-  std::vector<double> leave_out;      // boxes, of min x y z max x y z each; points in them take no part
-  std::vector<std::int64_t> classes;  // of property classification; empty: all
-  Returns returns = Returns::kAll;
-  bool drop_origin = false;  // without points at 0 0 0 or at the scanner
-  std::string crs;           // coordinate reference system: a code, WKT or a file; empty: as the files say
-  LengthUnit unit = LengthUnit::kInput;
-};
-
-// How the annotated scan is written: file by file, or as one file.
-enum class PointsFormat : std::uint8_t { kInput, kPly, kCsv };
-
-struct OutputConfig {
-  bool points = false;  // write the annotated scan: every point of the input with its results
-  PointsFormat points_format = PointsFormat::kInput;
-  bool normals = false;                  // with nx ny nz where they were estimated
-  bool vdb = false;                      // write probability.vdb
-  bool obj = false;                      // write the loops for CAD
-  bool gpkg = false, geojson = false;    // for GIS: GeoPackage, GeoJSON
-  bool shp = false;                      // Shapefile
-  bool lids = false;                     // triangulated lids of the holes
-  bool polygons = false;                 // files for GIS have the loops as polygons, too
-  double coverage = 0;                   // write coverage.tif with cells of this edge; 0: off
-  std::string stations;                  // file of where scanners stood; empty: as the scans say
-  double cut_outs = 0;                   // write the points within this distance of each hole; 0: off
-  bool no_coordinates = false;           // loops of holes.json have ids alone
-  bool local_coordinates = false;        // PLY: floats relative to an offset
-  std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none
-  bool report = false;                   // write report.html
+// Which results are wanted besides the loops.
+struct ResultsConfig {
+  bool points = false;                   // of every point of the input
+  bool voxels = false;                   // the boundary probability as a grid
+  std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none
 };
 
 struct RunConfig {
@@ -155,6 +109,7 @@ struct RunConfig {
   std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
   std::string workspace;           // folder of a run that can go on later; empty: it cannot
   std::string scratch;             // folder for temporary files; empty: in the workspace or the output folder
+  std::string note;                // no parameter: text of the caller that a workspace keeps for it
 };
 
 struct Config {
@@ -167,55 +122,12 @@ struct Config {
   SpanningConfig spanning;
   TangentialConfig tangential;
   SelectionConfig selection;
-  InputConfig input;
-  OutputConfig output;
+  ResultsConfig results;
   RunConfig run;
 };
 
-// What a parameter needs in order to change the results.
-struct Need {
-  std::string_view options;  // as on the command line; empty: nothing
-  bool (*is_given)(const Config&);
-};
-
-// A value of an enumeration, by the names of all.
-struct NamedValue {
-  std::uint8_t* value;
-  std::span<const std::string_view> names;
-};
-
-// One line of the list: `[section] key = value`, on the command line `--key` with dashes.
-struct Parameter {
-  using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*,
-                             std::vector<double>*, std::vector<std::int64_t>*, NamedValue>;
-  std::string_view section;
-  std::string_view key;
-  Value value;  // points into the Config it was listed from; uint64_t: a size in bytes
-  double min;   // of lists: of each number
-  double max;
-  std::string_view allowed;  // for error messages: "a whole number from 1 to 1000"
-  std::string_view help;
-  Need needs;
-
-  LACUNA_API std::string option() const;  // "--tile-points"
-  LACUNA_API std::string print() const;   // as in the config file
-  // Sets the value from text as on the command line. Throws `Error` naming the key and what is allowed.
-  LACUNA_API void set(std::string_view text) const;
-};
-
-// Every parameter, in the order of the config file.
+// Every parameter of the engine, in the order of the config file. They point into `config`.
 LACUNA_API std::vector<Parameter> parameters(Config& config);
-
-// Values of the file over those in `config`. Returns the file's keys. Throws `Error` (file, line, key, what
-// is allowed) for unknown keys, wrong types and impossible values.
-LACUNA_API std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
-
-// Does the same with the text of a file.
-LACUNA_API std::vector<std::string> read_config_text(const std::string& text,
-                                                     const std::filesystem::path& file, Config& config);
-
-// The whole config as TOML, a help comment above each key.
-LACUNA_API std::string print_config(const Config& config);
 
 // Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
 // found (docs/method.md, D).
@@ -224,14 +136,14 @@ inline constexpr double kCellsAcross = 5;
 // point.
 LACUNA_API double first_edge(const ScaleConfig& scale);
 // The config in effect: min_hole sets min_diameter where that is 0.
-LACUNA_API Config with_min_hole(Config config);
+template <class AnyConfig>
+AnyConfig with_min_hole(AnyConfig config) {
+  if (config.selection.min_diameter == 0) config.selection.min_diameter = config.scale.min_hole;
+  return config;
+}
 
-// Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit
-// too small to work in).
+// Throws `Error` where a value is out of its range, or values contradict each other: eps and eps_fraction,
+// all weights 0.
 LACUNA_API void check_config(const Config& config);
-
-// "512MiB", "2GiB", "1500000" and back.
-LACUNA_API std::optional<std::uint64_t> parse_bytes(std::string_view text);
-LACUNA_API std::string print_bytes(std::uint64_t bytes);
 
 }  // namespace lacuna

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The config file: TOML, each key in its section.
-#include "engine/config.hpp"
-#include "engine/config_text.hpp"
-#include "engine/parameter_values.hpp"
+#include "engine/config/config_file.hpp"
+
+#include "engine/config/config_text.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/regular_file.hpp"
 #include "engine/run/words.hpp"
@@ -21,18 +20,6 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 constexpr std::size_t kLargestConfigFile = 1 << 20;
-
-std::string read_text(const std::filesystem::path& file) {
-  check_regular_file(file, "a config file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
-  std::string text(kLargestConfigFile + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw Error(file.string() + ": cannot read the config file: " + std::strerror(errno));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kLargestConfigFile) throw Error(file.string() + ": too large for a config file (1 MiB)");
-  return text;
-}
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::size_t line, const std::string& reason) {
   throw Error(file.string() + ":" + std::to_string(line) + ": " + reason);
@@ -124,15 +111,21 @@ void set(const Parameter& parameter, const toml::node& node) {
 
 }  // namespace
 
-std::vector<std::string> read_config(const std::filesystem::path& file, Config& config) {
-  return read_config_text(read_text(file), file, config);
+std::string read_config_text(const std::filesystem::path& file) {
+  check_regular_file(file, "a config file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
+  std::string text(kLargestConfigFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) throw Error(file.string() + ": cannot read the config file: " + std::strerror(errno));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kLargestConfigFile) throw Error(file.string() + ": too large for a config file (1 MiB)");
+  return text;
 }
 
-std::vector<std::string> read_config_text(const std::string& text, const std::filesystem::path& file,
-                                          Config& config) {
-  Config changed = config;
+std::vector<std::string> read_parameters(const std::string& text, const std::filesystem::path& file,
+                                         const std::vector<Parameter>& all) {
   std::vector<std::string> keys;
-  const std::vector<Parameter> all = parameters(changed);
   for (const auto& [section, content] : parse_toml(file, text)) {
     const std::string in(section.str());
     const toml::table* const table = content.as_table();
@@ -151,20 +144,21 @@ std::vector<std::string> read_config_text(const std::string& text, const std::fi
       keys.emplace_back(key.str());
     }
   }
-  config = std::move(changed);
   return keys;
 }
 
-std::string print_config(const Config& config) {
-  Config printed = config;
+std::string print_parameters(const std::vector<Parameter>& all) {
   std::ostringstream text;
   text << "# Parameters of a run of lacuna. Command line over config file over defaults.\n";
   std::string_view section;
-  for (const Parameter& parameter : parameters(printed)) {
+  for (const Parameter& parameter : all) {
     text << '\n';
     if (parameter.section != section) {
       section = parameter.section;
       text << '[' << section << "]\n";
+      if (parameter.is_constant)
+        text << "# Constants of the method, not for ordinary use. No option of the command line sets "
+                "them.\n\n";
     }
     text << "# " << parameter.help << "\n# Allowed: " << parameter.allowed << ".\n"
          << parameter.key << " = " << parameter.print() << '\n';

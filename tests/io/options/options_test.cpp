@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config.hpp"
+#include "io/options/options.hpp"
 
 #include "engine/run/error.hpp"
 #include "tests/support/run_program.hpp"
@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
-namespace lacuna {
+namespace lacuna::io {
 namespace {
 
 using Catch::Matchers::Contains;
@@ -24,12 +24,12 @@ const Parameter& find(const std::vector<Parameter>& all, const std::string& key)
 }
 
 std::string error_of_set(const std::string& key, const std::string& text) {
-  Config config;
+  FilesConfig config;
   const std::vector<Parameter> all = parameters(config);
   try {
     find(all, key).set(text);
   } catch (const Error& error) {
-    REQUIRE(print_config(config) == print_config({}));
+    REQUIRE(print_config(config) == print_config(FilesConfig{}));
     return error.what();
   }
   return "";
@@ -39,11 +39,11 @@ std::string error_of_set(const std::string& key, const std::string& text) {
 std::string error_of_file(const std::string& content) {
   const ScratchFolder scratch;
   const std::string file = scratch.write("c.toml", content);
-  Config config;
+  FilesConfig config;
   try {
     read_config(file, config);
   } catch (const Error& error) {
-    REQUIRE(print_config(config) == print_config({}));
+    REQUIRE(print_config(config) == print_config(FilesConfig{}));
     const std::string text = error.what();
     REQUIRE(text.starts_with(file + ":"));
     return text.substr(file.size());
@@ -51,9 +51,9 @@ std::string error_of_file(const std::string& content) {
   return "";
 }
 
-Config read(const std::string& content) {
+FilesConfig read(const std::string& content) {
   const ScratchFolder scratch;
-  Config config;
+  FilesConfig config;
   read_config(scratch.write("c.toml", content), config);
   return config;
 }
@@ -79,7 +79,7 @@ TEST_CASE("text that the TOML library cannot take is an error with its line") {
 
 TEST_CASE("comments and strings of a config file hold outbox of any language") {
   const ScratchFolder scratch;
-  Config config;
+  FilesConfig config;
   read_config(scratch.write("c.toml",
                             "\xef\xbb\xbf# Gr\xc3\xb6\xc3\x9f"
                             "e '\"\r\n[ run ] # \xce\xa2\nworkspace = \"/\xce\xa2 \\\" # \" # \xce\xa2\n"
@@ -90,30 +90,30 @@ TEST_CASE("comments and strings of a config file hold outbox of any language") {
 }
 
 TEST_CASE("configs/default.toml is the printed default, byte for byte") {
-  REQUIRE(test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml") == print_config({}));
+  REQUIRE(test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml") == print_config(FilesConfig{}));
 }
 
 TEST_CASE("every file in configs is read and possible, and each of its values has an effect") {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(LACUNA_SOURCE_DIR "/configs")) {
-    Config config;
+    FilesConfig config;
     read_config(entry.path(), config);
     check_config(config);
-    Config defaults;
+    FilesConfig defaults;
     const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
     for (std::size_t i = 0; i < all.size(); ++i) {
       INFO(entry.path() << ": " << all[i].key);
-      CHECK((all[i].needs.is_given(config) || all[i].print() == unchanged[i].print()));
+      CHECK((all[i].missing.empty() || all[i].print() == unchanged[i].print()));
     }
     const bool is_default = entry.path().filename() == "default.toml";
-    CHECK((print_config(config) == print_config({})) == is_default);
+    CHECK((print_config(config) == print_config(FilesConfig{})) == is_default);
     ++files;
   }
   REQUIRE(files == 3);
 }
 
 TEST_CASE("a printed config reads back as itself, whatever its values") {
-  Config config;
+  FilesConfig config;
   config.neighbourhood.k = 1000;
   config.neighbourhood.eps = 0.1 + 0.2;
   config.criteria.sigma = 1e-7;
@@ -122,7 +122,7 @@ TEST_CASE("a printed config reads back as itself, whatever its values") {
   config.run.memory_limit = 1'500'000'001;
   config.run.workspace = "/tmp/with space";
   const std::string printed = print_config(config);
-  const Config again = read(printed);
+  const FilesConfig again = read(printed);
   REQUIRE(print_config(again) == printed);
   CHECK(again.neighbourhood.eps == 0.1 + 0.2);
   CHECK(again.input.columns == config.input.columns);
@@ -130,7 +130,7 @@ TEST_CASE("a printed config reads back as itself, whatever its values") {
 }
 
 TEST_CASE("every key is unique and gives its option") {
-  Config config;
+  FilesConfig config;
   std::set<std::string> options;
   for (const Parameter& parameter : parameters(config)) {
     CHECK(options.insert(parameter.option()).second);
@@ -143,7 +143,7 @@ TEST_CASE("every key is unique and gives its option") {
 }
 
 TEST_CASE("the least and the largest value of each number are possible, the next ones are not") {
-  Config config;
+  FilesConfig config;
   for (const Parameter& parameter : parameters(config)) {
     INFO(parameter.key);
     if (const auto* number = std::get_if<double*>(&parameter.value)) {
@@ -181,7 +181,7 @@ TEST_CASE("an impossible value names its key and what is allowed") {
 }
 
 TEST_CASE("a memory limit that is too little for a report or for GDAL is refused") {
-  Config config;
+  FilesConfig config;
   config.run.memory_limit = 64 << 20;
   CHECK_NOTHROW(check_config(config));
   config.output.report = true;
@@ -196,7 +196,7 @@ TEST_CASE("a memory limit that is too little for a report or for GDAL is refused
 }
 
 TEST_CASE("lists of numbers come as text with commas and as arrays, and print as arrays") {
-  Config config;
+  FilesConfig config;
   const std::vector<Parameter> all = parameters(config);
   find(all, "bounds").set("-1, 2.5,3 4");
   CHECK(config.input.bounds == std::vector{-1.0, 2.5, 3.0, 4.0});
@@ -215,7 +215,7 @@ TEST_CASE("lists of numbers come as text with commas and as arrays, and print as
 
 TEST_CASE("bounds of another count of numbers, or without content, contradict themselves") {
   const auto error = [](std::vector<double> bounds) {
-    Config config;
+    FilesConfig config;
     config.input.bounds = std::move(bounds);
     try {
       check_config(config);
@@ -254,7 +254,7 @@ TEST_CASE("an impossible value in a file is an error with its line") {
 }
 
 TEST_CASE("a whole number is a number, and a size may be one") {
-  const Config config = read("[neighbourhood]\neps = 2\n[run]\nmemory_limit = 4000000000\n");
+  const FilesConfig config = read("[neighbourhood]\neps = 2\n[run]\nmemory_limit = 4000000000\n");
   CHECK(config.neighbourhood.eps == 2.0);
   CHECK(config.run.memory_limit == 4'000'000'000);
 }
@@ -278,9 +278,9 @@ TEST_CASE("what is not TOML is an error with its line") {
 
 TEST_CASE("every prefix of the default config is read or refused, never more") {
   const ScratchFolder scratch;
-  const std::string whole = print_config({});
+  const std::string whole = print_config(FilesConfig{});
   for (std::size_t length = 0; length < whole.size(); length += 7) {
-    Config config;
+    FilesConfig config;
     try {
       read_config(scratch.write("c.toml", whole.substr(0, length)), config);
     } catch (const Error& error) {
@@ -291,7 +291,7 @@ TEST_CASE("every prefix of the default config is read or refused, never more") {
 
 TEST_CASE("a config file that cannot be read is named") {
   const ScratchFolder scratch;
-  Config config;
+  FilesConfig config;
   REQUIRE_THROWS_WITH(read_config(scratch / "none.toml", config), Contains("none.toml: cannot be opened"));
   REQUIRE_THROWS_WITH(read_config(scratch / ".", config), Contains("a folder"));
   REQUIRE_THROWS_WITH(read_config("/dev/zero", config), Contains("not a regular file"));
@@ -310,14 +310,14 @@ TEST_CASE("a name of thousands of parts in a config file is refused with its lin
     INFO(text.substr(0, 20));
     CHECK_THAT(error_of_file("# Parts.\n" + text), Contains("a name of more than 16 parts"));
   }
-  Config config;
+  FilesConfig config;
   const ScratchFolder scratch;
   read_config(scratch.write("c.toml", "[input]\nbounds = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5]  # " + name), config);
   CHECK(config.input.bounds.size() == 6);
 }
 
 TEST_CASE("values that contradict each other are refused") {
-  Config config;
+  FilesConfig config;
   REQUIRE_NOTHROW(check_config(config));
   config.neighbourhood = {.eps = 1, .eps_fraction = 0.1};
   REQUIRE_THROWS_WITH(check_config(config), Contains("eps and eps_fraction"));
@@ -364,4 +364,4 @@ TEST_CASE("a printed size is exact and reads back") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::io

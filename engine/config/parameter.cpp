@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/parameter_values.hpp"
+#include "engine/config/parameter.hpp"
 
 #include "engine/run/error.hpp"
 
@@ -36,6 +36,11 @@ std::optional<Number> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return number;
+}
+
+bool in_range(const Parameter& parameter, double value) {
+  if (is_any_of<std::uint64_t*>(parameter) && value == 0) return true;
+  return std::isfinite(value) && parameter.min <= value && value <= parameter.max;
 }
 
 // Sets the value, of whatever type the parameter has, and returns true if the text is a possible one.
@@ -110,9 +115,16 @@ struct PrintValue {
   throw UsageError(message.str());
 }
 
-bool in_range(const Parameter& parameter, double value) {
-  if (is_any_of<std::uint64_t*>(parameter) && value == 0) return true;
-  return std::isfinite(value) && parameter.min <= value && value <= parameter.max;
+void check_ranges(const std::vector<Parameter>& all) {
+  for (const Parameter& parameter : all) {
+    std::visit(
+        [&parameter](const auto& value) {
+          if constexpr (requires { static_cast<double>(*value); }) {
+            if (!in_range(parameter, static_cast<double>(*value))) refuse(parameter, parameter.print());
+          }
+        },
+        parameter.value);
+  }
 }
 
 std::string print_number(double value) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why no scanner sampled the inside of a hole.
+// Why no scanner sampled the inside of a hole, and a detection with that.
 #pragma once
+
+#include "engine/model/detection.hpp"
 
 #include <array>
 #include <cstddef>
@@ -9,10 +11,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
-namespace lacuna {
+namespace lacuna::io {
 
 enum class Cause : std::uint8_t {
   kHidden,     // nearer points stand before it
@@ -65,4 +68,17 @@ struct StationSummary {
   double farthest = 0;             // range
 };
 
-}  // namespace lacuna
+// A loop with the cause of its hole.
+struct ExplainedLoop : LoopMeasures {
+  LoopCause cause;
+};
+
+// What a run on files has found.
+struct ExplainedDetection : Detection {
+  std::vector<StationSummary> stations = {};  // that are known
+  std::vector<LoopCause> causes = {};         // of each loop; empty where no station is known
+
+  ExplainedLoop loop(std::size_t i) const { return {loops[i], causes.empty() ? LoopCause() : causes[i]}; }
+};
+
+}  // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/config_text.hpp"
+#include "engine/config/config_text.hpp"
 
 #include "engine/run/utf8.hpp"
 

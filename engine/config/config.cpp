@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/config/config.hpp"
+
+#include "engine/criteria/criteria.hpp"
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+
+namespace lacuna {
+
+double first_edge(const ScaleConfig& scale) {
+  if (scale.resolution > 0 || scale.every_point) return scale.resolution;
+  return scale.min_hole / kCellsAcross;
+}
+
+void check_config(const Config& config) {
+  const std::vector<double>& weights = config.criteria.weights;
+  if (weights.size() != criteria().size()) {
+    throw Error(std::to_string(weights.size()) +
+                " weights of criteria; allowed: " + std::to_string(criteria().size()));
+  }
+  Config checked = config;
+  check_ranges(parameters(checked));
+
+  const NeighbourhoodConfig& neighbourhood = config.neighbourhood;
+  if (neighbourhood.eps > 0 && neighbourhood.eps_fraction > 0) {
+    throw Error("eps and eps_fraction are both set; allowed: at most one of them above 0");
+  }
+  if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
+    std::string names;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (i > 0) names += i + 1 < weights.size() ? ", " : " and ";
+      names += criteria()[i].weight_key;
+    }
+    throw Error(names + " are all 0; allowed: at least one above 0");
+  }
+  const SelectionConfig& selection = config.selection;
+  if (selection.max_perimeter > 0 && selection.max_perimeter < selection.min_perimeter) {
+    throw Error("max_perimeter = " + print_number(selection.max_perimeter) +
+                " is less than min_perimeter = " + print_number(selection.min_perimeter) +
+                "; allowed: 0 (no limit) or at least min_perimeter");
+  }
+}
+
+}  // namespace lacuna

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/options/options.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+namespace lacuna::io {
+namespace {
+
+// In the order of their enumerations.
+constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
+constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
+constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
+
+bool is_gis(const OutputConfig& output) {
+  return output.gpkg || output.geojson || output.shp;
+}
+
+// Min along each axis, then max along each.
+void check_box(const std::string& name, std::span<const double> box) {
+  const std::size_t axes = box.size() / 2;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (box[axis] > box[axes + axis])
+      throw Error(name + " are empty: min " + std::string(1, "xyz"[axis]) + " = " + print_number(box[axis]) +
+                  " is above max " + "xyz"[axis] + " = " + print_number(box[axes + axis]) +
+                  "; all of min come before all of max");
+  }
+}
+
+void check_boxes(const InputConfig& input) {
+  const std::vector<double>& bounds = input.bounds;
+  if (!bounds.empty() && bounds.size() != 4 && bounds.size() != 6)
+    throw Error("bounds has " + std::to_string(bounds.size()) +
+                " numbers; allowed: 4 (min x y, max x y) or 6 (min x y z, max x y z), divided by commas");
+  check_box("bounds", bounds);
+  const std::span<const double> boxes = input.leave_out;
+  if (boxes.size() % 6 != 0)
+    throw Error("leave_out has " + std::to_string(boxes.size()) +
+                " numbers; allowed: 6 for each box (min x y z, max x y z), divided by commas");
+  for (std::size_t at = 0; at < boxes.size(); at += 6) check_box("boxes of leave_out", boxes.subspan(at, 6));
+}
+
+// A report is put together in memory, and GDAL has memory of its own. Measured beyond the rest: 21 and 30
+// MiB.
+void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_limit) {
+  constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
+  const bool has_gis = is_gis(output);
+  const std::uint64_t least = kLeast + (output.report ? kReport : 0) + (has_gis ? kGis : 0);
+  if (memory_limit == 0 || memory_limit >= least * kMiB) return;
+  const std::string outputs = output.report && has_gis ? "a report and files for GIS"
+                              : has_gis                ? "files for GIS"
+                                                       : "a report";
+  throw Error("memory_limit = " + std::to_string(memory_limit / kMiB) + "MiB is too little for " + outputs +
+              "; allowed: at least " + std::to_string(least) + "MiB");
+}
+
+}  // namespace
+
+std::string_view name_of(LengthUnit unit) {
+  return kUnitNames[static_cast<std::size_t>(unit)];
+}
+
+std::vector<Parameter> file_parameters(FilesConfig& config) {
+  InputConfig& input = config.input;
+  OutputConfig& output = config.output;
+  const bool has_points = config.results.points;
+  const std::string_view no_points = has_points ? "" : "--points";
+  const std::string_view no_points_files = has_points || output.cut_outs > 0 ? "" : "--points or --cut-outs";
+  const std::string_view no_gis = is_gis(output) ? "" : "--gpkg, --geojson or --shp";
+  return {
+      {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
+       "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
+      {"input", "bounds", &input.bounds, -1e153, 1e153,
+       "4 numbers, min x y and max x y, or 6, min x y z and max x y z; none: no bounds",
+       "Points outside of this box do not take part."},
+      {"input", "leave_out", &input.leave_out, -1e153, 1e153,
+       "6 numbers, min x y z and max x y z, for each box; none: no box",
+       "Points in these boxes do not take part."},
+      {"input", "classes", &input.classes, 0, 255, "whole numbers from 0 to 255; none: all classes",
+       "Points of other classes do not take part; the property classification has them."},
+      {"input", "returns", named(input.returns, kReturns), 0, 3, "all, first, last or only",
+       "Other returns of a laser pulse do not take part; only: of pulses with one return."},
+      {"input", "drop_origin", &input.drop_origin, 0, 1, "true or false",
+       "Points at 0 0 0, or at the scanner where a file has its place, do not take part."},
+      {"input", "crs", &input.crs, 0, 0,
+       "a code such as EPSG:25832, well-known text, or a file that has one of them",
+       "Coordinate reference system of the scan, over what its files state; empty: as they state it."},
+      {"input", "unit", named(input.unit, kUnitNames), 0, 8, "input, m, km, cm, mm, ft, us-ft, in or yd",
+       "Unit of the coordinates, over what the files state; input: as they, or --crs, state it."},
+      {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2, "input, ply or csv",
+       "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
+       no_points_files},
+      {"output", "normals", &output.normals, 0, 1, "true or false",
+       "Add the estimated normals to the annotated scan, unless a scan brings its own.", no_points},
+      {"output", "obj", &output.obj, 0, 1, "true or false",
+       "Write loops.obj too: the loops as polylines, for CAD, ParaView and Blender."},
+      {"output", "gpkg", &output.gpkg, 0, 1, "true or false",
+       "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS."},
+      {"output", "geojson", &output.geojson, 0, 1, "true or false",
+       "Write loops.geojson too: the loops as GeoJSON, for GIS and the web."},
+      {"output", "shp", &output.shp, 0, 1, "true or false",
+       "Write loops.shp too, with its .shx, .dbf and .prj: the loops as a Shapefile."},
+      {"output", "lids", &output.lids, 0, 1, "true or false",
+       "Write lids.obj, lids.ply and lids.csv too: a triangulated lid for each hole, a preview of filling."},
+      {"output", "polygons", &output.polygons, 0, 1, "true or false",
+       "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
+       "others.",
+       no_gis},
+      {"output", "stations", &output.stations, 0, 0, "a file name, or nothing",
+       "File of where scanners stood, or the trajectory of one, from which the cause of each hole is found; "
+       "without it, as the scans say."},
+      {"output", "coverage", &output.coverage, 0, 1e100, "a length of 0 (off) or more",
+       "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS."},
+      {"output", "cut_outs", &output.cut_outs, 0, 1e100, "a length of 0 (off) or more",
+       "Write a file for each hole too: the points in the loop's box of x, y and z, widened by this length."},
+      {"output", "no_coordinates", &output.no_coordinates, 0, 1, "true or false",
+       "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone."},
+      {"output", "local_coordinates", &output.local_coordinates, 0, 1, "true or false",
+       "Coordinates of PLY files are 32-bit floats relative to an offset, which their headers state."},
+      {"output", "report", &output.report, 0, 1, "true or false",
+       "Write report.html too: the scan and its holes in 3D, for a browser."},
+  };
+}
+
+std::vector<Parameter> parameters(FilesConfig& config) {
+  std::vector<Parameter> all = lacuna::parameters(config);
+  const auto find = [&](std::string_view key) {
+    return std::find_if(all.begin(), all.end(), [key](const Parameter& p) { return p.key == key; });
+  };
+  if (!config.output.normals) find("orient_normals")->missing = "--points --normals";
+  // Each parameter of files stands before one of the engine.
+  std::string_view next = "points";
+  for (const Parameter& parameter : file_parameters(config)) {
+    if (parameter.key == "points_format") next = "vdb";
+    if (parameter.key == "obj") next = "sample_points";
+    if (parameter.key == "report") next = "threads";
+    all.insert(find(next), parameter);
+  }
+  return all;
+}
+
+void check_config(const FilesConfig& config) {
+  lacuna::check_config(config);
+  FilesConfig checked = config;
+  check_ranges(file_parameters(checked));
+  check_boxes(config.input);
+  check_memory_of_outputs(config.output, config.run.memory_limit);
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters of a run on files: those of the engine, and which files are read and written, and how.
+#pragma once
+
+#include "engine/config/config.hpp"
+#include "engine/config/config_file.hpp"
+#include "engine/export.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::io {
+
+// Which returns of a pulse count.
+enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
+
+// The unit of the lengths of the scan.
+enum class LengthUnit : std::uint8_t {
+  kInput,  // what the files say
+  kM,
+  kKm,
+  kCm,
+  kMm,
+  kFt,
+  kUsFt,
+  kIn,
+  kYd
+};
+LACUNA_API std::string_view name_of(LengthUnit unit);  // as in the config file
+
+struct InputConfig {
+  std::string columns;         // names of a text file's columns, space separated; empty: from its header line
+  std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
+  std::vector<double> leave_out;      // boxes, of min x y z max x y z each; points in them take no part
+  std::vector<std::int64_t> classes;  // of property classification; empty: all
+  Returns returns = Returns::kAll;
+  bool drop_origin = false;  // without points at 0 0 0 or at the scanner
+  std::string crs;           // coordinate reference system: a code, WKT or a file; empty: as the files say
+  LengthUnit unit = LengthUnit::kInput;
+};
+
+// How the annotated scan is written: file by file, or as one file.
+enum class PointsFormat : std::uint8_t { kInput, kPly, kCsv };
+
+struct OutputConfig {
+  PointsFormat points_format = PointsFormat::kInput;
+  bool normals = false;                // with nx ny nz where they were estimated
+  bool obj = false;                    // write the loops for CAD
+  bool gpkg = false, geojson = false;  // for GIS: GeoPackage, GeoJSON
+  bool shp = false;                    // Shapefile
+  bool lids = false;                   // triangulated lids of the holes
+  bool polygons = false;               // files for GIS have the loops as polygons, too
+  double coverage = 0;                 // write coverage.tif with cells of this edge; 0: off
+  std::string stations;                // file of where scanners stood; empty: as the scans say
+  double cut_outs = 0;                 // write the points within this distance of each hole; 0: off
+  bool no_coordinates = false;         // loops of holes.json have ids alone
+  bool local_coordinates = false;      // PLY: floats relative to an offset
+  bool report = false;                 // write report.html
+};
+
+struct FilesConfig : Config {
+  InputConfig input;
+  OutputConfig output;
+};
+
+// The parameters of files alone.
+LACUNA_API std::vector<Parameter> file_parameters(FilesConfig& config);
+// All parameters, in the order of the config file.
+LACUNA_API std::vector<Parameter> parameters(FilesConfig& config);
+
+// As `check_config` of the engine does, also for boxes, and for a memory limit that is too little for a
+// report or for files of GIS.
+LACUNA_API void check_config(const FilesConfig& config);
+
+}  // namespace lacuna::io
