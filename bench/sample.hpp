@@ -13,12 +13,12 @@ enum class SampleOrder { kScanline, kRandom };
 
 // Returns exactly `points` points on a jittered grid whose lines follow arcs. Their spacing grows by a factor
 // of 2, so the density falls by a factor of 4. Every 64 x 64 nodes have a round hole of 4 to 12 spacings.
-// Coordinates are those of 32-bit floats, as in most scans. Same arguments, same points; the order of the
+// Coordinates are 32-bit floats, as in most scans. The same arguments give the same points; the order of the
 // batch changes only ids.
 PointBatch sample_surface(std::uint32_t points, SampleOrder order);
 
-// The points of a batch as a tile that owns all of them sees them: in store order, after survey, split and
-// order_tile.
+// Returns the points of a batch as a tile that owns all of them has them: in store order, after survey, split
+// and order_tile.
 TilePoints sample_tile(const PointBatch& batch);
 
 }  // namespace lacuna

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sample in each format that is read, to measure the readers.
+// Writes one sample in each format that Lacuna reads, to measure the readers.
 #pragma once
 
 #include "engine/model/points.hpp"
@@ -10,10 +10,10 @@
 namespace lacuna {
 
 struct SampleFormat {
-  const char* name;    // "LAZ 1.4, format 7"
+  const char* name;    // such as "LAZ 1.4, format 7"
   const char* ending;  // of a file name
-  // Positions, and intensity, colours and times where the format has them. Files of more than 4 GB are not
-  // made. PTX, PCD and STL have single precision or as many digits.
+  // The sample has positions, and intensity, colours and times if the format has them. It is never a file of
+  // more than 4 GB. PTX, PCD and STL have single precision or as many digits.
   void (*write)(const PointBatch& sample, const std::filesystem::path& file);
 };
 

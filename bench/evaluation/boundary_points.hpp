@@ -14,20 +14,20 @@ namespace lacuna::evaluation {
 using namespace matching;
 
 struct PointScores {
-  std::optional<double> precision;  // right of the flagged; none: nothing is flagged
-  std::optional<double> recall;     // flagged of the true; none: nothing is true
-  std::optional<double> f1;         // their harmonic mean; none: nothing is flagged or true
+  std::optional<double> precision;  // share of the flagged that are right; empty if nothing is flagged
+  std::optional<double> recall;     // share of the true that are flagged; empty if nothing is true
+  std::optional<double> f1;         // their harmonic mean; empty if nothing is flagged or true
 };
 
 struct PointAccuracy {
   std::size_t flagged = 0, truth = 0;  // places
-  PointScores by_id;                   // at the same place
-  PointScores within_radius;           // flagged ones near a true edge; true ones near a flagged one
+  PointScores by_id;                   // flagged and true at the same place
+  PointScores within_radius;           // a flagged place counts near a true edge, a true one near a flagged
 };
 
-// Points at one place count once. The truth is the vertices of all loops given. Within the radius, it is
-// their edges, since a boundary is a curve. Where few of its points were sampled, those between them are on
-// it as well.
+// Points at one place count once. The true points are the vertices of all loops given. Within the radius, the
+// loops' edges count instead, since a boundary is a curve. Where few points of a curve were sampled, places
+// between them are on it as well.
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
                            std::span<const Eigen::Vector3d> positions,
                            std::span<const std::uint64_t> stand_ins, double radius);

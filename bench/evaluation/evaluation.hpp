@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A result held against the truth: files in, scores out.
+// Compares a result with the truth: files in, scores out.
 #pragma once
 
 #include "bench/evaluation/boundary_points.hpp"
@@ -19,19 +19,19 @@
 namespace lacuna::evaluation {
 using namespace matching;
 
-// What a program found. Ids are ranks of the scan's points; those of polylines are places in `vertices`.
+// What a program found. Ids are ranks of points of the scan; the ids of polylines are places in `vertices`.
 struct Result {
   std::filesystem::path file;  // with the loops
   std::vector<io::LoopIds> loops;
   std::vector<Eigen::Vector3d> vertices;               // of polylines, which need not be points of the scan
-  std::vector<double> confidence;                      // of each loop, NaN: unknown; empty: of none
+  std::vector<double> confidence;                      // of each loop, NaN if unknown; may be empty
   std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
   std::optional<std::uint64_t> points;                 // of the input; this and the next from the report
   std::vector<io::ScanInput> inputs;
   std::string columns;  // of inputs that are text
 };
 
-// What is there. Ids are places in `positions`.
+// The true loops. Ids are places in `positions`.
 struct Truth {
   std::filesystem::path file;
   std::vector<Eigen::Vector3d> positions;
@@ -53,20 +53,21 @@ struct Evaluation {
   std::optional<double> confidence;       // area under the ROC curve
 };
 
-// Reads the output folder of a run: loops.ply, and boundary.ply and holes.json where they are there. Or reads
-// a file of loops: loops.ply, text, or lines of a PLY file (polylines.hpp). Throws `Error`.
+// Reads the output folder of a run: loops.ply, and boundary.ply and holes.json if they exist. Or reads a file
+// of loops: loops.ply, text, or lines of a PLY file (polylines.hpp). Throws `Error`.
 Result read_result(const std::filesystem::path& path);
 
-// A PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids are those of `scans`.
-// Without any, they are those of X.ply next to X.loops.txt, else of the result's inputs where they still
-// exist. Points that no face of a mesh uses take no part in the spacing. The vertices of the result become
-// `positions` behind the points of the scan, and its loops count them there. Throws `Error`.
+// Reads a PLY mesh, whose boundary is the truth, or a file of loops as text, whose ids count the points of
+// `scans`. Without `scans`, they count the points of X.ply next to X.loops.txt. If there is no X.ply, they
+// count the points of the result's inputs, if these still exist. Points that no face of a mesh uses take no
+// part in the spacing. The vertices of the result become `positions` behind the points of the scan, and its
+// loops count them there. Throws `Error`.
 Truth read_truth(const std::filesystem::path& file, std::vector<io::ScanInput> scans, Result& result);
 
-// The faces of a PLY mesh. Throws `Error`.
+// Returns the faces of a PLY mesh. Throws `Error`.
 Surface read_surface(const std::filesystem::path& file);
 
-// Throws `Error` where the result is of another scan: ids, or a number of points, that the truth does not
+// Throws `Error` if the result is of another scan: it has ids, or a number of points, that the truth does not
 // have.
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule);
 

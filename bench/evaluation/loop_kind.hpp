@@ -13,9 +13,9 @@
 
 namespace lacuna::evaluation {
 
-// By the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
-// nearest points are. `points` are those of the tree, `positions` those that ids count. None for fewer than
-// three ids.
+// Uses the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
+// nearest points are. `points` are the points of the tree, and ids are places in `positions`. Returns nothing
+// for fewer than three ids.
 std::optional<LoopKind> kind_of(const io::LoopIds& loop, std::span<const Eigen::Vector3d> positions,
                                 std::span<const Eigen::Vector3d> points, const PointTree& tree);
 

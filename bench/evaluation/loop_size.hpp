@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large a loop is and where it lies, for people who compare results with the truth.
+// Computes how large a loop is and where it lies, for people who compare results with the truth.
 #pragma once
 
 #include "tools/matching/true_loops.hpp"

@@ -14,8 +14,8 @@
 namespace lacuna::evaluation {
 using namespace matching;
 
-// Every edge on exactly one triangle belongs to exactly one loop. Loops are simple, and in the order of their
-// vertices.
+// Every edge on exactly one triangle belongs to exactly one loop. Loops are simple. They come in the order of
+// their vertices.
 //
 // A curve follows the directions in which the triangles pass their edges. At a vertex with several edges to
 // go on, it crosses the gap in the mesh. It takes the first unused edge counterclockwise from the one on

@@ -9,12 +9,12 @@
 
 namespace lacuna::evaluation {
 
-// Rows of element "vertex".
+// Corners are rows of element "vertex".
 using Triangle = std::array<std::uint64_t, 3>;
 
-// Reads the polygons of list "vertex_indices" (or "vertex_index") of element "face", in file order. Each is a
-// fan around its first corner; one of fewer than three corners gives none. Throws `Error` where the file is
-// not a complete PLY, has no such list, or a face names a vertex that does not exist.
+// Reads the polygons of list "vertex_indices" (or "vertex_index") of element "face", in file order. Each
+// becomes a fan around its first corner; a polygon of fewer than three corners gives no triangle. Throws
+// `Error` if the file is not a complete PLY, has no such list, or a face names a vertex that does not exist.
 std::vector<Triangle> read_triangles(const std::filesystem::path& file);
 
 }  // namespace lacuna::evaluation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points are nearest to a place.
+// Finds the points that are nearest to a place.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace lacuna::evaluation {
 
-// A tree over points of the caller's, which are finite. Built in n log n; an answer costs log n.
+// A tree over the caller's points, which are finite. Building it costs n log n; a query costs log n.
 class PointTree {
  public:
   explicit PointTree(std::span<const Eigen::Vector3d> points);
   ~PointTree();
 
-  // By distance, those to the nearest `count` points, or to all where there are fewer. Squares of distances
-  // too large for a double leave a point out.
+  // Returns the squared distances to the nearest `count` points, or to all if there are fewer, in ascending
+  // order. A point is left out if the square of its distance is too large for a double.
   std::vector<double> nearest_distances(const Eigen::Vector3d& place, std::size_t count) const;
 
-  // Those points themselves, as places in the span.
+  // Returns these points themselves, as places in the span.
   std::vector<std::size_t> nearest_points(const Eigen::Vector3d& place, std::size_t count) const;
 
-  // Infinite where there is none.
+  // Returns infinity if there is no point.
   double nearest_distance(const Eigen::Vector3d& place) const;
 
  private:

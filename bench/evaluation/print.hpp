@@ -17,11 +17,12 @@ struct EvaluationText {
   EvaluationRule rule;
 };
 
-// Prints one sentence with what is found and false. Then comes a line for each true loop, the largest first,
-// with its name, size, place, and what found it. Then it prints a line for each loop that matches none.
+// Prints one sentence with the numbers of found and false loops. Then it prints a line for each true loop,
+// the largest first, with its name, size, place, and what found it. Then it prints a line for each loop that
+// matches no true loop.
 std::string print_verdict(const EvaluationText& text);
 
-// All scores, and every number behind them, by loop.
+// Returns all scores, and every number behind them, by loop.
 std::string print_details(const EvaluationText& text);
 
 std::string print_json(const EvaluationText& text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far apart the points of a scan are.
+// Computes how far apart the points of a scan are.
 #pragma once
 
 #include "bench/evaluation/point_tree.hpp"
@@ -10,12 +10,12 @@
 
 namespace lacuna::evaluation {
 
-// The mean distance to the 4 nearest others, or to all where there are fewer; 0 for a single point. The point
-// is one of the tree, whose points are distinct.
+// Returns the mean distance to the 4 nearest other points, or to all if there are fewer; 0 for a single
+// point. The place is a point of the tree, whose points are distinct.
 double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
 
-// The median over the points; 0 for fewer than two. The points are finite and distinct. If there are more
-// than 130,000 points, as many are taken, evenly spread. Cost: n log n, for the tree.
+// Returns the median over the points; 0 for fewer than two. The points are finite and distinct. If there are
+// more than 130,000 points, the function takes as many, evenly spread. Cost: n log n, for the tree.
 double median_spacing(std::span<const Eigen::Vector3d> points);
 double median_spacing(std::span<const Eigen::Vector3d> points,
                       const PointTree& tree);  // the tree of the points

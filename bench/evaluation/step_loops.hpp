@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops along steps of density, where points lie on both sides, much sparser on one.
+// Marks loops along steps of density, where points lie on both sides, much sparser on one.
 #pragma once
 
 #include "tools/matching/match_loops.hpp"
@@ -12,8 +12,8 @@ namespace lacuna::evaluation {
 using namespace matching;
 
 // A false loop becomes a step if `share` of its points are within the tolerance of the edges of steps. It
-// becomes joined if `share` of its points are near those or a true loop that counts. Steps are as
-// io::read_steps() gives them; without any, nothing changes. Cost: n log n.
+// becomes joined if `share` of its points are near these edges or a true loop that counts. Steps come from
+// io::read_steps(). Without steps, nothing changes. Cost: n log n.
 void mark_steps(std::span<const io::LoopIds> loops, std::span<const io::LoopIds> steps,
                 std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
                 const MatchRule& rule, LoopAccuracy& accuracy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both peers share: their command line, and how they report what they took.
+// What both peers share: their command line, and how they report their times.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ struct Arguments {
   int neighbours = 15;
 };
 
-// Seconds since the last call, or since it was made.
+// Returns the seconds since the last call, or since the object was made.
 class Clock {
  public:
   double lap() {
@@ -38,7 +38,7 @@ struct Result {
   double untimed = 0;                          // seconds, not to be counted
 };
 
-// PROGRAM SCAN.ply [THREADS [NEIGHBOURS]]
+// The command line is PROGRAM SCAN.ply [THREADS [NEIGHBOURS]].
 template <class Run>
 int run_peer(int argc, char** argv, Run&& run) {
   if (argc < 2 || argc > 4) {

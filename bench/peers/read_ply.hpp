@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small, fast PLY reader for the peers, so that their own readers do not count against them.
+// A small, fast PLY reader for the peers, so that the time of their own readers does not count.
 #pragma once
 
 #include <vector>
 
 namespace lacuna::peers {
 
-// x y z of every vertex with finite coordinates, one after the other. Binary little-endian and ASCII files;
-// elements before the vertices may only have scalars. Throws `std::runtime_error`.
+// Returns x y z of every vertex with finite coordinates, one after the other. Reads binary little-endian and
+// ASCII files; elements before the vertices may only have scalars. Throws `std::runtime_error`.
 std::vector<float> read_ply(const char* file);
 
 }  // namespace lacuna::peers

@@ -10,6 +10,6 @@ class Command;
 namespace lacuna::bench {
 
 void add_synth_command(const tools::Command& program);     // makes scans with known holes
-void add_evaluate_command(const tools::Command& program);  // holds a result against the truth
+void add_evaluate_command(const tools::Command& program);  // compares a result with the truth
 
 }  // namespace lacuna::bench

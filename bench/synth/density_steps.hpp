@@ -8,8 +8,9 @@
 
 namespace lacuna::synth {
 
-// Where one station loses a surface and others go on sampling it with at least twice the spacing: around a
-// tripod circle, for instance. The pieces are open; where one is closed, its first place is its last, too.
+// A step lies where one station loses a surface and others go on sampling it with at least twice the spacing.
+// A tripod circle has one around it. The pieces are open; where one is closed, its first place is its last,
+// too.
 std::vector<Curve> density_steps(const std::vector<Lattice>& lattices, const Scanner& scanner,
                                  const Visibility& visibility);
 

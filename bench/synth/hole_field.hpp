@@ -10,8 +10,8 @@
 
 namespace lacuna::synth {
 
-// Ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it. So none
-// comes near another, the outer edge, a density step or the edge of a panel.
+// Holes are ellipses in the plane of the grid, at most one per cell of a coarse lattice and wholly inside it.
+// So no hole comes near another one, the outer edge, a density step or the edge of a panel.
 //
 // On a jittered grid, the surface is the quads whose four nodes exist. A loop is the closed chain of edges
 // with exactly one such quad. A hole has exactly one loop, which visits no node twice, because the nodes that
@@ -26,14 +26,14 @@ class HoleField {
   std::size_t size() const { return holes_.size(); }
   bool takes(double row, double column) const;
 
-  // The hole's edge.
+  // Returns the hole's edge.
   Outline outline(std::size_t hole) const;
 
-  // One per hole, each closed, in the order of its edges.
+  // Returns one loop per hole, each closed, in the order of its edges.
   std::vector<NumberLoop> loops() const;
 
  private:
-  // a dx^2 + 2 b dx dy + c dy^2 <= 1, dx along the columns.
+  // The ellipse is a dx^2 + 2 b dx dy + c dy^2 <= 1, with dx along the columns.
   struct Ellipse {
     double row, column;
     double a, b, c;
@@ -56,7 +56,7 @@ class HoleField {
   std::uint32_t cell_rows_ = 1, cell_columns_ = 1;  // nodes per cell
   std::uint32_t down_ = 0, across_ = 0;             // cells, of one panel
   std::vector<Ellipse> holes_;
-  std::vector<std::int32_t> hole_of_cell_;  // -1: none
+  std::vector<std::int32_t> hole_of_cell_;  // -1 if the cell has no hole
 };
 
 }  // namespace lacuna::synth

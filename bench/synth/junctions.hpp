@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the patches of a scene touch.
+// Finds where the patches of a scene touch.
 #pragma once
 
 #include "bench/synth/boundary_curves.hpp"
@@ -13,8 +13,8 @@ class Junctions {
  public:
   Junctions(const std::vector<Lattice>& lattices, const Visibility& visibility);
 
-  // Does another patch pass through this place of a curve, and is it sampled there? It can only at the end of
-  // a patch, at the foot of a thing, around an opening, and in a gap that was closed.
+  // Whether another patch passes through this place of a curve, and is sampled there. It can only at the end
+  // of a patch, at the foot of a thing, around an opening, and in a gap that was closed.
   bool surface_goes_on(const CurvePlace& place, std::size_t patch) const;
 
  private:

@@ -19,8 +19,8 @@ struct Patch {
   std::function<Vec3(double, double)> normal;
 };
 
-// The patches of all that sends light back; black shapes have none. Flat patches end a tenth of a millimetre
-// before their edges, where two shapes that touch would hide each other.
+// Returns the patches of all shapes that return light; black shapes have no patch. Flat patches end a tenth
+// of a millimetre before their edges, where two shapes that touch would hide each other.
 std::vector<Patch> patches_of(const Scene& scene);
 
 }  // namespace lacuna::synth

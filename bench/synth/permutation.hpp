@@ -11,9 +11,9 @@
 
 namespace lacuna::synth {
 
-// A Feistel network over the smallest power of two that holds `size`, its halves unequal by a bit where need
-// be. Values outside the range are sent through again, on average less than once (cycle walking: Black and
-// Rogaway 2002). A bijection by construction.
+// A Feistel network over the smallest power of two that holds `size`. Its halves differ by a bit if
+// necessary. The network maps a value outside the range again, on average less than once (cycle walking:
+// Black and Rogaway 2002). It is a bijection by construction.
 class Permutation {
  public:
   Permutation(std::uint64_t size, std::uint64_t seed)
@@ -49,7 +49,7 @@ class Permutation {
   std::array<std::uint64_t, 6> keys_{};
 };
 
-// The order in which points are written.
+// Returns the order in which points are written.
 enum class Order { kScanline, kRandom };
 
 }  // namespace lacuna::synth

@@ -12,19 +12,19 @@
 namespace lacuna::synth {
 
 enum class Coordinates { kFloat, kDouble };
-// None; uchar scan, float intensity; and double gps_time with these.
+// Columns besides the position: none; uchar scan and float intensity; or these and double gps_time.
 enum class Extras { kNone, kScan, kScanAndTime };
 
-// How each file of a PlyOutput begins: an earlier one is recognised by it.
+// Each file of a PlyOutput begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kScanMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna synth ";
 
-// Little-endian rows x y z [scan intensity [gps_time]].
+// Rows are little-endian: x y z [scan intensity [gps_time]].
 class PlyOutput {
  public:
   PlyOutput(io::OutputFile& file, Coordinates coordinates, Extras extras);
 
   void add(Vec3 position);
-  void add(Vec3 position, std::uint8_t scan, float intensity, double time);  // time: where rows have it
+  void add(Vec3 position, std::uint8_t scan, float intensity, double time);  // time: used if rows have it
   std::uint64_t count() const { return count_; }
 
   void finish();  // fills the count in

@@ -17,16 +17,16 @@ class Positions {
  public:
   virtual ~Positions() = default;
 
-  // All numbers are below this, in scanline order. Not each of them has a point.
+  // All numbers are below this one, in scanline order. Some of them have no point.
   virtual std::uint64_t size() const = 0;
   virtual std::optional<Place> at(std::uint64_t number) const = 0;
 
-  // The numbers of the points around each hole, then along each outer edge, in order. Each loop is closed,
-  // and visits no point twice.
+  // Returns the numbers of the points around each hole, then along each outer edge, in order. Each loop is
+  // closed, and visits no point twice.
   virtual std::vector<NumberLoop> true_loops() const = 0;
 };
 
-// As the options have it. Both arguments must outlive the result.
+// Returns the positions that the options choose. Both arguments must outlive the result.
 std::unique_ptr<Positions> make_positions(const SurfaceGrid& grid, const HoleField& holes,
                                           const SurfaceOptions& options);
 

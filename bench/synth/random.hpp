@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random numbers without state: each is a hash of (seed, stream, index). So any point can be computed on its
-// own, in any order, on any machine. Integer operations and exact conversions only.
+// own, in any order, on any machine. The functions use only integer operations and exact conversions.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,25 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// One independent sequence per (seed, stream).
+// Each pair (seed, stream) has an independent sequence.
 class Random {
  public:
   constexpr Random(std::uint64_t seed, std::uint64_t stream) : key_(mix(mix(seed + kGolden) + stream)) {}
 
   constexpr std::uint64_t bits(std::uint64_t index) const { return mix(key_ + (index + 1) * kGolden); }
 
-  // In [0, 1), a multiple of 2^-53.
+  // Returns a multiple of 2^-53 in [0, 1).
   constexpr double uniform(std::uint64_t index) const {
     return static_cast<double>(bits(index) >> 11) * 0x1p-53;
   }
 
-  // In [low, high).
+  // Returns a number in [low, high).
   constexpr double uniform(std::uint64_t index, double low, double high) const {
     return low + (high - low) * uniform(index);
   }
 
-  // Mean 0, variance 1, within +-6: the sum of twelve uniforms of 16 bits (Irwin-Hall), an exact integer.
+  // Returns a number with mean 0 and variance 1, within +-6. It is the sum of twelve uniforms of 16 bits
+  // (Irwin-Hall), an exact integer.
   constexpr double normal(std::uint64_t index) const {
     std::int64_t sum = 0;
     for (std::uint64_t part = 0; part < 3; ++part) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points that know of no other: a Poisson process in the plane of the grid, one point per node on average.
+// Independent points: a Poisson process in the plane of the grid, one point per node on average.
 #pragma once
 
 #include "bench/synth/positions.hpp"
@@ -8,14 +8,15 @@
 namespace lacuna::synth {
 
 // In a Poisson process the squares of the grid are independent of each other. Each has a Poisson number of
-// points (mean 1), anywhere in the square. Points in a hole are left out, and beyond a density step all but
-// one in `stride` squared. At most kMostInSquare points: more would come once in 1.6e10 squares.
+// points (mean 1), anywhere in the square. Points in a hole are left out. Beyond a density step, only one
+// point in `stride` squared stays. A square has at most kMostInSquare points: more would come once in 1.6e10
+// squares.
 //
 // The true loop of a hole is the sequence of points that are nearest to a place on its edge, as the place
-// goes around. Distances are those in the plane of the grid. Neighbours in that sequence share an edge of the
-// Delaunay triangulation, and no point lies inside the loop. It encloses the hole, parts of its points'
-// Voronoi cells, and empty discs around places on the edge. True loops of outer edges are the same of the
-// surface's edge.
+// goes around. Distances are measured in the plane of the grid. Neighbours in that sequence share an edge of
+// the Delaunay triangulation, and no point lies inside the loop. It encloses the hole, parts of its points'
+// Voronoi cells, and empty discs around places on the edge. True loops of outer edges follow the surface's
+// edge in the same way.
 class RandomPositions : public Positions {
  public:
   static constexpr std::uint64_t kMostInSquare = 12;

@@ -9,12 +9,12 @@
 
 namespace lacuna::synth {
 
-// The loop without the shorter way between two visits of one point, until none is visited twice.
+// Returns the loop without the shorter way between two visits of one point, until each point has one visit.
 NumberLoop without_returns(NumberLoop loop);
 
-// The values of `nearest` as its argument goes around the outline, each once, in that order. A value that
-// comes back later keeps one visit, and the shorter way from one to the other is left out. At a corner, the
-// nearest points of both sides can be one point, and the point in the corner another.
+// Returns the values of `nearest` as its argument goes around the outline, each once, in that order. A value
+// that comes back later keeps one visit, and the shorter way from one to the other is left out. At a corner,
+// the nearest points of both sides can be one point, and the point in the corner another.
 NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest);
 
 }  // namespace lacuna::synth

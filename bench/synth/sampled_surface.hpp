@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the surfaces of a scene are sampled, on a lattice.
+// Finds where the surfaces of a scene are sampled, on a lattice.
 #pragma once
 
 #include "bench/synth/patches.hpp"
@@ -11,12 +11,12 @@
 
 namespace lacuna::synth {
 
-// The nodes of one patch. Nodes outside of it are allowed as arguments, and are not sampled.
+// The nodes of one patch. Nodes outside of it are valid arguments, and are not sampled.
 struct Lattice {
   Patch patch;
   std::int32_t columns, rows;         // nodes, along u and v
   double step;                        // metres, the larger of both directions
-  std::vector<float> spacing;         // of the points around each node; 0: no station samples it
+  std::vector<float> spacing;         // of the points around each node; 0 if no station samples it
   std::vector<std::uint8_t> sampled;  // by a station, or in a gap too narrow for a hole
   std::vector<bool> by_station;       // is the node sampled: station after station of each node
 
@@ -32,16 +32,16 @@ struct Lattice {
   }
   double u(double column) const { return column / (columns - 1); }
   double v(double row) const { return row / (rows - 1); }
-  // Between the nodes, too.
+  // Places between the nodes are valid, too.
   SurfacePlace at(double column, double row) const {
     return {patch.place(u(column), v(row)), patch.normal(u(column), v(row)), patch.shape, patch.two_sided};
   }
 };
 
-// About 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place that no station
-// samples counts as sampled all the same unless it lies in a hole. Holes are balls with a radius of 2
-// spacings of the nearest sampled places, in which nothing is sampled. All within 3 spacings of their middle
-// belongs to them. Places on the far side of a thin thing are not near.
+// The lattice has about 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place
+// that no station samples counts as sampled all the same unless it lies in a hole. Holes are balls with a
+// radius of 2 spacings of the nearest sampled places, in which nothing is sampled. Every place within 3
+// spacings of the middle of a ball belongs to its hole. Places on the far side of a thin thing are not near.
 std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& visibility,
                                      std::uint64_t points);
 

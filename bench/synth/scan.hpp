@@ -17,13 +17,14 @@ struct ScanSummary {
 };
 
 // Writes what the stations sample, station after station in upright scanlines (or all rays in random order).
-// That is the nearest surface in each direction, so things cast shadows. Glass, black and grazed surfaces and
-// the far distance return nothing. Each point has its station (`scan`) and an `intensity` in [0, 1]; those of
-// a moving scanner have a `gps_time`, too. OUT.stations.txt or OUT.trajectory.txt has its places. Every
-// point is a function of the seed and its ray alone; memory does not depend on their number.
+// A station samples the nearest surface in each direction, so things cast shadows. Glass, black and grazed
+// surfaces and the far distance return nothing. Each point has its station (`scan`) and an `intensity` in [0,
+// 1]. Points of a moving scanner have a `gps_time`, too. OUT.stations.txt or OUT.trajectory.txt has the
+// places of the scanner. Every point is a function of the seed and its ray alone; memory does not depend on
+// their number.
 //
-// Another file has the true loops (scan_truth.hpp), with a comment before each that says what it is. Steps of
-// density follow.
+// Another file has the true loops (scan_truth.hpp). A comment before each loop names it. Steps of density
+// follow.
 ScanSummary write_scan(const ScanOptions& options);
 
 // Writes the scan of a given scene.

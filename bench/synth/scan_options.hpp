@@ -18,13 +18,13 @@ inline constexpr std::array<double, 2> kFieldOfView{-60, 90};
 
 struct ScanOptions {
   std::filesystem::path out;    // PLY
-  std::filesystem::path truth;  // the true loops; empty: next to `out`, as NAME.loops.txt
+  std::filesystem::path truth;  // the true loops; empty means NAME.loops.txt next to `out`
   SceneKind scene = SceneKind::kRoom;
   std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
   std::uint32_t stations = 2;        // [1, 255]; strips of a flight, lanes of a drive
   bool drives = false;               // along x, with profiles at right angles to its path
   std::vector<double> places;        // x y z of further stations
-  double station_factor = 1;         // [0.01, 100]: points of the first station over those of each other one
+  double station_factor = 1;         // [0.01, 100]: points of the first station over points of each other one
   std::uint32_t sweeps = 1;          // [1, 8], of each station; several are tilted, so that they cross
   double noise = 0.002;              // along the ray, metres, standard deviation
   double outliers = 0;               // fraction of the points that lie anywhere on their ray instead, [0, 1]

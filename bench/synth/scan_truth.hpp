@@ -17,23 +17,24 @@ struct NamedLoop {
 };
 
 // A true loop is the sequence of points that are nearest to a place on a boundary curve, as the place goes
-// around. Only points on the surface of the place count, and only where they would lie without noise, strays
-// and errors of registration. So these change nothing. The surface's holes have such curves, and its outer
-// edges. Steps of density (density_steps.hpp) become rows of points in the same way.
+// around. Only points on the surface of the place count. They count where they would lie without noise,
+// strays and errors of registration, so these errors change nothing. The curves are the edges of the
+// surface's holes and its outer edges. Steps of density (density_steps.hpp) become sequences of points in the
+// same way.
 class ScanTruth {
  public:
   explicit ScanTruth(const Scanner& scanner, std::uint64_t points);
 
-  // The echo of this ray was written as the `id`-th point.
+  // Records that the echo of this ray was written as the `id`-th point.
   void note(const Echo& echo, std::uint64_t ray, std::uint64_t id);
 
-  // Once all are noted: each loop from its smallest id towards that one's smaller neighbour, sorted. Loops
-  // with fewer than 12 points are left out. So are those where points are rare, and those with much of their
-  // edge in closed gaps.
+  // Call it after every echo is recorded. Returns each loop from its smallest id towards the smaller
+  // neighbour of this id, sorted. Loops with fewer than 12 points are left out. So are loops where points are
+  // rare, and loops with much of their edge in closed gaps.
   std::vector<NamedLoop> loops() const;
 
-  // Once all are noted: the points along each step, 12 or more, sorted. Where a row is closed, its first
-  // point is its last, too.
+  // Call it after every echo is recorded. Returns the points along each step, 12 or more, sorted. Where a
+  // sequence is closed, its first point is its last, too.
   std::vector<std::vector<std::uint64_t>> steps() const;
 
  private:
@@ -44,7 +45,7 @@ class ScanTruth {
   };
   struct Row {
     std::size_t begin, end;  // places
-    std::string name;        // empty: a step
+    std::string name;        // empty for a step
   };
 
   void add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres);

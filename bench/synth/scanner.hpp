@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual laser scanner: at several stations on the ground, or moving in strips, over it or on it.
+// A virtual laser scanner: at several stations on the ground, or moving in strips over the scene or on the
+// ground.
 #pragma once
 
 #include "bench/synth/random.hpp"
@@ -12,14 +13,15 @@
 
 namespace lacuna::synth {
 
-// Angles are in turns. On a strip the azimuth is a share of its length instead, and the elevation is the
-// angle from straight down, around the strip.
+// Angles are in turns. On a strip, the azimuth is a share of the strip's length. The elevation is the angle
+// from straight down, around the strip.
 struct Ray {
   std::uint32_t sweep;
   double azimuth, elevation;
 };
 
-// Equal steps of azimuth and elevation around an axis. Each station has one sweep or several, each strip one.
+// Equal steps of azimuth and elevation around an axis. Each station has one or several sweeps, each strip
+// one.
 struct Sweep {
   std::uint32_t station;
   Vec3 origin;      // of a strip: the middle
@@ -38,12 +40,12 @@ struct Echo {
 
 inline constexpr std::uint32_t kLeaves = std::numeric_limits<std::uint32_t>::max();
 
-// Every ray and every echo is a function of the seed and its index alone.
+// Every ray and every echo is a function of the seed and the ray's index alone.
 class Scanner {
  public:
-  // Below this cosine of the angle of incidence nothing comes back.
+  // Nothing comes back below this cosine of the angle of incidence.
   static constexpr double kGrazing = 0.03;
-  // From the air, walls are seen at less than this one. They have a few points, too few for a surface.
+  // From the air, rays hit walls at less than this cosine. Walls have a few points, too few for a surface.
   static constexpr double kGrazingFromAir = 0.35;
 
   // Throws `Error` when no ray returns anything.
@@ -60,12 +62,13 @@ class Scanner {
   double least_cosine() const { return scene_.flown ? kGrazingFromAir : kGrazing; }
   bool moves() const { return scene_.flown || options_.drives; }
   double strip_length() const { return scene_.stand_high.x - scene_.stand_low.x; }
-  // Seconds at which a ray of a strip starts. The strips follow each other, at kSpeed, with pauses.
+  // `time` returns the seconds at which a ray of a strip starts. Strips follow each other, at kSpeed, with
+  // pauses.
   static constexpr double kSpeed = 10;  // metres a second
   double time(const Ray& ray) const;
   double strip_start(std::uint32_t strip) const;
 
-  // Where the ray of a sweep to this place starts.
+  // Returns where the ray of a sweep to this place starts.
   Vec3 eye(const Sweep& sweep, Vec3 place) const;
 
   Ray ray(std::uint64_t index) const;
@@ -88,7 +91,7 @@ class Scanner {
   double lowest_, upright_, max_range_;
   Random wobble_, range_, stray_, leaves_;
   std::vector<Vec3> stations_;
-  std::vector<Misplacement> misplaced_;  // of each station; empty: none is
+  std::vector<Misplacement> misplaced_;  // of each station; empty if none is misplaced
   std::vector<Sweep> sweeps_;            // station after station
 };
 

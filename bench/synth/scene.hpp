@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of simple shapes, and what a ray hits first in them. Metres; z is up.
+// Scenes of simple shapes, and what a ray hits first in them. Lengths are in metres; z is up.
 #pragma once
 
 #include "bench/synth/shapes.hpp"
@@ -22,7 +22,7 @@ struct Scene {
   Vec3 stand_low, stand_high;    // where a station may stand, its eye included
   bool flown = false;            // scanned from above, in strips from stand_low to stand_high
 
-  // The name of the shape with this number.
+  // Returns the name of the shape with this number.
   const char* name_of(std::uint32_t shape) const;
   bool is_wall(std::uint32_t shape) const { return shape < walls.size(); }
   bool is_terrain(std::uint32_t shape) const;
@@ -47,16 +47,17 @@ void for_each_shape(const Scene& scene, const Use& use) {
 
 enum class SceneKind { kRoom, kCourt, kHall, kVault, kStreet, kPlant, kAerial };
 
-// The seed places houses and trees of the aerial scene. The others are always the same.
+// The seed places houses and trees of the aerial scene. The other scenes are always the same.
 Scene make_scene(SceneKind kind, std::uint64_t seed = 1);
 
-// The nearest by range; every shape is tried.
+// Returns the nearest hit by range. Cost: the function tries every shape.
 Hit cast(const Scene& scene, const Beam& beam);
 
-// The share of rays that pass the leaves within `range`.
+// Returns the share of rays that pass the leaves within `range`.
 double share_through_leaves(const Scene& scene, const Beam& beam, double range);
 
-// Is a shape closer than `clearance` to this place? (Walls, vaults, houses and ground are not looked at.)
+// Whether a shape is closer than `clearance` to this place. The function ignores walls, vaults, houses and
+// ground.
 bool occupied(const Scene& scene, Vec3 place, double clearance);
 
 }  // namespace lacuna::synth

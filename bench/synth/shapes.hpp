@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simple shapes, and where a ray hits them. Metres; z is up.
+// Simple shapes, and where a ray hits them. Lengths are in metres; z is up.
 #pragma once
 
 #include "bench/synth/vec3.hpp"
@@ -15,7 +15,7 @@ struct Beam {
   Vec3 direction;  // unit
 };
 
-// What a ray hits. Nothing within reach: `range` is infinite. Glass, water and black things have
+// What a ray hits. If nothing is within reach, `range` is infinite. Glass, water and black things have
 // reflectance 0.
 struct Hit {
   double range;
@@ -27,11 +27,11 @@ struct Hit {
 // Part of a wall, in metres from its corner along u and v.
 struct Opening {
   double u0, v0, u1, v1;
-  // Glass returns nothing; through a door and an arch one sees on. The top of an arch is half a circle.
+  // Glass returns nothing; rays pass through a door and an arch. The top of an arch is half a circle.
   enum { kGlass, kDoor, kArch } kind;
 };
 
-// A flat rectangle; seen from both sides.
+// A flat rectangle; rays hit it from both sides.
 struct Wall {
   Vec3 corner;
   Vec3 u, v;  // unit, at right angles
@@ -41,7 +41,7 @@ struct Wall {
   const char* name = "wall";
 };
 
-// Turned about the vertical by the angle with this cosine and sine.
+// A box, turned about the vertical by the angle with this cosine and sine.
 struct Box {
   Vec3 centre;
   Vec3 half;
@@ -57,7 +57,7 @@ struct Ball {
   const char* name = "ball";
 };
 
-// Upright, with a lid.
+// An upright cylinder with a lid.
 struct Column {
   Vec3 base;
   double radius, height;
@@ -65,7 +65,7 @@ struct Column {
   const char* name = "column";
 };
 
-// A cylinder in any direction, seen from outside; other things close its ends.
+// A cylinder in any direction, hit from outside; other things close its ends.
 struct Pipe {
   Vec3 start;
   Vec3 along;  // unit
@@ -74,7 +74,7 @@ struct Pipe {
   const char* name = "pipe";
 };
 
-// The upper half of a level cylinder; seen from both sides.
+// The upper half of a level cylinder; rays hit it from both sides.
 struct Vault {
   Vec3 start;  // on its axis
   Vec3 along;  // unit, level
@@ -83,7 +83,8 @@ struct Vault {
   const char* name = "vault";
 };
 
-// Four walls and a roof with the ridge along its own x; flat where `rise` is 0. Turned as a box.
+// Four walls and a roof with the ridge along the house's own x; the roof is flat if `rise` is 0. It is turned
+// like a box.
 struct House {
   Vec3 base;
   double half_length, half_width;
@@ -102,7 +103,7 @@ struct Swell {
   double height;
 };
 
-// Along x: its middle line is y = middle + swing * sin(turns_per_metre * x + phase). Dams cross it.
+// A river along x: its middle line is y = middle + swing * sin(turns_per_metre * x + phase). Dams cross it.
 struct River {
   double middle, width;
   double swing, turns_per_metre, phase;
@@ -110,7 +111,7 @@ struct River {
   double dam_width;
 };
 
-// An ellipse with an island.
+// An elliptical lake with an island.
 struct Lake {
   Vec3 centre;
   double half_x, half_y;
@@ -131,22 +132,22 @@ struct Terrain {
   bool is_water(double x, double y) const;
 };
 
-// The crown of a tree: leaves throughout an ellipsoid. They stop a ray anywhere, or let it pass. `depth` is
-// more than both diameters: the way through leaves that stops every ray.
+// The crown of a tree: leaves throughout an ellipsoid. Leaves stop a ray anywhere, or let it pass. `depth` is
+// the way through leaves that stops every ray. It is more than both diameters.
 struct Foliage {
   Vec3 centre;
   double radius, half_height;
   double depth;
 };
 
-// The part of a beam inside the leaves; `from` is no less than `to` where there is none.
+// Returns the part of a beam inside the leaves. If there is none, `from` is no less than `to`.
 struct Way {
   double from, to;
 };
 
 Way way_through(const Foliage& foliage, const Beam& beam);
 
-// Each replaces `best` where the shape is hit nearer, but for the number of the shape.
+// Each function replaces `best` if the ray hits the shape nearer, but leaves the number of the shape.
 void intersect(const Wall& wall, const Beam& beam, Hit& best);
 void intersect(const Box& box, const Beam& beam, Hit& best);
 void intersect(const Ball& ball, const Beam& beam, Hit& best);
@@ -156,13 +157,13 @@ void intersect(const Vault& vault, const Beam& beam, Hit& best);
 void intersect(const House& house, const Beam& beam, Hit& best);
 void intersect(const Terrain& terrain, const Beam& beam, Hit& best);
 
-// Into the thing's own axes.
+// Turns a vector into the thing's own axes.
 template <typename Turned>
 Vec3 turned(const Turned& thing, Vec3 a) {
   return {thing.cosine * a.x + thing.sine * a.y, thing.cosine * a.y - thing.sine * a.x, a.z};
 }
 
-// And back.
+// Turns a vector back.
 template <typename Turned>
 Vec3 turned_back(const Turned& thing, Vec3 a) {
   return {thing.cosine * a.x - thing.sine * a.y, thing.sine * a.x + thing.cosine * a.y, a.z};

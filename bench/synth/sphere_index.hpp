@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of many spheres hold a place?
+// Finds which of many spheres hold a place.
 #pragma once
 
 #include "bench/synth/random.hpp"
@@ -18,8 +18,8 @@ struct Sphere {
   double radius;  // above 0
 };
 
-// Spheres of similar radius share a lattice of cells no smaller than they are. A place that no sphere is near
-// costs one bit per lattice.
+// Spheres of similar radius share a lattice of cells no smaller than the spheres. A place that no sphere is
+// near costs one bit per lattice.
 class SphereIndex {
  public:
   explicit SphereIndex(std::vector<Sphere> spheres);

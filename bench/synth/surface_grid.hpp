@@ -17,8 +17,10 @@ struct SurfaceGrid {
   bool wrap_rows = false, wrap_columns = false;  // the last row (column) is next to the first
   std::uint32_t step_column = 0;
   std::uint32_t stride = 1;
-  // The columns are those of so many square panels side by side: the faces of a cube, or of one blown up to a
-  // sphere. Panels are neighbours in space, not in the grid, and their nodes are the middles of its squares.
+  // The columns belong to so many square panels side by side: the faces of a cube, which may be blown up to a
+  // sphere. Panels are neighbours in space, not in the grid, and their nodes are the middles of the grid's
+  // squares.
+  // grid's squares.
   std::uint32_t panels = 1;
 
   std::uint32_t panel_columns() const { return columns / panels; }
@@ -32,26 +34,26 @@ struct SurfaceGrid {
   }
 };
 
-// Between the nodes: fractions of rows and columns.
+// A place between the nodes, in fractions of rows and columns.
 struct Place {
   double row = 0, column = 0;
 };
 
-// A closed curve in the plane of the grid, from 0 to 1.
+// A closed curve in the plane of the grid; its parameter goes from 0 to 1.
 struct Outline {
-  double length = 0;  // nodes; of an ellipse a bound from above
+  double length = 0;  // nodes; an ellipse has a bound from above
   std::function<Place(double)> at;
 };
 
 // The numbers of points, or of the nodes that they stand for, in the order of a closed loop.
 using NumberLoop = std::vector<std::uint64_t>;
 
-// A grid with about `options.points` nodes besides those that the holes will take. Throws `Error` when that
-// is too few or too many.
+// Returns a grid with about `options.points` nodes besides the nodes that the holes will take. Throws `Error`
+// if that is too few or too many.
 SurfaceGrid lay_grid(const SurfaceOptions& options);
 
-// The outer edges, each in the order of its nodes. A sheet has one, a tube two, a torus, a sphere or a cube
-// none. Where the density steps, fine and coarse quads join without a gap.
+// Returns the outer edges, each in the order of its nodes. A sheet has one outer edge, a tube two; a torus, a
+// sphere and a cube have none. Where the density steps, fine and coarse quads join without a gap.
 std::vector<NumberLoop> rims(const SurfaceGrid& grid);
 
 // Returns the outer edges as curves.

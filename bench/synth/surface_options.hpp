@@ -17,7 +17,7 @@ enum class SurfaceKind { kPlane, kWaves, kCylinder, kTorus, kSphereCap, kSphere,
 
 struct SurfaceOptions {
   std::filesystem::path out;    // PLY
-  std::filesystem::path truth;  // the true loops; empty: next to `out`, as NAME.loops.txt
+  std::filesystem::path truth;  // the true loops; empty means NAME.loops.txt next to `out`
   SurfaceKind kind = SurfaceKind::kPlane;
   std::uint64_t points = 1'000'000;          // about
   double spacing = 0.01;                     // mean distance of grid neighbours, units of the scan

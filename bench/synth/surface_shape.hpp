@@ -12,14 +12,14 @@ struct SurfacePoint {
   Vec3 normal;  // unit
 };
 
-// From the plane of the grid to space. Neighbours are one spacing apart on average. A torus is denser inside,
-// a sphere cap at its corners. A sphere is denser by up to 1.4 along the edges of its six panels, as their
-// geometry has it. A density factor applies to every panel.
+// Maps the plane of the grid to space. Neighbours are one spacing apart on average. A torus is denser inside,
+// a sphere cap at its corners. A sphere is denser by up to 1.4 along the edges of its six panels, because of
+// its geometry. A density factor applies to every panel.
 class SurfaceShape {
  public:
   SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);
 
-  // At a place between the nodes, in rows and columns.
+  // Returns the point at a place between the nodes, in rows and columns.
   SurfacePoint at(double row, double column) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sine and cosine of an angle in turns, from + - * and floor only. They have the same bits on every machine,
-// which those of the C library do not.
+// Sine and cosine of an angle in turns, from + - * and floor only. Unlike the C library's functions, they
+// have the same bits on every machine.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct SinCos {
   double sin, cos;
 };
 
-// Taylor series within an eighth of a turn of the nearest quarter: error below 4e-16. |turns| < 2^50.
+// Uses Taylor series within an eighth of a turn of the nearest quarter: error below 4e-16. |turns| < 2^50.
 inline SinCos sin_cos(double turns) {
   const double quarter = std::floor(4 * turns + 0.5);
   const double x = kTwoPi * (turns - 0.25 * quarter);

@@ -13,16 +13,17 @@
 
 namespace lacuna::synth {
 
-// How each file of true loops begins: an earlier one is recognised by it.
+// Each file of true loops begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kTruthMark = io::kLoopsTextMark;
 
-// `truth`, or next to the scan if empty, as NAME.loops.txt. Throws `Error` when that is the scan itself.
+// Returns `truth`, or NAME.loops.txt next to the scan if `truth` is empty. Throws `Error` if that is the scan
+// itself.
 std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std::filesystem::path& truth);
 
 void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
-// A comment with what the loop is, and a line with its ids.
+// Writes a comment that names the loop, and a line with its ids.
 void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
-// A step of density: a comment with the ids along it, for io::read_steps().
+// Writes a step of density: a comment with the ids along it, for io::read_steps().
 void write_step(io::OutputFile& file, const std::vector<std::uint64_t>& step);
 
 }  // namespace lacuna::synth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The true loops of a synthetic surface, from the numbers of points to the ids of the points written.
+// The true loops of a synthetic surface. Numbers of points become ids of the points written.
 #pragma once
 
 #include "bench/synth/surface_grid.hpp"
@@ -18,14 +18,14 @@ class TruthLoops {
     bool is_hole;  // else an outer edge
   };
 
-  // The first `holes` loops are those of holes, the others outer edges.
+  // The first `holes` loops are the edges of holes, the others outer edges.
   TruthLoops(std::vector<NumberLoop> loops, std::size_t holes);
 
-  // The point of this number was written as the `id`-th. Points that are on no loop are passed over.
+  // Records that the point of this number was written as the `id`-th. Points that are on no loop are ignored.
   void note(std::uint64_t number, std::uint64_t id);
 
-  // Once every point is noted: the loops as ids, each from its smallest towards that one's smaller neighbour,
-  // sorted.
+  // Call it after every point is recorded. Returns the loops as ids, each from its smallest id towards the
+  // smaller neighbour of this id, sorted.
   std::vector<IdLoop> in_ids() const;
 
  private:

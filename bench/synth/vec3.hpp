@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three doubles, added in the order written: the same bits with every compiler and vector unit.
+// Three doubles, added in the order written. So every compiler and vector unit gives the same bits.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From which stations a place of a scene's surface is sampled, and why not from the others.
+// Decides from which stations a place of a scene's surface is sampled, and why not from the others.
 #pragma once
 
 #include "bench/synth/scanner.hpp"
@@ -31,7 +31,7 @@ struct Cause {
   friend auto operator<=>(const Cause&, const Cause&) = default;
 };
 
-// As a person would say it.
+// Returns the cause as a person would say it.
 std::string in_words(const Cause& cause, const Scene& scene);
 
 struct SurfacePlace {
@@ -42,29 +42,30 @@ struct SurfacePlace {
 
 class Visibility {
  public:
-  // By the sweeps of all stations.
+  // Uses the sweeps of all stations.
   explicit Visibility(const Scanner& scanner);
 
-  // By those of one station, or of all others.
+  // These use the sweeps of one station, or of all other stations.
   Visibility only(std::uint32_t station) const;
   Visibility without(std::uint32_t station) const;
 
-  // Numbers in Scanner::sweeps().
+  // Returns numbers in Scanner::sweeps().
   const std::vector<std::uint32_t>& sweeps() const { return sweeps_; }
 
   // The cause is kNone if the sweep samples the place.
   Cause cause(const SurfacePlace& place, std::uint32_t sweep) const;
   bool any(const SurfacePlace& place) const;
 
-  // The normal on the side of the first station that samples the place; none: no station does.
+  // Returns the normal on the side of the first station that samples the place; empty if no station does.
   std::optional<Vec3> facing(const SurfacePlace& place) const;
 
-  // Points per square metre that one sweep leaves around the place; 0 if it does not sample it.
+  // Returns the points per square metre that one sweep leaves around the place; 0 if the sweep does not
+  // sample it.
   double density(const SurfacePlace& place, std::uint32_t sweep) const;
 
-  // Mean distance of the points that all sweeps leave around the place; 0 if none samples it. For a scanner
-  // with rings it is that of the rings. Grazing rays and those near the zenith count as ones that are less
-  // so, since their points lie close in one direction only.
+  // Returns the mean distance of the points that all sweeps leave around the place; 0 if none samples it. For
+  // a scanner with rings it is the distance of the rings. Grazing rays and rays near the zenith count as less
+  // grazing ones, since their points lie close in one direction only.
   double spacing(const SurfacePlace& place) const;
 
  private:
