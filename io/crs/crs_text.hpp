@@ -6,8 +6,8 @@
 
 namespace lacuna::io {
 
-// The part that positions are in, such as `PROJCS[...]` of a compound system. Empty where the text is a code,
-// and where it has none.
+// Returns the part that positions are in, such as `PROJCS[...]` of a compound system. Returns an empty text
+// if the text is a code, or has no such part.
 std::string_view horizontal_system(std::string_view crs);
 
 // Whether positions are longitude and latitude. False where the text is a code.

@@ -17,7 +17,7 @@ class OGRSpatialReference;
 
 namespace lacuna::io {
 
-// The drivers of the formats that are written, once.
+// Registers the drivers of the formats that are written, once.
 void register_gdal_drivers();
 
 // Reads a coordinate reference system, with x to the east, from a code or well-known text. It uses the
@@ -58,7 +58,8 @@ class GdalFailures {
   std::string first_;
 };
 
-// Takes what GDAL writes to "/vsistdout/". GDAL does not look whether the text arrives, so this does.
+// Takes the text that GDAL writes to "/vsistdout/". GDAL does not check whether the text arrives, so this
+// class does.
 class GdalTextSink {
  public:
   using Take = std::function<void(std::string_view text)>;  // may throw

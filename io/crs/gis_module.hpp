@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lacuna_gis.so: what needs GDAL, found and loaded where it is wanted.
+// lacuna_gis.so: the code that needs GDAL, found and loaded where it is wanted.
 #pragma once
 
 namespace lacuna::io {
@@ -9,8 +9,8 @@ namespace lacuna::io {
 // "--gpkg". Cheap: loads nothing.
 void check_gis_module(const char* user);
 
-// A function of the module, which stays loaded until the program ends. Throws `Error` as above, and where
-// the module cannot be loaded.
+// Returns a function of the module, which stays loaded until the program ends. Throws `Error` as above, and
+// if the module cannot be loaded.
 void* load_gis_function(const char* name, const char* user);
 
 // Returns the same function, or null where the module is missing or cannot be loaded.

@@ -11,11 +11,11 @@ namespace lacuna::io {
 // Returns the unit that has this length in metres: "m", "km", "cm", "mm", "ft" (international foot), "us-ft"
 // (US survey foot), "in", "yd". Empty for another length.
 std::string unit_of_metres(double metres);
-// The length of such a unit in metres; none for another name.
+// Returns the length of such a unit in metres; empty for another name.
 std::optional<double> metres_of_unit(std::string_view unit);
 
-// The horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162). Empty
-// where it is geographic, where the text is a code, and where it names another unit.
+// Returns the horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162).
+// Empty if the system is geographic, if the text is a code, or if it names another unit.
 std::string length_unit(std::string_view crs);
 
 }  // namespace lacuna::io

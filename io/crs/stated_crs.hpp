@@ -10,11 +10,12 @@ namespace lacuna::io {
 
 struct StatedCrs {
   std::string crs;   // well-known text, or a code that is not looked up; empty: not stated
-  std::string unit;  // "m" and so on, stated or that of the system; empty: neither is known
+  std::string unit;  // "m" and so on, as stated or of the system; empty if neither is known
 };
 
-// A code is looked up in the database of PROJ. Without lacuna_gis.so it stays as it is, and the log says what
-// that leaves out. Throws `Error` where there is no such system, and where system and unit contradict.
+// Looks a code up in the database of PROJ. Without lacuna_gis.so the code stays as it is, and the log names
+// the results that this leaves out. Throws `Error` if there is no such system, or if system and unit
+// contradict.
 StatedCrs read_stated_crs(const InputConfig& config);
 
 // Whether two texts name the same system. Different texts are compared by GDAL; without lacuna_gis.so they

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fields of E57 scans become: columns of rows.
+// The columns of rows that the fields of E57 scans become.
 //
 //   cartesianX Y Z, or without them sphericalRange Azimuth Elevation   x y z, doubles
 //   colorRed Green Blue                                                red green blue
@@ -10,9 +10,9 @@
 //
 // Floats keep their precision. An integer has the smallest type for all values of its bits: a colour up to
 // 255 is a byte. Integers of more than 32 bits and scaled integers are doubles. The last column is `scan`, a
-// uint32: the rank of the scan in the file. Scans of one file may have different fields. The columns are
-// those of all scans, by name, in the order in which they first appear. A column with several types is one of
-// doubles.
+// uint32: the rank of the scan in the file. Scans of one file may have different fields. The file has the
+// columns of all its scans, by name, in the order in which they first appear. A column with several types
+// becomes doubles.
 #pragma once
 
 #include "io/e57/e57_header.hpp"

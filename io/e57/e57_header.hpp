@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an E57 file says of itself: its header, and the XML section that describes its scans. ASTM E2807-11.
+// What an E57 file declares: its header, and the XML section that describes its scans. ASTM E2807-11.
 #pragma once
 
 #include "io/e57/paged_file.hpp"
@@ -41,12 +41,13 @@ struct E57Header {
 };
 
 // Throws `Error` unless the version is 1.0, the sizes hold and the scans can be read. The number of records
-// of each is no more than the file could hold, one of no bits counted as one bit. All scans together have at
-// most 64 values for each byte of the file.
+// of a scan is no more than the file could hold, where a record of no bits counts as one bit. All scans
+// together have at most 64 values for each byte of the file.
 // Memory: up to 17 times the XML section, which may have up to 16 MiB and be no larger than the file.
 E57Header read_e57_header(const std::filesystem::path& file);
 
-// The scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of `pages`.
+// Returns the scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of
+// `pages`.
 void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header);
 
 }  // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points and normals of an E57 scan, from its own coordinates to those of the file.
+// Moves points and normals of an E57 scan from its own coordinates to the coordinates of the file.
 #pragma once
 
 #include "io/rows/pose.hpp"
@@ -17,17 +17,17 @@ struct E57Rows {
   std::size_t count;
 };
 
-// Range, azimuth and elevation, the angles in radians, become x y z. NaN where an angle is not finite or
-// beyond 1e6. The bytes are equal on every machine. Error: 1e-15 times the range.
+// Turns range, azimuth and elevation, the angles in radians, into x y z. The position is NaN if an angle is
+// not finite or beyond 1e6. The bytes are equal on every machine. Error: 1e-15 times the range.
 void spherical_to_cartesian(E57Rows rows);
 
 // Moves positions by the pose. A point exactly at the scanner is a ray without a return, and becomes NaN.
 void place_points(E57Rows rows, const Pose& pose);
 
-// Turns normals by the pose; columns of floats or doubles.
+// Turns normals by the pose; the columns are floats or doubles.
 void turn_normals(std::array<Column, 3> normals, std::size_t count, const Pose& pose);
 
-// NaN as the position of each row with a state other than 0: 1 is a direction alone, 2 nothing.
+// Sets the position of each row with a state other than 0 to NaN: 1 is a direction alone, 2 nothing.
 void drop_invalid(E57Rows rows, ConstColumn state);
 
 }  // namespace lacuna::io

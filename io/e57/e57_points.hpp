@@ -18,18 +18,19 @@
 
 namespace lacuna::io {
 
-// Holds one packet, and the values of fields that come before those of the others: at most 8 MiB of them.
+// Holds one packet, and at most 8 MiB of values that arrive before the values of other fields.
 class E57Points {
  public:
-  // `number`: of the scan in the file. Throws `Error` unless the section of its points can be read.
+  // `number` is the scan's in the file. Throws `Error` unless the section of its points can be read.
   E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number);
 
   std::uint64_t left() const { return left_; }
 
-  // How many points can be taken, at least 1 and at most `most`, while points are left. Reads packets for
-  // them. Throws `Error` where these are damaged or end too early.
+  // Returns how many points can be taken, at least 1 and at most `most`, while points are left. Reads packets
+  // for them. Throws `Error` if packets are damaged or end too early.
   std::size_t ready(std::size_t most);
-  // The values of a field for the next `count` points, which are ready. Once for each field, then `pass`.
+  // Returns the values of a field for the next `count` points, which are ready. Call it once for each field,
+  // then `pass`.
   void take(std::size_t field, std::size_t count, Column to, std::int64_t added) {
     streams_[field].take(count, to, added);
   }

@@ -20,14 +20,14 @@ class FieldStream {
  public:
   explicit FieldStream(E57Field field) : field_(std::move(field)) {}
 
-  // The values that can be taken, at most `most`.
+  // Returns the number of values that can be taken, at most `most`.
   std::size_t ready(std::size_t most) const;
   std::size_t held_bytes() const { return static_cast<std::size_t>(held_bits() / 8); }
 
-  // Adds bytes behind those held. Cost: linear, whatever is held.
+  // Adds bytes behind the bytes held. Cost: linear, whatever is held.
   void append(std::span<const std::byte> bytes);
-  // The next `count` values, which must be ready. `to` has a type that holds them; integers of more than 32
-  // bits and scaled integers become doubles. `added` is added to integers.
+  // Takes the next `count` values, which must be ready. `to` has a type that holds them; integers of more
+  // than 32 bits and scaled integers become doubles. `added` is added to integers.
   void take(std::size_t count, Column to, std::int64_t added = 0);
 
  private:
@@ -35,7 +35,7 @@ class FieldStream {
 
   E57Field field_;
   std::vector<std::byte> bytes_;  // with padding, so that a value can be loaded as whole words
-  std::size_t end_ = 0;           // of those held
+  std::size_t end_ = 0;           // of the bytes held
   std::uint64_t begin_bit_ = 0;   // of the next value
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bytes of an E57 file without the checksums between them.
 //
-// An E57 file is a row of pages of one size. The last 4 bytes of a page are the CRC-32C of its data, highest
-// byte first. Offsets that the file states are physical: they count checksums. Its lengths are logical: they
-// do not. ASTM E2807-11; libE57Format reads and writes the checksum in this byte order.
+// An E57 file is a sequence of pages of one size. The last 4 bytes of a page are the CRC-32C of its data,
+// highest byte first. Offsets that the file states are physical: they count checksums. Its lengths are
+// logical: they do not count them. ASTM E2807-11; libE57Format reads and writes the checksum in this byte
+// order.
 #pragma once
 
 #include "io/files/input_file.hpp"
@@ -27,14 +28,14 @@ class PagedFile {
 
   std::uint64_t size() const { return size_; }          // in logical bytes
   std::uint64_t position() const { return position_; }  // logical
-  // To a physical offset. Throws `Error`, which names it as `what`, unless it is a byte of data.
+  // Moves to a physical offset. Throws `Error`, which names it as `what`, unless it is a byte of data.
   void seek(std::uint64_t physical, const std::string& what);
-  // Passes logical bytes, of which there must be as many.
+  // Passes over logical bytes, of which the file must have as many.
   void skip(std::uint64_t count);
-  // The next bytes. Throws `Error` where the file ends before, or a page's checksum is wrong.
+  // Reads the next bytes. Throws `Error` if the file ends before, or a page's checksum is wrong.
   void read(std::byte* to, std::size_t count);
 
-  // Throw `Error` that names the file and the physical byte.
+  // These throw an `Error` that names the file and the physical byte.
   [[noreturn]] void fail(std::uint64_t logical, const std::string& reason) const;
   [[noreturn]] void fail_physical(std::uint64_t physical, const std::string& reason) const;
 
@@ -51,7 +52,7 @@ class PagedFile {
   std::vector<std::byte> block_;     // pages of the file
   std::uint64_t block_begin_ = 0;    // their first
   std::uint64_t block_end_ = 0;      // behind their last
-  std::uint64_t checked_pages_ = 0;  // the page before this one has the right checksum; 0: none
+  std::uint64_t checked_pages_ = 0;  // the page before this one has the right checksum; 0 before any check
 };
 
 }  // namespace lacuna::io

@@ -20,11 +20,11 @@ struct FileState {
 // Throws `Error` if there is no such file.
 FileState file_state(const std::filesystem::path& file);
 
-// The digest of some blocks that are spread over the file, with the first and the last. Throws `Error`.
+// Returns the digest of some blocks spread over the file, with the first and the last. Throws `Error`.
 Digest sample_digest(const std::filesystem::path& file, const FileState& state);
 
-// Throws `Error`, with what differs, unless the file has the state that it had `before`. Content of the same
-// length written within the clock tick of `before` (milliseconds) is not noticed.
+// Throws `Error`, with the difference, unless the file has the state that it had `before`. The check misses
+// content of the same length that is written within the clock tick of `before` (milliseconds).
 void check_unchanged(const std::filesystem::path& file, const FileState& before);
 
 }  // namespace lacuna::io

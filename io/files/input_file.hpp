@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file read front to back through one buffer: bytes, lines or words, whatever the format needs next.
-// Memory is bounded by the buffer, so that a line without an end is an error.
+// A file read front to back through one buffer, by bytes, lines or words, whatever the format needs next. The
+// buffer bounds the memory, so that a line without an end is an error.
 #pragma once
 
 #include <cstddef>
@@ -28,25 +28,26 @@ class InputFile {
   std::uint64_t remaining() const;
   std::uint64_t line() const { return line_; }  // lines passed, by next_line and next_row
 
-  // The next bytes without passing them: `count` or, at the end of the file, fewer; at most the buffer's
-  // size.
+  // Returns the next bytes without passing them: `count` or, at the end of the file, fewer; at most the
+  // buffer's size.
   std::string_view peek(std::size_t count);
-  // Throws `Error` where the file ends before.
+  // Throws `Error` if the file ends before.
   void read(std::byte* to, std::size_t count);
   void skip(std::uint64_t count);
-  // Bytes from anywhere in the file; what is read next stays the same.
+  // Reads bytes from anywhere in the file; the next read goes on at the same place.
   void read_at(std::uint64_t place, std::span<std::byte> to) const;
 
-  // Lines end with a carriage return alone if the first one does. Must be called at the beginning of the
-  // file.
+  // Makes lines end with a carriage return alone if the first one does. Must be called at the beginning of
+  // the file.
   void accept_lone_returns();
 
-  // The next line without its end (LF or CR LF), valid until the next call; none at the end of the file.
+  // Returns the next line without its end (LF or CR LF), valid until the next call; empty at the end of the
+  // file.
   std::optional<std::string_view> next_line();
 
-  // Words of lines, however long the line. `next_row` passes blank lines, and returns false at the end of the
-  // file. `next_word` is valid until the next call, and returns none at the end of the line. `end_row` passes
-  // the line's end, and returns false when a word is left before it.
+  // These read words of lines, however long the line. `next_row` passes blank lines, and returns false at the
+  // end of the file. `next_word` is valid until the next call, and returns nothing at the end of the line.
+  // `end_row` passes the line's end, and returns false if a word is left before it.
   bool next_row();
   std::optional<std::string_view> next_word();
   bool end_row();
@@ -73,10 +74,10 @@ class InputFile {
 
 inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
-// Throws `Error` where more than `padding` is left: rows that the header does not count would be lost.
+// Throws `Error` if more than `padding` is left: rows that the header does not count would be lost.
 void require_end(InputFile& in, std::string_view padding = kBlanks);
 
-// Text from a file for an error message: one line, printable, not long, in quotes.
+// Returns text from a file for an error message: one line, printable, not long, in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace lacuna::io

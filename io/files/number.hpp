@@ -11,13 +11,13 @@
 
 namespace lacuna::io {
 
-// What std::from_chars leaves open: infinite where a number is too large for the type, 0 or denormal where
-// it is too small.
+// Returns the value that std::from_chars leaves open: infinite if a number is too large for the type, 0 or
+// denormal if it is too small.
 float parse_extreme(std::string_view text, float);
 double parse_extreme(std::string_view text, double);
 
-// False unless all of `text` is one number that fits the type. It is rounded once, to the type of `value`.
-// "nan" and "inf" are floating point numbers; a leading + is allowed.
+// Returns false unless all of `text` is one number that fits the type. The number is rounded once, to the
+// type of `value`. "nan" and "inf" are floating point numbers; a leading + is allowed.
 template <class T>
 bool parse_number(std::string_view text, T& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -35,15 +35,15 @@ bool parse_number(std::string_view text, T& value) {
 // Microsoft's NaN and infinity ("-1.#IND", "1.#QNAN", "1.#INF").
 bool parse_foreign_number(std::string_view text, double& value);
 
-// Adds the shortest digits that read back as the same number, such as "0.1" or "1e-07". What is not finite is
-// "nan", "inf" or "-inf".
+// Adds the shortest digits that read back as the same number, such as "0.1" or "1e-07". A number that is not
+// finite becomes "nan", "inf" or "-inf".
 void append_shortest(std::string& text, double value);
 
 // Does so without an exponent, such as "500000.125", for formats whose readers may not know exponents. Below
 // 1e-15 and from 1e15 on there is one.
 void append_plain(std::string& text, double value);
 
-// What `parse_number<T>` takes, for error messages.
+// Names what `parse_number<T>` takes, for error messages.
 std::string describe_whole_number(std::int64_t least, std::uint64_t most);
 template <class T>
 std::string describe_number() {
@@ -55,8 +55,8 @@ std::string describe_number() {
 }
 
 // Takes the next field off `rest`. With the separator ' ', any run of blanks divides fields. Any other
-// character divides fields itself: blanks around it are not part of the field, and nothing is expected after
-// a last separator. False when there is none left.
+// character divides fields itself: blanks around it are not part of the field, and no field follows a last
+// separator. Returns false if no field is left.
 inline bool next_field(std::string_view& rest, char separator, std::string_view& field) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
   std::size_t begin = 0;

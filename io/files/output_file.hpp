@@ -12,13 +12,13 @@
 
 namespace lacuna::io {
 
-// Who writes the bytes: this class, or a library that makes the file by itself, or does not.
+// Names the writer of the bytes: this class, or a library that makes the file, or makes none.
 enum class Writer { kThis, kLibrary };
 
 class OutputFile {
  public:
-  // Makes the new file `place`, or leaves that to the library. `name` is what errors call it: the path that
-  // it will have in the end.
+  // Makes the new file `place`, or leaves that to the library. Errors call it `name`: the path that it will
+  // have in the end.
   OutputFile(std::filesystem::path name, const std::filesystem::path& place, Writer writer = Writer::kThis);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -29,14 +29,15 @@ class OutputFile {
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  // Puts bytes over those from `at` on, which are written already: a count known at the end.
+  // Puts bytes over the written bytes from `at` on, such as a count known at the end.
   void overwrite(std::uint64_t at, std::span<const std::byte> bytes);
   void overwrite_start(std::string_view text) { overwrite(0, std::as_bytes(std::span(text))); }
 
-  // All bytes are on the disk afterwards, and nothing can be written any more. False: the library has made no
-  // file.
+  // Afterwards all bytes are on the disk, and nothing can be written any more. Returns false if the library
+  // has made no file.
   bool close();
-  // Likewise, but the bytes are only with the system. For many small files, which are synced together.
+  // Does the same, but the bytes are only with the system. It is for many small files, which are synced
+  // together.
   void close_unsynced();
 
  private:

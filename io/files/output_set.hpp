@@ -55,19 +55,19 @@ struct FileMark {
   std::string_view text;
   std::uint64_t offset = 0;
   bool (*fits)(std::string_view first_bytes) = nullptr;  // and these fit, where more is to be checked
-  std::string_view sister;  // not this file has the mark, but that of this extension
+  std::string_view sister;  // the file of this extension has the mark, not this file
 };
 
 // Whether `file` is a regular file with the mark.
 bool is_own_file(const std::filesystem::path& file, const FileMark& mark);
 
-// Throws `Error` if a file of this name may not be written. Cheap: a program checks before the work.
+// Throws `Error` if a file of this name may not be written. Cheap, for a program to check before the work.
 void check_output(const std::filesystem::path& file, const FileMark& mark, Overwrite overwrite);
 
-// Throws `Error` if files may not be written to this subfolder: something else than a folder has the name.
+// Throws `Error` if files may not be written to this subfolder, because the name is not a folder's.
 void check_subfolder(const std::filesystem::path& folder);
 
-// The names in the folder, in no order. None where it is a link or does not exist. Throws `Error`.
+// Returns the names in the folder, in no order; nothing if it is a link or does not exist. Throws `Error`.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 class OutputSet {
@@ -79,7 +79,7 @@ class OutputSet {
   // the name is removed.
   OutputFile& add(const std::filesystem::path& file, const FileMark& mark, Writer writer = Writer::kThis);
 
-  // An own file of this name, if there is one, goes with commit; any other stays.
+  // An own file of this name, if there is one, goes with commit; any other file stays.
   void drop(const std::filesystem::path& file, const FileMark& mark);
 
   // These do the same for `name` in `folder / subfolder`, which need not exist. There may be many such files:
@@ -105,7 +105,7 @@ class OutputSet {
   struct Place {
     Place(const std::filesystem::path& folder, const std::string& subfolder, TemporaryFolder& staging);
     std::filesystem::path names, staged, older;
-    std::string subfolder;  // empty: none
+    std::string subfolder;  // empty without a subfolder
     TemporaryFolder* staging;
     bool has_new = false;  // files
     bool is_made = false;  // the subfolder, by commit

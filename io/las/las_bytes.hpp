@@ -21,7 +21,7 @@ T value_at(const std::string& bytes, std::size_t offset) {
   return load<T>(reinterpret_cast<const std::byte*>(&bytes[offset]));
 }
 
-// Cut to `length`, or filled with zeros.
+// The text is cut to `length`, or filled with zeros.
 inline void put_text(std::string& bytes, std::size_t offset, std::size_t length, std::string_view text) {
   text = text.substr(0, length);
   std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), length, '\0');

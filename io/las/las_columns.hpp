@@ -13,9 +13,10 @@
 
 namespace lacuna::io {
 
-// Every field of the point format, then the extra bytes; x, y and z as doubles in units of the scan. Values
-// of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes that the header does
-// not describe are the columns extra_0, extra_1 and so on. Names differ: a number is added to a second one.
+// The columns are every field of the point format, then the extra bytes; x, y and z are doubles in units of
+// the scan. Values of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes
+// that the header does not describe are the columns extra_0, extra_1 and so on. Names differ: a number is
+// added to a second one.
 class LasColumns {
  public:
   explicit LasColumns(const LasHeader& header);

@@ -15,12 +15,12 @@ namespace lacuna::io {
 class LasCrs {
  public:
   void take(std::uint16_t record, std::span<const std::byte> data);
-  // Well-known text where a record has it, else "EPSG:N" or, with a vertical system, "EPSG:N+M" of the
-  // GeoTIFF keys; empty: neither.
+  // Returns well-known text if the record has it, else "EPSG:N" of the GeoTIFF keys, with a vertical system
+  // "EPSG:N+M". Returns an empty text if the file has neither.
   std::string text() const;
   // Whether positions are longitude and latitude.
   bool is_geographic() const;
-  // "m", "ft", "us-ft"; empty: not known (io/crs/length_unit.hpp).
+  // Returns "m", "ft", "us-ft"; empty if the unit is not known (io/crs/length_unit.hpp).
   std::string length_unit() const;
 
  private:
@@ -28,7 +28,7 @@ class LasCrs {
   bool is_projected() const;  // of the keys
 
   std::string well_known_text_;
-  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0: none
+  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0 if absent
   std::uint16_t model_ = 0;                                                 // 0: not stated
   bool has_projected_ = false;                                              // with a code or without
 };

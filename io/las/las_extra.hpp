@@ -13,29 +13,30 @@
 
 namespace lacuna::io {
 
-// Types 1 to 10: the bytes of a value and the scalar that it is kept as.
+// For types 1 to 10: the bytes of a value, and the scalar type that keeps it.
 struct LasExtraType {
   std::size_t bytes;
   Scalar kept;
 };
 const LasExtraType& las_extra_type(std::uint8_t type);
 
-// A stored value of type 1 to 10, without scale and offset.
+// Returns a stored value of type 1 to 10, without scale and offset.
 double load_las_value(std::uint8_t type, const std::byte* from);
 
-// Bytes in a point: of one, two or three values, or without a type. 0: a type that is not known.
+// Returns the bytes in a point: of one, two or three values, or without a type; 0 if the type is not known.
 std::size_t las_extra_size(const LasExtraBytes& extra);
 
-// One value for each point. Names and descriptions are cut to 32 bytes.
+// Describes one value for each point. Names and descriptions are cut to 32 bytes.
 LasExtraBytes las_extra_of(std::string_view name, Scalar type, std::string_view description);
-// 1 to 255 bytes that nothing describes.
+// Describes 1 to 255 bytes that have no type.
 LasExtraBytes las_extra_without_type(std::size_t bytes);
 
-// How the descriptions of a run's results begin, so that the next run replaces them.
+// The descriptions of a run's results begin with this text, so that the next run replaces them.
 inline constexpr std::string_view kLacunaDescription = "Lacuna: ";
 bool is_lacuna_extra(const LasExtraBytes& extra);
 
-// The extra bytes of each point of a file, in order, with those that its header does not describe.
+// Returns the extra bytes of each point of a file, in order, with the bytes that its header does not
+// describe.
 std::vector<LasExtraBytes> las_extra_of_points(const LasHeader& header);
 
 }  // namespace lacuna::io

@@ -18,7 +18,7 @@ namespace lacuna::io {
 // A descriptor of the record "Extra Bytes": what a few more bytes of each point are.
 struct LasExtraBytes {
   std::string name;
-  std::uint8_t type;     // 1 to 10: one value; 11 to 30: two or three of these; 0: bytes without a type
+  std::uint8_t type;     // 1 to 10: one value; 11 to 30: two or three values; 0: bytes without a type
   std::uint8_t options;  // of type 0 the number of bytes, else which of the following count
   double scale, offset;  // value = stored * scale + offset
   std::array<std::byte, 192> descriptor{};  // as it stands in the record
@@ -41,14 +41,14 @@ struct LasHeader {
   std::uint64_t points = 0;
   std::array<double, 3> scale{}, offset{};
   std::vector<LasExtraBytes> extra_bytes;
-  std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty: none
+  std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty without it
   LasCrs crs;
   std::vector<std::byte> bytes;  // the whole header block, as it stands in the file
   std::vector<LasRecordPlace> records, extended;
   std::optional<std::uint64_t> waveforms_at;  // of the extended record with waveforms, where they are inside
 };
 
-// Bytes of a point in this format, without extra bytes.
+// Returns the bytes of a point in this format, without extra bytes.
 std::size_t las_point_bytes(int point_format);
 
 // Reads up to `points_at`; `in` is at the file's beginning. Extended records behind the points are read for

@@ -17,7 +17,7 @@ namespace lacuna::io {
 // The user of records that the specification defines.
 inline constexpr std::string_view kLasSpecification = "LASF_Spec";
 inline constexpr std::uint16_t kLasExtraBytes = 4;
-// That of LASzip says how points are compressed.
+// The user of the record in which LASzip describes how points are compressed.
 inline constexpr std::string_view kLaszip = "laszip encoded";
 inline constexpr std::uint16_t kLaszipLayout = 22204;
 inline constexpr std::size_t kLasRecordHead = 54;  // bytes, of records that are not extended
@@ -26,7 +26,7 @@ inline constexpr std::size_t kLasRecordHead = 54;  // bytes, of records that are
 std::string las_record_head(std::string_view user, std::uint16_t number, std::uint16_t bytes,
                             std::string_view description);
 
-// Copies a record of the file byte for byte. Returns the number of these. Throws `Error`.
+// Copies a record of the file byte for byte. Returns the number of bytes copied. Throws `Error`.
 std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordPlace& record,
                               OutputFile& out);
 

@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kLasSoftwareAt = 58;
 
 // The header of the other file goes over, as LAS 1.4 has it. It has the point format, scale, offset, bounds,
 // numbers of returns, identity and date, and maybe bytes behind its last field. All records go over byte for
-// byte, except those of LASzip and COPC and the descriptors of extra bytes.
+// byte, except the records of LASzip and COPC and the descriptors of extra bytes.
 class LasWriter {
  public:
   // Writes the header and the records before the points. `from` is the header of `file`. `extra`: all extra

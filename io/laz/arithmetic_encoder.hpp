@@ -33,14 +33,14 @@ class ArithmeticEncoder {
     model.count(bit);
   }
 
-  // The `count` low bits without a model, 1 to 32; all others are 0.
+  // Encodes the `count` low bits without a model, 1 to 32; all other bits are 0.
   void bits(std::uint32_t bits, unsigned count) {
     if (count <= 19) return few_bits(bits, count);
     few_bits(bits & 0xffff, 16);
     few_bits(bits >> 16, count - 16);
   }
 
-  // All bytes. Nothing can be encoded afterwards.
+  // Returns all bytes. Nothing can be encoded afterwards.
   std::vector<std::byte> finish();
 
  private:

@@ -7,10 +7,10 @@
 
 namespace lacuna::io::laz {
 
-// In version 3 of the items, LASzip chose wrongly between channels, and since then that is the format. These
-// items are coded as of the point's channel only where the channel changed, and else as of channel 0. At a
-// change to a channel that has been used, the last values are still those of the channel before. They become
-// this point's. Version 4 uses the point's channel.
+// In version 3 of the items, LASzip chose wrongly between channels, and the format has kept this. Only where
+// the channel changes, an item is coded by the point's channel; elsewhere it is coded by channel 0. At a
+// change to a channel that has been used, the last values are still the ones of the channel before. They
+// become this point's. Version 4 uses the point's channel.
 enum class ChannelRule { kVersion3, kVersion4 };
 
 template <class Values, class Models>

@@ -11,8 +11,8 @@
 
 namespace lacuna::io::laz {
 
-// By how many returns of its pulse a point is from the last one; |n - r| also for return numbers that are not
-// possible.
+// Returns how many returns of its pulse a point is from the last one; |n - r| also for return numbers that
+// are not possible.
 inline unsigned return_level(unsigned number_of_returns, unsigned return_number) {
   return number_of_returns > return_number ? number_of_returns - return_number
                                            : return_number - number_of_returns;

@@ -16,7 +16,7 @@ namespace lacuna::io::laz {
 std::unique_ptr<RecordDecoder> layered_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                std::span<const std::byte> first);
 
-// A chunk of these records, at least one.
+// Encodes a chunk of the given records, at least one.
 std::vector<std::byte> layered_chunk(const Layout& layout, std::span<const std::byte> records);
 
 std::size_t layer_count(const Layout& layout);

@@ -81,17 +81,16 @@ struct Chunk {
   std::uint64_t points;
 };
 
-// The chunks in the order of the file; their points add up to `points`, the number of points of the file.
-// `table` are the file's bytes from `table_offset` on, up to the end of the table or any later byte, at most
-// chunk_table_bytes(). `first_chunk` is the offset of the first chunk. Memory is at most that of one Chunk
-// for each record_bytes() between the two offsets. Throws `Corrupt` where the table is cut or does not fit
-// the file.
+// Returns the chunks in the order of the file; their points add up to `points`, the number of points of the
+// file. `table` has the file's bytes from `table_offset` on, up to the end of the table or any later byte, at
+// most chunk_table_bytes(). `first_chunk` is the offset of the first chunk. Memory is at most one Chunk for
+// each record_bytes() between the two offsets. Throws `Corrupt` if the table is cut or does not fit the file.
 std::vector<Chunk> read_chunk_table(const Layout& layout, std::span<const std::byte> table,
                                     std::uint64_t first_chunk, std::uint64_t table_offset,
                                     std::uint64_t points);
 
-// A bound on the bytes of a table, from its first 8 bytes. read_chunk_table() needs as many bytes of the
-// file, or what is there.
+// Returns a bound on the bytes of a table, from its first 8 bytes. The caller gives read_chunk_table() as
+// many bytes of the file, or all that follow.
 std::uint64_t chunk_table_bytes(std::span<const std::byte> first_8_bytes);
 
 // The compressed bytes of a chunk: in memory, or read piece by piece.
@@ -121,10 +120,10 @@ class ChunkInMemory final : public ChunkBytes {
 class RecordDecoder;
 
 // Decompresses the records of a chunk, record_bytes() each, as they are in an uncompressed LAS file. It goes
-// from front to back, as many records at a time as the caller wants. Chunks may be decoded at the same time in several threads.
-// Throws `Corrupt` where the chunk is cut or cannot be right. Changed bytes inside a chunk are not always
-// noticed: the format has no checksum. Memory, whatever the size of the chunk: decoder_bytes(), and a buffer
-// for each stream where the bytes are read piece by piece.
+// from front to back, as many records at a time as the caller wants. Several threads may decode chunks at the
+// same time. Throws `Corrupt` if the chunk is cut or cannot be right. Changed bytes inside a chunk are not
+// always noticed, since the format has no checksum. Memory, whatever the size of the chunk: decoder_bytes(),
+// and a buffer for each stream that is read piece by piece.
 class ChunkDecoder {
  public:
   // Both outlive the decoder.

@@ -13,25 +13,26 @@
 
 namespace lacuna::io::laz {
 
-// How points of this format are compressed, with `extra_bytes` behind the format's fields. Formats 0 to 3:
-// compressor 2 with items of version 2. Formats 6 to 8: compressor 3 with items of version 3. A chunk has
-// 50,000 points, as LASzip's; fewer where these take more than kMostChunkBytes. None: other formats have
-// waveforms, which LAZ is not written with.
+// Returns how points of this format are compressed, with `extra_bytes` behind the format's fields. Formats 0
+// to 3 use compressor 2 with items of version 2. Formats 6 to 8 use compressor 3 with items of version 3. A
+// chunk has 50,000 points, as LASzip's; fewer if these take more than kMostChunkBytes. Empty for other
+// formats: they have waveforms, with which LAZ is not written.
 std::optional<Layout> layout_of(int point_format, std::uint16_t extra_bytes);
 inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
 
-// The data of the variable length record "laszip encoded" (user id) 22204: what parse_layout() reads.
+// Returns the data of the variable length record "laszip encoded" (user id) 22204, which parse_layout()
+// reads.
 std::vector<std::byte> layout_record(const Layout& layout);
 
-// A chunk of these records, at least one, record_bytes() each. Chunks may be encoded at the same time in
-// several threads. Memory: encoder_bytes(), and up to twice the bytes of the chunk. The layout is one of
+// Encodes a chunk of the given records, at least one, record_bytes() each. Several threads may encode chunks
+// at the same time. Memory: encoder_bytes(), and up to twice the bytes of the chunk. The layout is one of
 // layout_of(), or has other numbers of points or items of version 4.
 std::vector<std::byte> encode_chunk(const Layout& layout, std::span<const std::byte> records);
 
-// A bound on the memory of the models that encode a chunk.
+// Returns a bound on the memory of the models that encode a chunk.
 std::uint64_t encoder_bytes(const Layout& layout);
 
-// The table of these chunks, in the order of the file; their offsets are not part of it.
+// Encodes the table of the given chunks, in the order of the file; the table does not hold their offsets.
 std::vector<std::byte> encode_chunk_table(const Layout& layout, std::span<const Chunk> chunks);
 
 }  // namespace lacuna::io::laz

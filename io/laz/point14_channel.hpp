@@ -92,7 +92,7 @@ inline unsigned place_in_pulse(const Fields& fields) {
 }
 inline constexpr unsigned kOnlyReturn = 3;
 
-// Which of the last heights predicts that of the point.
+// Returns which of the last heights predicts the height of the point.
 inline unsigned height_level(const Fields& fields) {
   return std::min(return_level(fields.number_of_returns, fields.return_number), 7u);
 }
@@ -102,8 +102,7 @@ inline unsigned classification_context(const Fields& last, unsigned place) {
   return (last.classification & 31u) * 2 + (place == kOnlyReturn ? 1 : 0);
 }
 
-// All models and last values of a scanner channel. Those of a new one begin with the values of the point
-// before.
+// All models and last values of a scanner channel. A new channel begins with the values of the point before.
 struct Channel {
   explicit Channel(const Fields& first) : last(first), gps_times(first.gps_time) {
     last_z.fill(first.z);

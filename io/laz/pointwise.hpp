@@ -17,7 +17,7 @@ namespace lacuna::io::laz {
 std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,
                                                  std::span<const std::byte> first);
 
-// A chunk of these records, at least one, with items of version 2.
+// Encodes a chunk of the given records, at least one, with items of version 2.
 std::vector<std::byte> pointwise_chunk(const Layout& layout, std::span<const std::byte> records);
 
 }  // namespace lacuna::io::laz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums and differences of coordinates modulo 2^32: those of damaged or far data may overflow.
+// Sums and differences of coordinates modulo 2^32, since coordinates of damaged or far data may overflow.
 #pragma once
 
 #include <cstdint>

@@ -10,14 +10,15 @@ namespace lacuna::io {
 
 enum class Fairing : std::uint8_t { kThinPlate, kMembrane };
 
-// Moves the inner vertices; those of the loop stay.
+// Moves the inner vertices; the vertices of the loop stay.
 //
 // The membrane solves L x = 0, with the cotangent Laplacian L of the given lid. The thin plate has the least
-// sum of (L x + f)^2 / a over all vertices, those of the loop included. Here L is that of the membrane, and a
-// the third of the areas around a vertex. The flux f of a vertex of the loop is half of its two edges.
-// Each is turned to point out of the lid, into the surface. So the lid leaves its loop in the direction of
-// the surface. In a plane both leave the lid as it is. Mixed elements of the bi-Laplacian: Jacobson, Tosun,
-// Sorkine, Zorin, *Mixed finite elements for variational surface modeling*, SGP 2010.
+// sum of (L x + f)^2 / a over all vertices, the loop's included. Here L is the Laplacian of the membrane, and
+// a the third of the areas around a vertex. The flux f of a vertex of the loop is half of its two edges. Each
+// edge is turned to point out of the lid, into the surface. So the lid leaves its loop in the direction of
+// the surface. In a plane, membrane and thin plate leave the lid as it is. Mixed elements of the
+// bi-Laplacian: Jacobson, Tosun, Sorkine, Zorin, *Mixed finite elements for variational surface modeling*,
+// SGP 2010.
 //
 // The direction of the surface comes from `surface`. It has a vector for each point of the loop, from there
 // to where the surface is, of any length. Nine points along the loop give a mean. Up to 60 degrees from the

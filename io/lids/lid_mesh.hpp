@@ -14,7 +14,7 @@ namespace lacuna::io {
 using LidTriangle = std::array<std::uint32_t, 3>;  // indices of vertices
 
 struct LidMesh {
-  std::vector<Eigen::Vector3d> vertices;  // those of the loop first, in its order; inner ones follow
+  std::vector<Eigen::Vector3d> vertices;  // the loop's first, in its order; inner ones follow
   std::size_t loop_points = 0;
   // Each edge of the loop is on one triangle, in the loop's direction. Each other edge is on two, once in
   // each direction.
@@ -25,11 +25,11 @@ struct LidMesh {
 // corners run anticlockwise.
 Eigen::Vector3d area_vector(const LidMesh& mesh, const LidTriangle& triangle);
 
-// Sum of the areas of the triangles.
+// Returns the sum of the areas of the triangles.
 double area(const LidMesh& mesh);
 
-// For each triangle and corner, the triangle across the edge that is opposite to the corner; kNoTriangle at
-// the loop.
+// Returns, for each triangle and corner, the triangle across the edge that is opposite to the corner;
+// kNoTriangle at the loop.
 inline constexpr std::uint32_t kNoTriangle = UINT32_MAX;
 using LidNeighbours = std::vector<LidTriangle>;
 LidNeighbours neighbours(const LidMesh& mesh);

@@ -12,14 +12,14 @@ namespace lacuna::io {
 // Loops of more points are triangulated in parts.
 inline constexpr std::size_t kMostAtOnce = 200;
 
-// n - 2 triangles without new vertices, whose areas have the least sum, by dynamic programming over the
-// diagonals. The area of a plane polygon is exactly that sum. Among sums that rounding could exchange, any
-// one is chosen.
+// Returns n - 2 triangles without new vertices, whose areas have the least sum, by dynamic programming over
+// the diagonals. The area of a plane polygon is exactly that sum. Among sums that rounding could exchange,
+// the function chooses any one.
 //
-// Differs from the paper: a longer loop is simplified first. The vertex with the smallest triangle between
-// its neighbours is left out, again and again, until kMostAtOnce are left. Their triangulation is the least
-// one. In it, each triangle with edges that stand for parts of the loop is replaced by a triangulation of the
-// polygon of these parts. The sum is then near the least one.
+// Differs from the paper: a longer loop is simplified first. The function removes the vertex with the
+// smallest triangle between its neighbours, again and again, until kMostAtOnce are left. Their triangulation
+// is the least one. Some of its edges stand for parts of the loop. Each triangle with such edges is replaced
+// by a triangulation of the polygon of its parts. The sum is then near the least one.
 //
 // Precondition: three points or more. Cost: O(n min(n, kMostAtOnce)^2) time, 400 kB and O(n) memory.
 LidMesh triangulate_polygon(std::span<const Eigen::Vector3d> loop);

@@ -42,9 +42,9 @@ Json stations_json(const std::vector<StationSummary>& stations);
 Json strays_json(const Strays& strays);
 Json counts_of(const FilteredOut& filtered);  // by filter
 
-// The keys `crs`, null where there is none, and `unit`, empty where it is not known.
+// Adds the keys `crs`, null if there is none, and `unit`, empty if it is not known.
 void put_crs(const FileScan& scan, Json& json);
-// The values of the sections that `is_wanted` names, by section and key.
+// Returns the values of the sections that `is_wanted` names, by section and key.
 Json parameter_values(FilesConfig config, const std::function<bool(std::string_view section)>& is_wanted);
 
 }  // namespace lacuna::io

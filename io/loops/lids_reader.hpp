@@ -21,18 +21,18 @@ struct LidRecord {
   std::uint64_t loop = 0;  // the id of the hole
   std::uint64_t vertices = 0, triangles = 0;
   double area = 0;
-  std::string left_out;  // the reason; empty: it has a lid
+  std::string left_out;  // the reason; empty if it has a lid
 };
 
-// What is called, in the order of the file; each may be empty. Triangles count vertices from 0, over the
-// file.
+// The functions that the reader calls, in the order of the file; each may be empty. Triangles count vertices
+// from 0, over the file.
 struct LidVisits {
   std::function<void(const LidRecord&)> hole = {};
   std::function<void(const Eigen::Vector3d&)> vertex = {};
   std::function<void(const LidRecord&, const std::array<std::uint64_t, 3>&)> triangle = {};
 };
 
-// Streams a file that write_lids_obj has written. Throws `Error` where a line cannot be read.
+// Streams a file that write_lids_obj has written. Throws `Error` if a line cannot be read.
 void read_lids(const std::filesystem::path& lids_obj, const LidVisits& visits);
 
 }  // namespace lacuna::io

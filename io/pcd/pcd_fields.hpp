@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fields of a PCD file become: properties of rows.
+// The properties of rows that the fields of a PCD file become.
 #pragma once
 
 #include "io/pcd/pcd_header.hpp"
@@ -30,7 +30,7 @@ void with_pcd_type(const PcdField& field, const Visit& visit) {
 // Throws `Error` unless names differ and x, y and z are among them.
 RowLayout pcd_layout(const InputFile& in, const PcdHeader& header);
 
-// From `batch.count` rows as the header describes them, in the machine's byte order, to those of the layout.
+// Converts `batch.count` rows from the header's form, in the machine's byte order, to rows of the layout.
 void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLayout& layout,
                       RowBatch& batch);
 

@@ -35,13 +35,13 @@ struct PcdHeader {
   Eigen::Vector3d viewpoint{0, 0, 0};  // the scanner's position
 
   std::size_t row_bytes() const;
-  // Where the scanner is. None at 0 0 0, which is the default.
+  // Returns where the scanner is; nothing at 0 0 0, which is the default.
   std::optional<Eigen::Vector3d> scanner() const;
   std::size_t padding_bytes() const;  // of them, in fields named "_"
 };
 
-// Reads up to and with the line DATA. Versions .5 to .7; without SIZE, TYPE or COUNT, values are single
-// floats; WIDTH x HEIGHT must equal POINTS where both are given. Throws `Error` with the line.
+// Reads the header with its line DATA. Versions are .5 to .7; without SIZE, TYPE or COUNT, values are single
+// floats; WIDTH x HEIGHT must equal POINTS if both are given. Throws `Error` with the line.
 PcdHeader read_pcd_header(InputFile& in);
 
 }  // namespace lacuna::io

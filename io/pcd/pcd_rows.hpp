@@ -12,15 +12,15 @@
 
 namespace lacuna::io {
 
-// Memory and errors are those of open_pcd (io/pcd/pcd_reader.hpp).
+// Memory and errors are as for open_pcd (io/pcd/pcd_reader.hpp).
 class PcdRows {
  public:
   explicit PcdRows(const std::filesystem::path& file);
 
   const InputFile& in() const { return in_; }
   const PcdHeader& header() const { return header_; }
-  // The next rows in the machine's byte order, at most `max_rows` and no more than 32 MiB; returns their
-  // number, 0 at the end. What stands in fields of padding is not defined.
+  // Reads the next rows in the machine's byte order, at most `max_rows` and no more than 32 MiB. Returns
+  // their number, 0 at the end. The content of fields of padding is not defined.
   std::size_t next(std::vector<std::byte>& rows, std::size_t max_rows);
 
  private:

@@ -10,7 +10,7 @@ namespace lacuna::io {
 // is safe to count to.
 void require_size(const InputFile& in, const PlyHeader& header);
 
-// Values have the other byte order than this machine's.
+// Whether values have the other byte order than this machine's.
 bool is_swapped(PlyFormat format);
 
 // Reads `count` rows of an element: their scalars packed in `rows` (io/ply/ply_rows.hpp).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera of a PLY file: where its scanner stood. VCGlib (MeshLab) writes it before the vertices, PCL
+// The camera of a PLY file: the place of its scanner. VCGlib (MeshLab) writes it before the vertices, PCL
 // after them.
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace lacuna::io {
 
-// The properties view_px, view_py and view_pz of element `camera`, in the coordinates of the scan. None where
-// the element does not have them and exactly one row. None at 0 0 0, too, which programs write where they
-// know no viewpoint. `header`: that of the file, after require_size(). Cost: rows before the camera are
-// passed over. These are bytes in binary files without lists, and lines or words in all others. Throws
-// `Error` where the file ends before, or a number is not finite.
+// Returns the properties view_px, view_py and view_pz of element `camera`, in the coordinates of the scan.
+// Returns nothing unless the element has these properties and exactly one row. Returns nothing at 0 0 0, too,
+// which programs write if they know no viewpoint. `header` is the file's header, after require_size(). Cost:
+// the function passes over rows before the camera. They are bytes in binary files without lists, and lines or
+// words in all others. Throws `Error` if the file ends before the camera, or a number is not finite.
 std::optional<Eigen::Vector3d> read_ply_camera(const std::filesystem::path& file, const PlyHeader& header);
 
 }  // namespace lacuna::io

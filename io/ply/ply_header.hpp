@@ -20,7 +20,7 @@ const char* ply_name(PlyFormat format);  // "ascii", "binary_little_endian", "bi
 struct PlyProperty {
   std::string name;
   Scalar type = Scalar::kFloat32;    // of the value, or of the values of a list
-  std::optional<Scalar> count_type;  // of the number before the values of a list; none: a scalar
+  std::optional<Scalar> count_type;  // of the number before the values of a list; empty for a scalar
 };
 
 struct PlyElement {
@@ -45,7 +45,8 @@ struct PlyHeader {
 // declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);
 
-// The header as text, "\n" at line ends, with one comment, and a second one for the offset.
+// Returns the header as text, "
+// " at line ends, with one comment, and a second one for the offset.
 std::string print_ply_header(const PlyHeader& header, std::string_view comment);
 
 }  // namespace lacuna::io

@@ -11,10 +11,10 @@ namespace lacuna::io {
 
 bool looks_like_ply(const FileStart& start);
 
-// Coordinates are those of the scan: an offset in the header is added. Any scalar types; lists and other
-// elements are passed over, but must be complete, and nothing may follow the last one. A file too short for
-// what its header declares is an `Error` at once. Its camera (io/ply/ply_camera.hpp) is a scanner, and a
-// place of rays without return.
+// An offset in the header is added to the coordinates, which are then coordinates of the scan. Scalars may
+// have any type. Lists and other elements are passed over, but must be complete, and nothing may follow the
+// last one. A file too short for its header is an `Error` at once. Its camera (io/ply/ply_camera.hpp) is a
+// scanner, and a place of rays without return.
 std::unique_ptr<ScanReader> open_ply(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna::io

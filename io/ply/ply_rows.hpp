@@ -22,13 +22,13 @@ void read_binary_rows(InputFile& in, const PlyElement& element, bool swapped, st
 void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count);
 void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count);
 
-// Passes over all rows of an element without lists, by lines: values are not counted.
+// Passes over all rows of an element without lists, by lines, without counting values.
 void skip_ascii_lines(InputFile& in, const PlyElement& element);
 
 using ListVisitor = std::function<void(std::span<const std::int64_t> values)>;
 
-// Hands on the values of one list of each row, an index into the element's properties; its type is one of
-// integers. Memory grows with the longest list.
+// Hands on the values of one list of each row. `list` is an index into the element's properties; the list
+// holds integers. Memory grows with the longest list.
 void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit);
 void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, std::size_t list,
                         const ListVisitor& visit);

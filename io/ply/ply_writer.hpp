@@ -14,13 +14,13 @@
 
 namespace lacuna::io {
 
-// How each file of a PlyWriter begins: an earlier one is recognised by it.
+// Each file of a PlyWriter begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
 
 class PlyWriter {
  public:
   // Writes the header. The counts of the elements are final. Coordinates are relative to the offset, if there
-  // is one. `list_bytes`: of all lists with the numbers before them, which are put like other values.
+  // is one. `list_bytes` counts all lists and the numbers before them, which are put like other values.
   PlyWriter(OutputFile& out, std::vector<PlyElement> elements, const LocalOffset& offset = {},
             std::uint64_t list_bytes = 0);
 
@@ -30,13 +30,13 @@ class PlyWriter {
     static_assert(std::is_arithmetic_v<T>);
     put_bytes(std::as_bytes(std::span(&value, 1)));
   }
-  // A position of the scan, each coordinate as kFloat32 or kFloat64.
+  // Puts a position of the scan, each coordinate as kFloat32 or kFloat64.
   void put_position(Scalar type, const Eigen::Vector3d& position);
-  // Some values, as `Scalar` type of the header.
+  // Puts some values, with the `Scalar` type of the header.
   void put_as(Scalar type, double value);
   void put_bytes(std::span<const std::byte> bytes);
 
-  // Asserts that all that the header declares was put.
+  // Asserts that every value that the header declares was put.
   void finish();
 
  private:
